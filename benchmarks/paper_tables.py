@@ -22,10 +22,11 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.sync.phase.exemplars import rising_crossings_s
 from station.sync.phase.periodic_model import TURN, PeriodicModel, wrapped
-from station.sync.phase.phase_tracker import TrackerSettings, tracked
+from station.sync.phase.phase_tracker import PAPER, TrackerSettings, tracked
+from station.sync.phase.recordings import track_recording, zero_mean
 from station.sync.sonification.trigger_table import PRESETS
 from station.sync.sonification.triggers import share_of
-from station.sync.walking.trial import GAIT_CHANNELS, Trial, gait_model, track_recording, zero_mean
+from station.sync.walking.trial import GAIT_CHANNELS, Trial, gait_model
 
 STARTS = 16
 """Phases to start from, all round the cycle."""
@@ -129,7 +130,7 @@ def convergence(model: PeriodicModel, trial: Trial) -> NDArray[np.float64]:
 def crossing_phases(model: PeriodicModel, trial: Trial) -> NDArray[np.float64]:
     """The phase at the right femur's zero crossings after convergence, in cycles about 0."""
     signal = trial.signal
-    phase = np.unwrap(track_recording(model, signal).phase_rad)
+    phase = np.unwrap(track_recording(model, signal, PAPER).phase_rad)
     crossings_s = rising_crossings_s(signal.time_s, signal.only(GAIT_CHANNELS[:1]).values[:, 0])
     late_s = crossings_s[crossings_s > signal.time_s[0] + SETTLED * cycle_s(trial)]
     return wrapped(np.interp(late_s, signal.time_s, phase)) / TURN
@@ -138,7 +139,7 @@ def crossing_phases(model: PeriodicModel, trial: Trial) -> NDArray[np.float64]:
 def trigger_errors(model: PeriodicModel, trial: Trial, preset: str) -> tuple[NDArray[np.float64], ...]:
     """Share of the cycle at heel lows and at first contacts, less the threshold, once converged: two arrays."""
     signal = trial.signal
-    phase = np.unwrap(track_recording(model, signal).phase_rad)
+    phase = np.unwrap(track_recording(model, signal, PAPER).phase_rad)
     converged_s = signal.time_s[0] + SETTLED * cycle_s(trial)
     errors: tuple[list[float], list[float]] = ([], [])
     for foot, trigger in zip(trial.steps, PRESETS[preset], strict=True):
@@ -163,7 +164,7 @@ def gaits(data: Data, model: PeriodicModel, rows: Sequence[Row], preset: str) ->
         trial = data.trial(row)
         after, at_zero = convergence(model, trial), crossing_phases(model, trial)
         low, contact = trigger_errors(model, trial, preset)
-        quality = np.median(track_recording(model, trial.signal).quality)
+        quality = np.median(track_recording(model, trial.signal, PAPER).quality)
         print(
             f"{row.title:16} {cycle_s(trial):5.2f}  {quality:5.3f}  {np.median(after):6.2f}"
             f" {np.quantile(after, 0.9):6.2f} {after.max():6.2f}  {at_zero.mean():6.3f} {sd(at_zero)}"

@@ -3,6 +3,7 @@
 Every case is drawn from a seed. Nothing here knows how strokes are found.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -11,6 +12,7 @@ import numpy as np
 from station.core.pieces import Limb, Piece, Zone
 from station.simulation.sticks.stick_swing import HANDS, SimulatedSticks, StickPair, play
 from station.simulation.sticks.swing_pads import ModuleSpec
+from station.simulation.sticks.swing_places import place
 from station.simulation.sticks.swing_score import PROFESSIONAL, PlayerSpec, as_played_by, spec_from_sticking
 from station.simulation.sticks.swing_sensor import Link, SensorSpec
 from station.simulation.sticks.swing_spec import (
@@ -23,6 +25,8 @@ from station.simulation.sticks.swing_spec import (
 
 R, L = HANDS
 GRIPS = ("german", "american", "french", "traditional")
+TRAVEL_M_S = 1.6
+"""40 cm in 0.25 s (`shared/HUMANS.md`): hands go no faster from drum to drum."""
 QUICK_HANDS = PlayerSpec(clock_share=0.01, motor_s=0.003, force_share=0.08)
 """Rolls at 10–20 strokes a second are played by fast, even hands only."""
 
@@ -166,10 +170,16 @@ def _groove(rng: np.random.Generator, bars: int, player: PlayerSpec) -> list[Sti
 def _fills(rng: np.random.Generator, bars: int) -> list[StickStrokeSpec]:
     """Sixteenths around the drums with either hand, hands crossing; 100 bpm."""
     pieces = (Piece.SNARE, Piece.TOM_1, Piece.TOM_2, Piece.FLOOR_TOM_1, Piece.HIHAT)
-    strokes, hand = [], R
+    strokes: list[StickStrokeSpec] = []
+    hand = R
     for i in range(bars * 8):
         hand = (L if hand is R else R) if rng.uniform() < 0.8 else hand
         piece = pieces[int(rng.integers(len(pieces)))] if i % 2 == 0 else strokes[-1].piece
+        before = next((s for s in reversed(strokes) if s.limb is hand), None)
+        if before is not None and math.dist(place(piece), place(before.piece)) > TRAVEL_M_S * (
+            0.15 * i - before.at_s + 3
+        ):
+            piece = before.piece
         zone = Zone.BOW if piece is Piece.HIHAT else Zone.HEAD
         strokes.append(StickStrokeSpec(3 + 0.15 * i, hand, piece, zone, speed_for_velocity(rng.uniform(60, 115))))
     return as_played_by(PROFESSIONAL, strokes, int(rng.integers(1 << 30)))

@@ -17,21 +17,22 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from station.sync.sticks import Sticks
-from station.sync.strokes.hand_naming import name_hands
 
 from benchmarks import stick_cases
+from benchmarks.stick_air import examine_air
 from benchmarks.stick_cases import Case
 from station.core.events import SensorMounted, SensorSamples, StickStroke
 from station.core.pieces import Limb
 from station.core.units import NS_PER_S
 from station.simulation.sticks.stick_swing import SimulatedSticks
 from station.simulation.sticks.swing_spec import StrokeKind
+from station.sync.sticks import Sticks
+from station.sync.strokes.hand_naming import name_hands
 
 REACH_S = 0.040
 CLOSE_S = 0.040
 """Strokes of two hands closer than this are a flam or a unison."""
-PARTS = ("strokes", "motions", "hands", "cost")
+PARTS = ("strokes", "motions", "hands", "air", "cost")
 
 Floats = NDArray[np.float64]
 
@@ -90,8 +91,8 @@ class Score:
         """One row of the table."""
         return (
             f"{self.name:58.58s} {self.strokes:4d} {self.missed:4d} {self.false:4d} {self.lag_ms:6.1f} "
-            f"{self.sd_ms:5.1f} {self.worst_ms:6.1f} {100 * self.speed_off:6.1f} {100 * self.speed_sd:5.1f} {self.height_off_cm:6.1f} "
-            f"{self.clipped_said:3d}/{self.clipped:<3d} {self.clipped_wrong:3d}"
+            f"{self.sd_ms:5.1f} {self.worst_ms:6.1f} {100 * self.speed_off:6.1f} {100 * self.speed_sd:5.1f} "
+            f"{self.height_off_cm:6.1f} {self.clipped_said:3d}/{self.clipped:<3d} {self.clipped_wrong:3d}"
         )
 
 
@@ -359,6 +360,8 @@ def main() -> None:
     for part in options.part:
         if part == "cost":
             examine_cost()
+        elif part == "air":
+            examine_air(seeds, {name: stick_cases.sensors()[name] for name in names})
         else:
             _EXAMINERS[part](seeds, names)
 

@@ -15,6 +15,7 @@ from dataclasses import replace
 from datetime import date, timedelta
 from pathlib import Path
 
+import numpy as np
 from imgui_bundle import imgui
 
 ROOT = Path(__file__).parents[2]
@@ -22,7 +23,10 @@ sys.path.insert(0, str(ROOT))
 
 from station.app.actions import EditStyle, SetView  # noqa: E402
 from station.app.room_state import Stage  # noqa: E402
+from station.core.imu import Mounting  # noqa: E402
+from station.core.pieces import Limb, Piece, Zone  # noqa: E402
 from station.core.settings import load_settings  # noqa: E402
+from station.devices.mapping.stick_file import save_stick  # noqa: E402
 from station.drills.library import find_lesson  # noqa: E402
 from station.drills.mastery.next_pass import new_item  # noqa: E402
 from station.drills.mastery.practice_steps import item_of  # noqa: E402
@@ -36,11 +40,15 @@ from station.gui.panels.lessons_panel import FREE_LABEL  # noqa: E402
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL  # noqa: E402
 from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
+from station.gui.panels.sticks_panel import GESTURE_LABEL, STICKS  # noqa: E402
 from station.gui.panels.style_panel import FIGURE  # noqa: E402
 from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
 from station.practice.records.memory import Memory  # noqa: E402
 from station.render.files.png_file import write_png  # noqa: E402
 from station.render.gpu.moving_parts import DoublePlace  # noqa: E402
+from station.sync.air.air_file import air_path, save_air  # noqa: E402
+from station.sync.air.air_zones import AirKit, AirZone  # noqa: E402
+from tests.fakes.stick_physics import Sensor, Stroke, measured, strokes_by_angle  # noqa: E402
 from tests.gui.drive import NEWCOMER, Drive, Scenario, open_panel, press_view  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402
 
@@ -138,6 +146,37 @@ def _touch(drive: Drive, ctx: Context) -> None:
     ctx.yield_(2)
 
 
+def _sticks(drive: Drive, ctx: Context) -> None:
+    """A pair: the right one strikes, the left one lies; both have made the gesture, and an air kit is learnt."""
+    kit = AirKit(
+        tuple(
+            AirZone(limb, piece, Zone.HEAD, 0.4 * place, 0.0, 0.1, 0.14)
+            for limb, pieces in (
+                (Limb.RIGHT_HAND, (Piece.SNARE, Piece.HIHAT, Piece.RIDE)),
+                (Limb.LEFT_HAND, (Piece.SNARE, Piece.TOM_1)),
+            )
+            for place, piece in enumerate(pieces)
+        )
+    )
+    save_air(kit, air_path())
+    drive.station.sticks.begin()
+    open_panel(ctx, STICKS)
+    for device, limb, rate_hz in (("x-IMU3 4711", Limb.RIGHT_HAND, 400.0), ("x-IMU3 4712", Limb.LEFT_HAND, 200.0)):
+        save_stick(Mounting(limb, learnt=True), device)
+        drive.engine.plug_stick(device)
+        angle, _, _ = strokes_by_angle([Stroke(0.5)] * 4, rest_s=2.0)
+        if limb is Limb.LEFT_HAND:
+            angle = np.full(len(angle), 0.0)
+        drive.engine.move_stick(device, measured(angle, Sensor(rate_hz)))
+    ctx.yield_(8)
+
+
+def _gesture(drive: Drive, ctx: Context) -> None:
+    _sticks(drive, ctx)
+    ctx.item_click(f"//{STICKS}/{GESTURE_LABEL}")
+    ctx.yield_(75)
+
+
 def _which_pad(drive: Drive, ctx: Context) -> None:
     _devices(drive, ctx)
     drive.engine.play_bytes("99 0e 40")
@@ -192,6 +231,8 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "devices": _devices,
     "touch": _touch,
     "which-pad": _which_pad,
+    "sticks": _sticks,
+    "gesture": _gesture,
     "calibration": _calibration,
     "figure-bars": _lanes,
     "courses": _courses,

@@ -1,8 +1,8 @@
 """Everything that can be asked of the controller, by mouse, keys or kit: a closed set of plain values.
 
 `Controller.dispatch` takes them all. The parts that own what is changed take theirs: `PlayerAction` the demonstration's
-player, `MappingAction` the editor of kits, `CalibrationAction` the measuring of latency, `StickAction` that of sticks, `StyleAction` the editor of
-the demonstrator's style. Bars and slots count from 0 where nothing else is said.
+player, `MappingAction` the editor of kits, `StickAction` that of sticks, `CalibrationAction` the measuring of latency,
+`StyleAction` the editor of the demonstrator's style. Bars and slots count from 0 where nothing else is said.
 """
 
 from dataclasses import dataclass
@@ -47,6 +47,7 @@ class Show:
     sticks: bool = False
     practice: bool = False
     curves: bool = False
+    phase: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -486,6 +487,13 @@ CalibrationAction = Measure | CancelMeasuring | KeepMeasured | ForgetMeasured
 
 
 @dataclass(frozen=True, slots=True)
+class LookForSticks:
+    """Listen to the sensors at these ports from now on (`devices.stick_ports`); the engine starts anew."""
+
+    ports: str
+
+
+@dataclass(frozen=True, slots=True)
 class SetHand:
     """The stick of the sensor `device` is in this hand."""
 
@@ -522,7 +530,8 @@ class FollowPhase:
     on: bool
 
 
-StickAction = SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
+StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
+EquipmentAction = MappingAction | CalibrationAction | StickAction
 
 # --- files ------------------------------------------------------------------------------------------------------------
 
@@ -558,6 +567,40 @@ class CancelFilm:
 
 FileAction = Export | FilmTake | CancelFilm
 
+# --- a motion and its phase -------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class OpenMotion:
+    """Track the motion by a model: a file of `station sync fit`, or a motion whose first cycle makes one."""
+
+    model: Path
+    motion: Path
+
+
+@dataclass(frozen=True, slots=True)
+class ChooseTriggers:
+    """Let the phase trigger the sounds of this preset."""
+
+    preset: str
+
+
+@dataclass(frozen=True, slots=True)
+class PlayMotion:
+    """Let the motion go on, and sound, or stand."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SeekMotion:
+    """Go to a time of the motion."""
+
+    to_s: float
+
+
+PhaseAction = OpenMotion | ChooseTriggers | PlayMotion | SeekMotion
+
 Action = (
     Show
     | Notify
@@ -566,8 +609,7 @@ Action = (
     | PlayerAction
     | StyleAction
     | SettingsAction
-    | MappingAction
-    | CalibrationAction
-    | StickAction
+    | EquipmentAction
     | FileAction
+    | PhaseAction
 )

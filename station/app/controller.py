@@ -6,6 +6,7 @@ nothing.
 """
 
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import replace
 from typing import assert_never
@@ -21,6 +22,7 @@ from station.app.equipment.sticks_editor import SticksEditor
 from station.app.equipment.sticks_view import SticksView
 from station.app.export import Exporter
 from station.app.first_start import answered, student_level
+from station.app.phase_page import PhasePage, PhaseView
 from station.app.preferences import Preferences
 from station.app.room_state import Stage
 from station.app.sessions.pad_control import PadControl
@@ -58,11 +60,14 @@ class Controller:
         self.sessions = SessionControl(self._engine, store, launch, self._style.demonstrator, notify)
         self.mapping = MappingEditor(self._engine.forward)
         self.calibration = Calibration(self._rest, self._engine.wake, processes.measure)
-        self.sticks = SticksEditor(self._engine.forward, store)
+        self.sticks = SticksEditor(self._engine.forward, store, self._start_anew)
         self._tried(self.sticks.begin)
         self.preferences = Preferences(store)
         self._pads = PadControl(store, self.preferences, launch.plan.score)
         self.export = Exporter(processes.animate)
+        self.phase = PhasePage(
+            self.sessions.listen_to, self.sessions.is_listening_to, self.sessions.quiet, ThreadPoolExecutor(1, "motion")
+        )
         self._chooser = Chooser(self.sessions, store, launch)
         self._shown = do.Show()
         self._now_ns = 0
@@ -80,6 +85,7 @@ class Controller:
         self.mapping.advance(now_ns)
         self._tried(lambda: self.sticks.advance(now_ns))
         self.sessions.advance(now_ns)
+        self._tried(lambda: self.phase.advance(now_ns))
         message = self.export.news()
         if message is not None:
             self._toasts.notify(message)
@@ -144,11 +150,12 @@ class Controller:
             snapshot=snapshot,
             report=sessions.practice.last_result.report,
             curves=sessions.curves() if shown.curves else None,
+            phase=self.phase.view() if shown.phase else PhaseView(),
             learns_pause=self.preferences.learns,
             export_bars=self._chooser.bars,
             is_filming=self.export.path is not None,
             toast=self._toasts.text,
-            is_lively=sessions.is_lively(self._now_ns),
+            is_lively=sessions.is_lively(self._now_ns) or (shown.sticks and self.sticks.is_lively),
         )
 
     # --- what the user does ------------------------------------------------------------------------------------------
@@ -172,12 +179,8 @@ class Controller:
             self._chooser.act(action)
         elif isinstance(action, do.PracticeAction):
             self._practise(action)
-        elif isinstance(action, do.MappingAction):
-            self._toasts.notify(self.mapping.act(action))
-        elif isinstance(action, do.CalibrationAction):
-            self._measure(action)
-        elif isinstance(action, do.StickAction):
-            self.sticks.act(action)
+        elif isinstance(action, do.EquipmentAction):
+            self._equip(action)
         elif isinstance(action, do.StyleAction):
             self._restyle(action)
         elif isinstance(action, do.SettingsAction):
@@ -185,12 +188,22 @@ class Controller:
         elif isinstance(action, do.FileAction):
             lesson, bars = self.sessions.player.lesson, self._chooser.bars
             self._toasts.notify(self.export.act(action, lesson, bars, self._store.now, self._view_settings))
+        elif isinstance(action, do.PhaseAction):
+            self.phase.act(action)
         elif isinstance(action, do.Show):
             self._show(action)
         elif isinstance(action, do.Notify):
             self._toasts.notify(action.line)
         else:
             assert_never(action)
+
+    def _equip(self, action: do.EquipmentAction) -> None:
+        if isinstance(action, do.MappingAction):
+            self._toasts.notify(self.mapping.act(action))
+        elif isinstance(action, do.StickAction):
+            self.sticks.act(action)
+        else:
+            self._measure(action)
 
     def _practise(self, action: do.PracticeAction) -> None:
         match action:
@@ -313,11 +326,17 @@ class Controller:
             self.mapping.handle(DeviceLost(0, kit))
         return self._engine.has_rested
 
+    def _start_anew(self) -> None:
+        """Have an engine by the settings as they are now; raises `DeviceError` while somebody plays."""
+        self._rest()
+        self._engine.wake()
+
     def close(self) -> StationError | None:
         """Keep what runs and what was set, end a measurement and a video; returns what nobody can be shown any more."""
         self._view, fault = None, None
         self.calibration.close()
         self.export.cancel()
+        self.phase.close()
         if self.sessions.practice.is_playing:
             self.sessions.practice.end()
             fault = self.sessions.practice.fault

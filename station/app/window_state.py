@@ -1,10 +1,11 @@
 """What the window shows in one frame: everything that the panels and the picture need, in one frozen value."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from station.app.equipment.calibration import CalibrationView
 from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_view import SticksView
+from station.app.phase_page import PhaseView
 from station.app.preferences import PracticePreferences
 from station.app.room_state import RoomState, ShownResult, Stage
 from station.app.selection import Selection
@@ -25,8 +26,9 @@ class State:
     `room` is what goes on; `snapshot` the picture, None while none is shown (`actions.Show`), as are `curves`, the
     graph's; `mapping`, `calibration` and `sticks` are empty then. `report` is the result of the session that ended
     last, once the question before it was answered. `score` is the lesson that is shown, at its own tempo, `hands` who
-    leads. `export_bars` (from 0) are what files are made of, `is_filming` whether one is. `toast` is shown in passing;
-    `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
+    leads. `phase` is the motion whose phase sounds, empty while its panel is closed. `export_bars` (from 0) are what
+    files are made of, `is_filming` whether one is. `toast` is shown in passing; `is_lively` whether something moves or
+    may at any moment, so that no frame is to be spared.
     """
 
     room: RoomState
@@ -44,6 +46,7 @@ class State:
     snapshot: Snapshot | None = None
     report: ShownResult | None = None
     curves: ScoreCurves | None = None
+    phase: PhaseView = field(default_factory=PhaseView)
     learns_pause: bool = False
     export_bars: tuple[int, int] = (0, 0)
     is_filming: bool = False

@@ -22,6 +22,7 @@ _COMMANDS = {
     "limbs": "say which limb plays every note of a score",
     "lesson": "list, show, check, write, import and export lessons",
     "devices": "list, monitor, teach, calibrate, record and replay kits and sound outputs",
+    "sync": "fit a periodic model to a motion, and tell the phase of another",
     "doctor": "say what works on this computer, and what to do about what does not",
     "bench": "measure this computer's station",
 }

@@ -1,15 +1,18 @@
 """`station devices`: list kits and sound outputs, watch a kit live, record it, replay a capture."""
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from enum import IntEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from station.cli import devices_calibrate
+from station.cli import devices_calibrate, devices_setup_stick
 from station.cli.console import print_json, say, write
 from station.cli.devices_learn_pad import LearnOptions, learn_kit_or_pad
 from station.cli.devices_monitor import monitor
+from station.cli.devices_monitor_sticks import sensors_now
 from station.cli.input.device_listening import HearOptions, event_line, listening, listening_to_sticks, polls
+from station.cli.options.device_option import sticks_option
 from station.cli.options.option_fields import Command, Verbs, argument, flag
 from station.core.clock import monotonic_ns
 from station.core.errors import BadInput, DeviceError
@@ -28,6 +31,7 @@ REPLAY_SCHEMA = "drum-station/replay/1"
 class PortsOptions:
     """How the ports are listed."""
 
+    sticks: tuple[str, ...] = sticks_option()
     json: bool = flag("print one JSON document")
 
 
@@ -55,15 +59,27 @@ def _list(options: PortsOptions) -> int:
         outputs = [asdict(output) for output in list_outputs()]
     except DeviceError as fault:
         faults.append(str(fault))
+    sticks: list[dict[str, object]] = []
+    try:
+        sticks = sensors_now(options.sticks) if options.sticks else []
+    except DeviceError as fault:
+        faults.append(str(fault))
     if options.json:
-        print_json({"schema": SCHEMA, "kits": kits, "outputs": outputs, "faults": faults})
+        print_json({"schema": SCHEMA, "kits": kits, "outputs": outputs, "sticks": sticks, "faults": faults})
         return 0
     rows = [f"  {kit['port']}  [{kit['preset']}]" for kit in kits]
     write("\n".join(["Kits (MIDI inputs, game drums, serial ports)", *(rows or ["  none"])]))
     write("\n".join(["Sound outputs", *([f"  {output['name']}" for output in outputs] or ["  none"])]))
+    if options.sticks:
+        write("\n".join(["Motion sensors", *([f"  {_sensor_line(each)}" for each in sticks] or ["  none"])]))
     for text in faults:
         say(f"station: {text}")
     return 0
+
+
+def _sensor_line(sensor: Mapping[str, object]) -> str:
+    rate = "" if sensor["rate_hz"] is None else f", {sensor['rate_hz']:.1f} Hz"
+    return f"{sensor['device']}  [{sensor['protocol'] or 'nothing readable: another baud?'}{rate}]"
 
 
 def _ports() -> tuple[list[dict[str, str]], list[str]]:
@@ -212,6 +228,11 @@ COMMAND = Verbs(
             "calibrate",
             "measure the latency of a kit or a sound output",
             Command(devices_calibrate.CalibrateOptions, devices_calibrate.run),
+        ),
+        (
+            "setup-stick",
+            "set a WitMotion motion sensor to what the station has use for",
+            Command(devices_setup_stick.SetupStickOptions, devices_setup_stick.run),
         ),
         ("replay", "the hits of a capture, as they were, and a session's judgements", Command(ReplayOptions, _replay)),
     )

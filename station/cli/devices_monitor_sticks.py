@@ -4,6 +4,8 @@ A line has the time in s, the sensor, its protocol, samples a second, how many w
 fast it turns; what it tells of itself where it does. Where nothing readable comes it says what to try.
 """
 
+from collections.abc import Sequence
+from dataclasses import asdict
 from math import hypot
 
 from station.cli.console import write
@@ -20,6 +22,8 @@ from station.devices.mapping.stick_file import ASSUMED, own_stick
 from station.devices.port_watch import PortPoll
 
 LINE_EVERY_NS = 250 * NS_PER_MS
+_LISTENED_S = 2.5
+"""Long enough for a sensor to be found and to give account of itself, once a second (our choice)."""
 
 
 def monitor_sticks(options: HearOptions) -> int:
@@ -32,13 +36,26 @@ def monitor_sticks(options: HearOptions) -> int:
     return 0
 
 
+def sensors_now(said: Sequence[str]) -> list[dict[str, object]]:
+    """What the sensors at these ports are, after a moment of listening: the fields of each one's `SensorStatus`.
+
+    Raises `DeviceError` where none is there.
+    """
+    page, options = SticksPage(monotonic_ns()), HearOptions(sticks=tuple(said), seconds=_LISTENED_S)
+    with listening_to_sticks(options) as sticks:
+        for findings in polls((), options.seconds, sticks):
+            page.handle(findings, monotonic_ns())
+    return [asdict(status) for status in page.statuses.values()]
+
+
 class SticksPage:
     """The lines of the page: findings in, lines out."""
 
     def __init__(self, start_ns: int) -> None:
         self._start_ns = start_ns
         self._bank = DecoderBank()
-        self._statuses: dict[str, SensorStatus] = {}
+        self.statuses: dict[str, SensorStatus] = {}
+        """How each sensor does that is here, by its name."""
         self._newest: dict[str, ImuSample] = {}
         self._due_ns: dict[str, int] = {}
 
@@ -52,12 +69,12 @@ class SticksPage:
                 if isinstance(event, SensorSamples):
                     self._newest[device] = event.samples[-1]
                 elif isinstance(event, SensorStatus):
-                    self._statuses[device] = event
+                    self.statuses[device] = event
         if findings.lost:
             self._bank.lost(device, now_ns)
-            self._statuses.pop(device, None)
+            self.statuses.pop(device, None)
             lines.append(f"{device} is gone; plug it in again")
-        elif device in self._statuses and now_ns >= self._due_ns[device]:
+        elif device in self.statuses and now_ns >= self._due_ns[device]:
             self._due_ns[device] = now_ns + LINE_EVERY_NS
             lines.append(f"{s_from_ns(now_ns - self._start_ns):10.3f}  {device}  {self._words(device)}")
         return lines
@@ -74,7 +91,7 @@ class SticksPage:
         return [fault or f"{device} is here; listening what it speaks"]
 
     def _words(self, device: str) -> str:
-        status = self._statuses[device]
+        status = self.statuses[device]
         if not status.protocol:
             return (
                 f"nothing readable comes ({status.bad_bytes} bytes): another baud? @9600, @115200 and @921600 are usual"

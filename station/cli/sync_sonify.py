@@ -19,9 +19,10 @@ from station.cli.options.option_fields import (
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S
 from station.sync.phase.model_file import load_model
-from station.sync.phase.phase_tracker import ADAPTIVE, PAPER
+from station.sync.phase.phase_tracker import PAPER
 from station.sync.signals.signal import Signal
 from station.sync.signals.signal_files import read_signal
+from station.sync.sonification.channel_levels import parse_level
 from station.sync.sonification.sonified import Sonified, sonified
 from station.sync.sonification.trigger_table import PRESETS, parse_trigger
 from station.sync.sonification.triggers import Trigger, share_of
@@ -52,6 +53,9 @@ class SonifyOptions:
         "PHASE=WHAT",
         "a sound at a share of the cycle instead, such as 0.25=kick, 0.5=hihat@60 or 0.75=76 (a MIDI note)",
     )
+    level: tuple[str, ...] = repeated(
+        "CHANNEL=CONTROLLER", "of a .mid: a channel of the motion moves a MIDI controller too, such as rtibia_rx=74"
+    )
     drums: str | None = option("--sounds KIT", "the drum kit that sounds (the settings')", str, None)
     time: float | None = option("S", "the second that a picture shows (the recording's middle)", number, None)
     paper: bool = flag("track as Boyd and Godbout 2012 do: a cadence that never changes")
@@ -63,9 +67,11 @@ def run(options: SonifyOptions) -> int:
     ending = options.out.suffix.lower()
     if ending not in (MIDI, SOUND, FILM, PICTURE):
         raise BadInput(options.out, "", f"expected a name that ends in {ENDINGS}")
+    if options.level and ending != MIDI:
+        raise BadInput("--level", "", f"expected with a file that ends in {MIDI}")
     triggers = _triggers(options)
     model, signal = load_model(options.model), read_signal(options.signal)
-    told = sonified(model, signal, triggers, PAPER if options.paper else ADAPTIVE)
+    told = sonified(model, signal, triggers, PAPER if options.paper else None)
     _write(options, ending, triggers, told)
     if options.json:
         print_json(_document(told))
@@ -88,18 +94,19 @@ def _triggers(options: SonifyOptions) -> tuple[Trigger, ...]:
 
 def _write(options: SonifyOptions, ending: str, triggers: tuple[Trigger, ...], told: Sonified) -> None:
     if ending == MIDI:
-        _write_midi(told, options.out)
+        _write_midi(told, options)
     elif ending == SOUND:
         _write_sound(told, options)
     else:
         _write_scene(told, triggers, options, ending)
 
 
-def _write_midi(told: Sonified, out: Path) -> None:
+def _write_midi(told: Sonified, options: SonifyOptions) -> None:
     from station.music.formats.smf.track_writer import write_performance
     from station.music.performance import Performance
 
-    write_performance(Performance.from_hits(told.hits), out)
+    moves = [move for text in options.level for move in told.moves(parse_level(text, told.signal, "--level"))]
+    write_performance(Performance.from_hits(told.hits), options.out, moves)
 
 
 def _write_sound(told: Sonified, options: SonifyOptions) -> None:

@@ -44,7 +44,7 @@ LEAST_BLOCK_FRAMES = 16
 class Settings:
     """What a user has chosen.
 
-    `kit` part of the MIDI port's name, empty for the first kit found; `sticks` where the motion sensors on the sticks are
+    `kit` part of the MIDI port's name, empty for the first kit found; `sticks` where the motion sensors are
     (`devices.stick_ports`), empty for none; `output` part of the sound device's name, empty
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
     sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click,
@@ -62,9 +62,10 @@ class Settings:
     empty for as that kit is built (`practice.session.leading_hand`). `view`, `mirrored`, `inset` and `viewpoints`
     are where the window looks from, `score` how it shows the score, `theme` its colours (`app.view_settings`),
     `panel_scale` how many times as large as designed its panels are, `double` whether the student is shown as a second
-    drummer, `double_beside` whether beside the demonstrator and not over them, `air_drums` whether strokes in the air are
-    hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock, `course` names the course whose lessons
-    are listed, empty for all; `welcomed` whether the questions of the first start were asked (`app.first_start`).
+    drummer, `double_beside` whether beside the demonstrator and not over them, `air_drums` whether strokes in the air
+    are hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock, `course`
+    names the course whose lessons are listed, empty for all; `welcomed` whether the questions of the first start were
+    asked (`app.first_start`).
     """
 
     student: str = "student"

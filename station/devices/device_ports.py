@@ -128,7 +128,7 @@ def watch_devices(
 ) -> Watches:
     """A watch for each request, each with a port of its own; without a MIDI driver other ports are heard all the same.
 
-    Raises `BadInput` for a driver that there is not; `claims` are shared with other watches of the station, and the other
+    Raises `BadInput` for a driver that there is not. `claims` are shared with other watches of the station; the other
     parameters stand as in `MidiDirectory`.
     """
     midi, fault = None, None

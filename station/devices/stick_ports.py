@@ -6,19 +6,26 @@ PART is part of a serial adapter's name, NAME part of a Bluetooth sensor's name 
 WitMotion's. No sensor is looked for unless it is asked for.
 """
 
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Protocol
 
 from station.core.clock import monotonic_ns
 from station.core.errors import BadInput, DeviceError
+from station.core.units import NS_PER_S
 from station.devices.device_ports import BETWEEN_DEVICES, DeviceRequest, parse_device
-from station.devices.imu.ble_ports import BLE, BleDirectory, BleLibrary, Radio, load_bleak
-from station.devices.port_watch import ClaimedPorts, PortWatch
+from station.devices.imu.ble_ports import BLE, BleDirectory, BleLibrary, BlePort, Radio, load_bleak
+from station.devices.port_watch import ClaimedPorts, PortWatch, choose_port
 from station.devices.serial.serial_ports import SerialDirectory
-from station.devices.transport import PortDirectory
+from station.devices.transport import PortDirectory, Transport
 
 SENSOR_BAUD = 115_200
 """What most sensors leave the factory with (x-IMU3, BNO085 in RVC mode, WitMotion's with a case)."""
+
+_CONNECTED_WITHIN_NS = 20 * NS_PER_S
+_LOOK_S = 0.02
 
 
 def parse_stick(text: str) -> DeviceRequest:
@@ -74,6 +81,49 @@ def watch_sticks(
         if directory is not None:
             watches.append(PortWatch(directory, request.part.removeprefix(BLE), shared))
     return StickWatches(tuple(watches), fault, radio)
+
+
+class StickPort(Transport, Protocol):
+    """An open connection to a sensor, to which settings can be sent."""
+
+    def write(self, data: bytes) -> None:
+        """Send `data`; raises `DeviceError` where it cannot be."""
+        ...
+
+
+@contextmanager
+def opened_stick(request: DeviceRequest, library: Callable[[], BleLibrary] = load_bleak) -> Iterator[StickPort]:
+    """The sensor that is asked for, connected; raises `DeviceError` where it cannot be had."""
+    if not request.part.startswith(BLE):
+        directory = SerialDirectory(request.baud, request.path, in_chunks=True)
+        port = choose_port(directory.names(), request.part)
+        if port is None:
+            raise DeviceError(no_stick((request,)))
+        line = directory.open(port)
+        try:
+            yield line
+        finally:
+            line.close()
+        return
+    radio = Radio(library())
+    try:
+        yield _connected(BleDirectory(radio, request.part.removeprefix(BLE)), request)
+    finally:
+        radio.close()
+
+
+def _connected(directory: BleDirectory, request: DeviceRequest) -> BlePort:
+    """The first of the directory's sensors, once it listens."""
+    give_up_ns, port = monotonic_ns() + _CONNECTED_WITHIN_NS, None
+    while monotonic_ns() < give_up_ns:
+        if port is None and (names := directory.names()):
+            port = directory.open(names[0])
+        if port is not None:
+            port.read()  # raises where it cannot be connected
+            if port.is_connected:
+                return port
+        time.sleep(_LOOK_S)
+    raise DeviceError(f"no Bluetooth sensor called {request.part!r} answers")
 
 
 def no_stick(requests: tuple[DeviceRequest, ...]) -> str:

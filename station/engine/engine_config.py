@@ -7,7 +7,10 @@ from station.core.settings import Settings, setting_source
 from station.devices.device_ports import DeviceRequest, parse_devices
 from station.devices.stick_ports import parse_sticks
 from station.engine.levels_option import parse_levels
-from station.engine.messages import Bus, Command, SetLevel, SetMidiOut, SetPiece
+from station.engine.messages import Bus, Command, SetAirDrums, SetLevel, SetMidiOut, SetPiece
+from station.sync.air.air_drums import AIR_AHEAD_NS
+from station.sync.air.air_file import air_path, read_air
+from station.sync.air.air_zones import AirKit
 
 _CHOSEN = Settings()
 
@@ -30,7 +33,8 @@ class EngineConfig:
 
     `kits` are those to listen to, none for an engine without, `sticks` the sensors on the sticks; `midi_driver` is
     "auto" or one of `station.devices.midi.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`,
-    `click`, `own_sound`, `levels` and `midi_out` stand as in `Settings`; without `sound` no card is opened.
+    `click`, `own_sound`, `levels` and `midi_out` stand as in `Settings`; without `sound` no card is opened. `air` is
+    the kit that the sticks play in the air, None for none.
     """
 
     kits: tuple[DeviceRequest, ...] = (DeviceRequest(""),)
@@ -45,10 +49,11 @@ class EngineConfig:
     own_sound: bool = True
     levels: tuple[SetLevel | SetPiece, ...] = ()
     midi_out: str = ""
+    air: AirKit | None = None
 
     @classmethod
     def from_settings(cls, settings: Settings) -> Self:
-        """What a user has chosen; raises `BadInput` for kits and levels that cannot be meant."""
+        """What a user has chosen; raises `BadInput` for kits, sticks, levels and an air kit that cannot be meant."""
         return cls(
             kits=parse_devices(settings.kit),
             sticks=parse_sticks(settings.sticks),
@@ -60,6 +65,7 @@ class EngineConfig:
             own_sound=settings.own_sound,
             levels=parse_levels(settings.levels, setting_source("levels")),
             midi_out=settings.midi_out,
+            air=read_air(air_path()) if settings.air_drums else None,
         )
 
     @property
@@ -67,4 +73,5 @@ class EngineConfig:
         """What the engine is sent before anything else."""
         silent = () if self.own_sound else (SetLevel(Bus.STUDENT, 0.0),)
         port = (SetMidiOut(self.midi_out),) if self.midi_out else ()
-        return (*self.levels, *silent, *port)
+        air = (SetAirDrums(self.air, AIR_AHEAD_NS),) if self.air is not None else ()
+        return (*self.levels, *silent, *port, *air)

@@ -19,6 +19,7 @@ from station.gui.panels import (
     export_panel,
     graph_panel,
     hits_panel,
+    phase_panel,
     practice_panel,
     sticks_panel,
     style_panel,
@@ -50,6 +51,7 @@ class Pages:
         self._sticks = sticks_panel.SticksPanel(dispatch)
         self._export = export_panel.ExportPanel(dispatch)
         self.graph = graph_panel.GraphPanel(lambda to_s: dispatch(Seek(ns_from_s(to_s))))
+        self._phase = phase_panel.PhasePanel(dispatch)
         viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go)
         self._transport = TransportBar(dispatch, viewpoints, self._open_tools)
         self.controls = self._transport.controls
@@ -70,6 +72,7 @@ class Pages:
             Panel(sticks_panel.STICKS, right, self._sticks.gui, sticks_panel.ABOUT, help=sticks_panel.HELP),
             Panel(export_panel.EXPORT, right, self._export.gui, export_panel.ABOUT, help=export_panel.HELP),
             Panel(GRAPH, strip, self._graph_gui, graph_panel.ABOUT, help=graph_panel.HELP),
+            Panel(phase_panel.PHASE, strip, self._phase_gui, phase_panel.ABOUT, help=phase_panel.HELP),
             Panel(TRANSPORT, DockSide.BELOW, self._transport_gui, shown=lambda state: True),
         )
 
@@ -102,6 +105,7 @@ class Pages:
             sticks=self.is_open(sticks_panel.STICKS),
             practice=self.is_open(practice_panel.PRACTICE),
             curves=self.is_open(GRAPH),
+            phase=self.is_open(phase_panel.PHASE),
         )
 
     # --- drawing -----------------------------------------------------------------------------------------------------
@@ -126,3 +130,6 @@ class Pages:
 
     def _graph_gui(self, state: State) -> None:
         self.graph.gui(state.curves, can_seek=state.room.stage is Stage.IDLE)
+
+    def _phase_gui(self, state: State) -> None:
+        self._phase.gui(state.phase, can_play=state.room.stage is not Stage.PLAYING)

@@ -72,16 +72,14 @@ class WalkingScene:
         """What moves, as it is at a time of the trace: the body, its triggers' light, and the line in the plot."""
         draw_list, trace = DrawList(atlas), self.trace
         place = ReportBox(_EDGE, _HEAD, _BODY, PAGE[1] - _EDGE - _HEAD)
-        draw_walker(draw_list, self.walker, self._places(at_s), place, self.struck(at_s))
+        draw_walker(draw_list, self.walker, self.places_at(at_s), place, self.struck(at_s))
         x = axes.x(at_s)
-        draw_list.box((x - 1, axes.phase.top), (2, axes.quality.bottom - axes.phase.top), INK)
+        high = axes.quality.bottom - axes.phase.top
+        if (hidden := axes.phase.right - x) > 1:
+            draw_list.box((x + 1, axes.phase.top), (hidden, high), with_opacity(NIGHT, 0.72))
+        draw_list.box((x - 1, axes.phase.top), (2, high), INK)
         share = trace.share[self._sample(at_s)]
         draw_list.ellipse((x, axes.y_of_share(float(share))), (5, 5), INK)
-        hidden = axes.phase.right - x
-        if hidden > 1:
-            draw_list.box(
-                (x + 1, axes.phase.top), (hidden, axes.quality.bottom - axes.phase.top), with_opacity(NIGHT, 0.72)
-            )
         style = TypeStyle(15, INK_SOFT)
         draw_list.text(f"{at_s:.1f} s", (_EDGE + 4, PAGE[1] - _EDGE - 6), style)
         return draw_list.shapes()
@@ -97,8 +95,8 @@ class WalkingScene:
     def _sample(self, at_s: float) -> int:
         return int(np.clip(np.searchsorted(self.trace.time_s, at_s), 0, len(self.trace.time_s) - 1))
 
-    def _places(self, at_s: float) -> NDArray[np.float64]:
-        """The joints between two samples, by the straight line."""
+    def places_at(self, at_s: float) -> NDArray[np.float64]:
+        """Where the joints are at a time, between two samples by the straight line: (joints, 3)."""
         later = self._sample(at_s)
         before = max(later - 1, 0)
         gap = self.trace.time_s[later] - self.trace.time_s[before]

@@ -4,6 +4,9 @@ The engine feeds it live, and whoever replays a capture feeds it the same events
 has its own detector; what several sticks tell together, the hits in the air, comes from all of them.
 """
 
+from collections import deque
+from dataclasses import replace
+
 from station.core.events import (
     Hit,
     SensorEvent,
@@ -13,18 +16,24 @@ from station.core.events import (
     SensorStatus,
     StickEvent,
     StickPose,
+    StickStroke,
 )
 from station.core.imu import Mounting
 from station.core.units import NS_PER_S
 from station.sync.air.air_drums import AirDrums
-from station.sync.air.air_zones import AirKit
+from station.sync.air.air_zones import AIR_DEVICE, AirKit
 from station.sync.drill.drill_model import DrillModel
 from station.sync.drill.drill_tracker import DrillTracker
+from station.sync.strokes.hand_naming import strokes_of_hits
 from station.sync.strokes.stick_orientation import StickMotion
 from station.sync.strokes.stroke_detector import StrokeDetector
 
 POSE_EVERY_NS = NS_PER_S // 60
 """How often a stick's pose is told: once for each picture of a usual screen."""
+
+RECENT = 12
+"""So many hits and strokes of late tell which stick made a hit while it is played: two seconds of sixteenths at 90 bpm;
+our choice."""
 
 
 class Sticks:
@@ -34,6 +43,8 @@ class Sticks:
         self._detectors: dict[str, StrokeDetector] = {}
         self._next_pose_ns: dict[str, int] = {}
         self._air: AirDrums | None = None
+        self._pads: deque[Hit] = deque(maxlen=RECENT)
+        self._strokes: deque[StickStroke] = deque(maxlen=RECENT)
         self._drill: DrillTracker | None = None
 
     def track_drill(self, model: DrillModel | None) -> None:
@@ -49,9 +60,25 @@ class Sticks:
         for device, detector in self._detectors.items():
             self._mount_in_air(device, detector.mounting)
 
+    def struck(self, hit: Hit) -> None:
+        """Take a stroke on a pad: the air kit leaves its piece to it, and learns where that stick points."""
+        if self._air is not None and hit.device != AIR_DEVICE:
+            self._air.pad(hit)
+            self._pads.append(hit)
+
+    def _aim(self, air: AirDrums, stroke: StickStroke) -> None:
+        self._strokes.append(stroke)
+        for hit, made in zip(tuple(self._pads), strokes_of_hits(self._pads, self._strokes), strict=True):
+            if made is not None:
+                self._pads.remove(hit)
+                air.pad(replace(hit, limb=made.limb))
+
     def handle(self, event: SensorEvent) -> list[StickEvent | Hit]:
         """What `event` tells of the sticks; a sensor that nobody announced is mounted as sensors mostly are."""
-        phases: list[StickEvent | Hit] = [] if self._drill is None else [*self._drill.handle(event)]
+        phases = [] if self._drill is None else [*self._drill.handle(event)]
+        if self._air is not None:
+            for phase in phases:
+                self._air.phase(phase)
         return [*self._felt(event), *phases]
 
     def _felt(self, event: SensorEvent) -> list[StickEvent | Hit]:
@@ -92,9 +119,13 @@ class Sticks:
         stroke = detector.move(motion)
         if stroke is not None:
             told.append(stroke)
+            if self._air is not None and self._pads:
+                self._aim(self._air, stroke)
         if self._air is not None:
             told += self._air.moved(device, motion)
         if motion.at_ns >= self._next_pose_ns.get(device, motion.at_ns):
             self._next_pose_ns[device] = motion.at_ns + POSE_EVERY_NS
-            told.append(StickPose(motion.at_ns, device, detector.mounting.limb, motion.turn, motion.resting))
+            air = None if self._air is None else self._air.status(device)
+            doubt_rad = None if air is None else air.doubt_rad
+            told.append(StickPose(motion.at_ns, device, detector.mounting.limb, motion.turn, motion.resting, doubt_rad))
         return told

@@ -2,8 +2,8 @@
 
 The stick swings in a vertical plane about a grip that moves with it (HUMANS, Pearl 2023: the hand has a third of the
 tip's speed). A stroke speeds the tip up along a raised cosine and brakes it along another, shorter one. Position is
-summed from it at 20 kHz and differentiated twice; the beat is where the tip's acceleration is greatest while it is being
-braked (after L. Dahl, NIME 2014), found on that fine grid. No reckoning of the station's own is used.
+summed from it at 20 kHz and differentiated twice; the beat is where the tip's acceleration is greatest while it is
+being braked (after L. Dahl, NIME 2014), found on that fine grid. No reckoning of the station's own is used.
 """
 
 from dataclasses import dataclass

@@ -31,8 +31,9 @@ from station.core.pieces import Piece
 from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import ns_from_ms
 from station.devices.mapping.device_file import own_kit
+from station.devices.mapping.stick_file import own_stick
 from station.drills.library import find_lesson
-from station.engine.messages import Play, SetLevel, WatchRawBytes
+from station.engine.messages import Play, SetLevel, WatchRawBytes, WatchSensors
 from station.gui.display import GONE, Rectangle, home_for
 from station.gui.glfw_screen import glfw_screen
 from station.gui.keyboard_kit import VIEW_KEYS
@@ -44,10 +45,12 @@ from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL
 from station.gui.panels.pads_part import UNDO_LABEL
 from station.gui.panels.panel import PANELS_LABEL
+from station.gui.panels.phase_panel import MODEL_LABEL, MOTION_LABEL, OPEN_LABEL, PHASE, PLAY_LABEL, STOP_LABEL
 from station.gui.panels.playback_row import STOP_LABEL as HITS_STOP
 from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
 from station.gui.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
 from station.gui.panels.practice_panel import LEARN_LABEL, PRACTICE
+from station.gui.panels.sticks_panel import FOLLOW_LABEL, GESTURE_LABEL, LOOK_LABEL, PORTS_LABEL, STICKS
 from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.panels.velocity_part import LEARN_LABEL as TOUCH_LABEL
 from station.gui.window import Window
@@ -59,6 +62,8 @@ from station.render.files.png_file import write_png
 from station.render.notation.score_view import ScoreForm
 from station.render.snapshot import Snapshot
 from station.simulation.student_spec import parse_spec
+from tests.fakes.stick_physics import FINE_HZ, Sensor, Stroke, measured, strokes_by_angle
+from tests.fakes.walker_files import write_walker
 from tests.gui.figure import figure
 from tests.gui.legible import present_faults
 from tests.gui.room import KIT, station
@@ -66,7 +71,7 @@ from tests.gui.screen_shot import screen_shot
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
-SIZES = {"player": (1280, 560), "legible": (1280, 720)}
+SIZES = {"player": (1280, 560), "phase": (1280, 720), "legible": (1280, 720)}
 LESSON = "rock-2"
 MOST_FRAMES = 1000
 PICTURE_EVERY = 25
@@ -292,8 +297,12 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(3)
     drive.seen["after"] = drive.room.stage.name
     ctx.item_click(LISTEN_LABEL)
-    ctx.yield_(8)
+    ctx.yield_(2)
     drive.seen["listening"] = drive.room.listening
+    for _ in range(MOST_FRAMES):
+        if drive.picture.strikes or not drive.room.listening:
+            break
+        ctx.yield_()
     drive.seen["lit"] = [strike.piece.name for strike in drive.picture.strikes]
     for _ in range(MOST_FRAMES):
         if not drive.room.listening:
@@ -487,6 +496,41 @@ def pads_are_learnt(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(3)
     kept = own_kit(KIT)
     drive.seen["touch"] = None if kept is None else [kept.pad(Piece.SNARE).curve.table[v] for v in (0x12, 0x52)]
+
+
+def sticks(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The sticks page: a sensor is seen, its hand chosen and kept, the gesture begun and given up, the air switched."""
+    device = "x-IMU3 1"
+    open_panel(ctx, STICKS)
+    drive.engine.plug_stick(device)
+    angle, _, _ = strokes_by_angle([Stroke(0.5)] * 2, rest_s=1.0)
+    drive.engine.move_stick(device, measured(angle, Sensor(200)))
+    ctx.yield_(3)
+    (stick,) = drive.state.sticks.sticks
+    drive.seen["facts"], drive.seen["drawn"] = stick.facts, stick.turn is not None
+    ctx.set_ref(f"//{STICKS}")
+    ctx.item_click(f"left##{device}")
+    ctx.yield_(2)
+    drive.seen["hand"] = own_stick(device).limb.name
+    drive.seen["shown"] = drive.state.sticks.sticks[0].limb.name
+    ctx.yield_(25)  # it falls silent, and says so
+    drive.seen["silent"] = drive.state.sticks.sticks[0].troubles
+    ctx.item_click(GESTURE_LABEL)
+    ctx.yield_(3)
+    drive.seen["asks"] = drive.state.sticks.lesson and drive.state.sticks.lesson.asks
+    ctx.key_press(imgui.Key.escape)
+    ctx.yield_(2)
+    drive.seen["given up"] = drive.state.sticks.lesson is None
+    ctx.item_click(f"**/{FOLLOW_LABEL}")
+    ctx.yield_(2)
+    drive.seen["follows"] = load_settings(drive.settings).follow_phase
+    ctx.item_input_value(f"**/{PORTS_LABEL}", "serial:/dev/ttyUSB0@fast")
+    ctx.item_click(f"**/{LOOK_LABEL}")
+    ctx.yield_(2)
+    drive.seen["refused"] = drive.state.toast
+    open_panel(ctx, STICKS)  # and close it again
+    ctx.yield_(2)
+    drive.seen["watched"] = [command.on for command in drive.engine.sent if isinstance(command, WatchSensors)]
 
 
 def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -849,9 +893,35 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     seen["result"] = curves is not None and curves.played is not None
 
 
+def phase(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """A motion is opened in the phase panel, heard, and its line dragged."""
+    motion = write_walker(Path())  # a short name, for the fields show no more
+    drive.window.params.docking_params.dockable_window_of_name(PHASE).is_visible = True
+    ctx.yield_(3)
+    ctx.set_ref(f"//{PHASE}")
+    for label in (MOTION_LABEL, MODEL_LABEL):
+        ctx.item_input_value(label, str(motion))
+    ctx.item_click(OPEN_LABEL)
+    for _ in range(MOST_FRAMES):
+        if drive.state.phase.scene is not None:
+            break
+        ctx.yield_()
+    drive.seen["opened"] = drive.state.phase.motion
+    ctx.yield_(2)
+    ctx.item_click(PLAY_LABEL)
+    ctx.yield_(20)
+    drive.seen["plays"], drive.seen["at_s"] = drive.state.phase.plays, drive.state.phase.at_s
+    drive.seen["unread"] = drive.unread(ctx)
+    ctx.item_click(STOP_LABEL)
+    ctx.yield_(2)
+    drive.seen["stopped"] = not drive.state.phase.plays
+
+
 def legible(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Every tool is opened, at both ends of the usual sizes, and what cannot be read in it is told."""
     docking = drive.window.params.docking_params
+    drive.engine.plug_stick("x-IMU3 1")
+    drive.engine.move_stick("x-IMU3 1", measured(np.full(FINE_HZ, 0.2), Sensor(100)))
     for scale in (1.0, 2.0):
         drive.station.dispatch(SetView(replace(drive.state.view_settings, scale=scale)))
         for page in drive.window.pages.tools:
@@ -890,11 +960,13 @@ SCENARIOS = {
     "drill": drill,
     "closes": closes,
     "unplugged": unplugged,
+    "sticks": sticks,
     "habits": habits,
     "player": player,
     "graph": graph,
     "fault": fault,
     "legible": legible,
+    "phase": phase,
     "figure": figure,
 }
 

@@ -5,6 +5,8 @@ frames as it has steps, however slowly they are drawn, and a virtual student's M
 """
 
 import sys
+from collections.abc import Sequence
+from math import degrees
 
 from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
@@ -15,8 +17,11 @@ from station.app.sessions.session_control import Launch
 from station.app.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound
+from station.core.imu import STANDARD_GRAVITY_M_S2, ImuSample
+from station.core.units import NS_PER_S
 from station.devices.mapping.device_file import own_kit
 from station.devices.mapping.presets import GENERAL_MIDI_PRESET
+from station.devices.mapping.stick_file import own_stick
 from station.drills.library import find_lesson
 from station.engine.engine import Engine
 from station.engine.latency_measurement import Devices
@@ -25,6 +30,7 @@ from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.simulation.student_spec import StudentSpec
 from station.simulation.virtual_student import play
 from station.sound.calibration.latency_estimate import LatencyEstimate
+from tests.fakes.imu_speech import Measured, x_imu3
 
 KIT, OUTPUT = "virtual student", "Speakers"
 
@@ -47,7 +53,7 @@ class DirectEngine:
     """The engine without its process; a student may be set to play the passes of a plan."""
 
     def __init__(self, clock: FrameClock, student: StudentSpec | None) -> None:
-        self._engine = Engine(own_kit=own_kit)
+        self._engine = Engine(own_kit=own_kit, own_stick=own_stick)
         self._clock = clock
         self._student = student
         self._waiting: list[tuple[int, bytes]] = []
@@ -85,6 +91,20 @@ class DirectEngine:
     def play_bytes(self, text: str) -> None:
         """The kit sends bytes (hex) now."""
         self._engine.feed(KIT, bytes.fromhex(text), self._clock.now_ns())
+
+    def plug_stick(self, device: str) -> None:
+        """A sensor is here."""
+        self._engine.sensor_found(device, self._clock.now_ns())
+
+    def move_stick(self, device: str, samples: Sequence[ImuSample]) -> None:
+        """The sensor says (in x-IMU3's binary) what it has measured until now, the last sample now."""
+        for sample in samples:
+            t_s, back_ns = 1.0 + sample.at_ns / NS_PER_S, samples[-1].at_ns - sample.at_ns
+            assert sample.rate_rad_s is not None
+            x, y, z = (each / STANDARD_GRAVITY_M_S2 for each in sample.acceleration_m_s2)
+            p, q, r = map(degrees, sample.rate_rad_s)
+            said = x_imu3(Measured(t_s, (x, y, z), (p, q, r)))
+            self._engine.feed(device, said, self._clock.now_ns() - back_ns)
 
     @property
     def keys(self) -> list[KeyHit]:

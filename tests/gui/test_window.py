@@ -80,10 +80,11 @@ def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_p
 
 def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run_in_turn(
-        ["devices", "calibration", "habits", "search", "fault", "keys", "just_play"], environment, tmp_path
+        ["devices", "calibration", "sticks", "habits", "search", "fault", "keys", "just_play"], environment, tmp_path
     )
     how_sessions_go_is_ticked_and_learnt(seen["habits"])
     the_kit_is_seen_and_set_by_looking(seen["devices"])
+    a_stick_is_seen_and_put_in_a_hand(seen["sticks"])
     latency_is_measured_and_kept_when_asked(seen["calibration"])
     typing_into_the_search_plays_nothing(seen["search"])
     a_course_lists_its_lessons_in_their_order(seen["search"])
@@ -112,6 +113,19 @@ def test_views_and_score_in_one_window(environment: dict[str, str], tmp_path: Pa
     colours_and_sizes_are_worn_and_kept(seen["worn"])
 
 
+def a_stick_is_seen_and_put_in_a_hand(seen: dict[str, Any]) -> None:
+    assert seen["facts"][:2] == ["x-imu3, 200 Hz", "none lost"]
+    assert "last stroke" in seen["facts"][2]
+    assert seen["drawn"]
+    assert [seen["hand"], seen["shown"]] == ["LEFT_HAND", "LEFT_HAND"], "the file, and the engine that read it"
+    assert seen["silent"] in (["it has fallen silent"], ["nothing has come from it yet"])
+    assert seen["asks"].startswith("Lay both sticks")
+    assert seen["given up"]
+    assert seen["follows"]
+    assert seen["watched"] == [True, False]
+    assert "expected serial:PATH@BAUD" in seen["refused"]
+
+
 def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
     assert seen["stage"] == "PLAYING"
     assert seen["pieces"] == ["SNARE", "KICK", "HIHAT"]
@@ -123,17 +137,18 @@ def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
 
 
 def test_player_graph_and_figure_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
-    seen = run_in_turn(["player", "figure", "graph", "legible"], environment, tmp_path)
+    seen = run_in_turn(["player", "figure", "graph", "phase", "legible"], environment, tmp_path)
     the_demonstration_is_watched_as_in_a_player(seen["player"])
     the_demonstrator_is_made_to_move_otherwise(seen["figure"])
     the_graph_follows_and_is_zoomed(seen["graph"])
+    a_motion_walks_and_sounds(seen["phase"])
     nothing_is_cut_off_nor_written_over(seen["legible"])
     assert (tmp_path / "sessions" / "styles" / "slots.toml").exists()
 
 
 def nothing_is_cut_off_nor_written_over(seen: dict[str, Any]) -> None:
     looked_at = {name: faults for name, faults in seen.items() if " at " in name}
-    assert len(looked_at) >= 12, "six tools in two sizes"
+    assert len(looked_at) >= 14, "seven tools in two sizes"
     assert not any(looked_at.values()), {name: faults for name, faults in looked_at.items() if faults}
 
 
@@ -183,6 +198,14 @@ def the_graph_follows_and_is_zoomed(seen: dict[str, Any]) -> None:
     assert 50 < seen["dragged"] < 80, "the line stays under the mouse, which moved by 60 pixels"
     assert seen["during"] == "PLAYING"
     assert seen["result"]
+
+
+def a_motion_walks_and_sounds(seen: dict[str, Any]) -> None:
+    assert seen["opened"] == "1_01.amc"
+    assert seen["plays"]
+    assert seen["at_s"] > 0.5
+    assert seen["stopped"]
+    assert seen["unread"] == []
 
 
 def keys_play_the_kit_and_escape_stops(seen: dict[str, Any]) -> None:

@@ -14,7 +14,9 @@ KINDS = {
     "Hydrogen's kit": "charts/hydrogen/**/GMRockKit/drumkit.xml",
     "OpenGameArt's songs": "midi/opengameart/**/*.mid",
     "the Groove MIDI Dataset": "gmd/**/*.mid",
-    "CMU's walks": "mocap/amc/0[278]/*.amc",
+    "a WitMotion's packets": "imu/witmotion_hazer/*.txt",
+    "the CMU motions": "mocap/**/*.[ab][mv][ch]",
+    "air drums": "imu/airdrums/1_sensor?.txt",
 }
 """What is compared with, and the pattern of its files."""
 

@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from station.sync.phase.phase_tracker import PAPER, TrackerSettings
+from station.sync.phase.recordings import track_recording
 from station.sync.sonification.trigger_table import PRESETS
 from station.sync.sonification.triggers import share_of
-from station.sync.walking.trial import Trial, gait_model, track_recording
+from station.sync.walking.trial import Trial, gait_model
 from tests.oracles.folder import ORACLES, oracles
 
 pytestmark = [pytest.mark.oracle]
@@ -35,7 +37,7 @@ def test_both_editions_put_the_legs_in_one_place(trial: str) -> None:
     assert np.abs(ours - theirs).max() < 1e-4
 
 
-@pytest.mark.parametrize("path", oracles("CMU's walks"))
+@pytest.mark.parametrize("path", oracles("the CMU motions"))
 def test_a_body_walks_upright_on_the_floor(path: Path) -> None:
     """Heels within 8 cm of the floor (a marker's shift, a sole) whenever they are lowest; the head a stature above."""
     trial = Trial.read(path)
@@ -46,6 +48,7 @@ def test_a_body_walks_upright_on_the_floor(path: Path) -> None:
     assert 1.3 < np.median(places[..., 1].max(axis=1)) < 2.0
 
 
+@pytest.mark.parametrize("settings", [PAPER, None], ids=["paper", "adaptive"])
 @pytest.mark.parametrize(
     ("exemplar", "trials", "preset"),
     [
@@ -53,14 +56,16 @@ def test_a_body_walks_upright_on_the_floor(path: Path) -> None:
         ("bvh 09_01", "09_05 09_11 02_03", "run"),
     ],
 )
-def test_triggers_fall_with_the_heels(exemplar: str, trials: str, preset: str) -> None:
+def test_triggers_fall_with_the_heels(
+    exemplar: str, trials: str, preset: str, settings: TrackerSettings | None
+) -> None:
     """Within .05 of a cycle in the median, and within .1 in 95 % of steps."""
     kind = exemplar[:3]
     model = gait_model(Trial.read(find(*exemplar.split())).signal)
     errors = []
     for name in trials.split():
         trial = Trial.read(find(kind, name) if name != "02_03" else find("amc", name))
-        phase = np.unwrap(track_recording(model, trial.signal).phase_rad)
+        phase = np.unwrap(track_recording(model, trial.signal, settings).phase_rad)
         assert model.period_s is not None
         for foot, trigger in zip(trial.steps, PRESETS[preset], strict=True):
             for at_s in foot.low_s[foot.contact_s > CONVERGED * model.period_s]:

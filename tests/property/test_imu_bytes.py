@@ -2,6 +2,7 @@
 
 import random
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 
 import pytest
 from hypothesis import example, given
@@ -141,3 +142,15 @@ def test_a_megabyte_of_likely_nonsense_is_neither_kept_nor_believed(name: str) -
         fed += len(chunk)
     accounted = decoder.good_bytes + decoder.bad_bytes
     assert fed - 5_000 <= accounted <= fed  # what waits is no more than one line
+
+
+def test_another_protocol_turns_no_time_back() -> None:
+    """The sensor's settings are changed while it sends: samples go on from where they were."""
+    sensor, samples = ImuSensor("stick", Mounting()), list[ImuSample]()
+    stream = [*packets("csv", 100), *packets("x-imu3", 400), *packets("witmotion", 400), *packets("csv", 200)]
+    for index, packet in enumerate(stream):
+        clump_ns = (index + 399) // 400 * 2 * NS_PER_S  # we look every two seconds
+        for event in sensor.feed(packet, clump_ns):
+            samples += event.samples if isinstance(event, SensorSamples) else ()
+    assert len(samples) > 600
+    assert all(later.at_ns > earlier.at_ns for earlier, later in pairwise(samples))

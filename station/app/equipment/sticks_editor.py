@@ -15,6 +15,7 @@ from station.app.actions import (
     GiveUpSticks,
     LearnAir,
     LearnMounting,
+    LookForSticks,
     PlayInAir,
     SetHand,
     StickAction,
@@ -33,18 +34,16 @@ from station.core.events import (
 )
 from station.core.imu import ImuSample
 from station.core.pieces import Limb
-from station.core.units import NS_PER_MS, ns_from_s
+from station.core.units import ns_from_s
 from station.devices.mapping.stick_file import save_stick
+from station.devices.stick_ports import parse_sticks
 from station.engine.messages import Command, EngineEvent, ReloadDevice, SetAirDrums, WatchSensors
+from station.sync.air.air_drums import AIR_AHEAD_NS
 from station.sync.air.air_file import air_path, read_air, save_air
 from station.sync.air.air_zones import AirKit
 
 if TYPE_CHECKING:
     from station.app.equipment.air_learning import AirLearning
-
-AIR_AHEAD_NS = 20 * NS_PER_MS
-"""How long before its beat a stroke in the air may sound where it is foretold; our choice: about the latency of a sound
-card and a wireless sensor together."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,15 +88,20 @@ class _Gesture:
 
 
 class SticksEditor:
-    """The sticks of the settings `store`; `send` reaches the engine, `folder` holds the user's files of sticks.
+    """The sticks of the settings `store`; `send` reaches the engine, and `anew` has it start by other settings.
 
-    `air` is the air kit's file; None for this user's, both.
+    `folder` holds the user's files of sticks, `air` is the air kit's file; None for this user's, both.
     """
 
     def __init__(
-        self, send: Callable[[Command], None], store: SettingsStore, folder: Path | None = None, air: Path | None = None
+        self,
+        send: Callable[[Command], None],
+        store: SettingsStore,
+        anew: Callable[[], None] = lambda: None,
+        folder: Path | None = None,
+        air: Path | None = None,
     ) -> None:
-        self._send, self._store = send, store
+        self._send, self._store, self._anew = send, store, anew
         self._folder, self._air_path = folder, air or air_path()
         self._seen: dict[str, SeenStick] = {}
         self._gesture: _Gesture | None = None
@@ -108,18 +112,22 @@ class SticksEditor:
         self._now_ns = 0
 
     def begin(self) -> None:
-        """Read the air kit and have the engine play it, if that is set; raises `StationError` where it cannot be."""
+        """Read the air kit, as the engine does; raises `StationError` where it cannot be."""
         self._kit = read_air(self._air_path)
-        self._play_air()
 
     def _play_air(self) -> None:
-        is_on = self._store.now.air_drums
-        self._send(SetAirDrums(self._kit, AIR_AHEAD_NS) if is_on else SetAirDrums(None))
+        if self._store.now.air_drums:
+            self._send(SetAirDrums(self._kit, AIR_AHEAD_NS))
 
     @property
     def learns(self) -> bool:
         """Whether strokes are taken for what they teach: they command nothing meanwhile."""
         return self._gesture is not None or self._air is not None
+
+    @property
+    def is_lively(self) -> bool:
+        """Whether a stick is here, which may move at any moment."""
+        return bool(self._seen)
 
     def view(self) -> SticksView:
         """What the page shows now."""
@@ -194,6 +202,8 @@ class SticksEditor:
     def act(self, action: StickAction) -> None:
         """Do what the user asks; raises `StationError` where it cannot be done."""
         match action:
+            case LookForSticks(ports):
+                self._look(ports)
             case SetHand(device, limb):
                 self._set_hand(device, limb)
             case LearnMounting():
@@ -205,7 +215,7 @@ class SticksEditor:
                 self.give_up()
             case PlayInAir(on):
                 self._store.update(lambda settings: replace(settings, air_drums=on))
-                self._play_air()
+                self._send(SetAirDrums(self._kit, AIR_AHEAD_NS) if on else SetAirDrums(None))
             case FollowPhase(on):
                 self._store.update(lambda settings: replace(settings, follow_phase=on))
             case _:
@@ -221,6 +231,19 @@ class SticksEditor:
             self._send(WatchSensors(on=False))
             if was_air:
                 self._play_air()
+
+    def _look(self, ports: str) -> None:
+        """Raises `BadInput` for ports that cannot be meant, `DeviceError` while somebody plays."""
+        parse_sticks(ports)
+        self.give_up()
+        before = self._store.now.sticks
+        self._store.update(lambda settings: replace(settings, sticks=ports.strip()))
+        try:
+            self._anew()
+        except DeviceError:
+            self._store.update(lambda settings: replace(settings, sticks=before))
+            raise
+        self._seen.clear()
 
     def _listen(self) -> None:
         """Have the samples told; raises `DeviceError` where there is nobody to tell them."""

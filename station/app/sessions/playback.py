@@ -20,6 +20,10 @@ class Playback:
         """Whether something sounds that was played or is written."""
         return self._heard is not None
 
+    def is_hearing(self, listening: Listening) -> bool:
+        """Whether that is what sounds."""
+        return self._heard is listening
+
     def hear(self, listening: Listening) -> None:
         """Let it sound in place of what does; raises `DeviceError`."""
         self.quiet()

@@ -193,6 +193,20 @@ class SessionControl:
         elif not self.practice.is_playing:
             self._hear(self.practice.free.listening())
 
+    def listen_to(self, listening: Listening) -> None:
+        """Let something from elsewhere sound once; raises `DeviceError`, also while somebody plays."""
+        if self.practice.is_playing:
+            raise DeviceError("end the session first: it needs the sound card")
+        self._hear(listening)
+
+    def is_listening_to(self, listening: Listening) -> bool:
+        """Whether that is what sounds."""
+        return self._playback.is_hearing(listening)
+
+    def quiet(self) -> None:
+        """End what is heard."""
+        self._playback.quiet()
+
     def dismiss(self) -> None:
         """The result was read: back to the lessons."""
         if self.practice.stage is Stage.RESULT:

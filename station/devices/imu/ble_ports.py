@@ -148,7 +148,8 @@ class Radio:
                         ended, scanner = scanner, None
                         await ended.stop()
                 except Exception as fault:  # bleak's backends raise what their systems do
-                    scanner, self.fault = None, f"Bluetooth cannot be used ({fault or type(fault).__name__}): is the radio on?"
+                    scanner, why = None, fault or type(fault).__name__
+                    self.fault = f"Bluetooth cannot be used ({why}): is the radio on?"
                 await asyncio.sleep(_TEND_S)
         finally:
             if scanner is not None:

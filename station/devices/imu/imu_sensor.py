@@ -23,6 +23,7 @@ class ImuSensor:
         self._is_announced = False
         self._decoder = DetectingDecoder()
         self._clock: SampleClock | None = None
+        self._last_ns: int | None = None
         self._told = Told()
         self._next_status_ns: int | None = None
 
@@ -50,10 +51,10 @@ class ImuSensor:
         heard = self._decoder.feed(data, at_ns)
         protocol = self._decoder.protocol
         if protocol is None:  # not known yet, or no longer
-            self._clock = None
+            self._last_ns, self._clock = self._clock.last_ns if self._clock else self._last_ns, None
             return ()
         if self._clock is None:
-            self._clock = SampleClock(protocol.ticks, protocol.rates_hz)
+            self._clock = SampleClock(protocol.ticks, protocol.rates_hz, self._last_ns)
         readings = []
         for each in heard:
             if isinstance(each, Reading):

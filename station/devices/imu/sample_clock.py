@@ -23,15 +23,16 @@ clock never goes back (our choice)."""
 class SampleClock:
     """Session times for the samples of one sensor."""
 
-    def __init__(self, ticks: Ticks, rates_hz: Sequence[float] = ()) -> None:
-        """`rates_hz` are all that the sensor can be set to, none where nobody knows."""
+    def __init__(self, ticks: Ticks, rates_hz: Sequence[float] = (), after_ns: int | None = None) -> None:
+        """`rates_hz` are all that the sensor can be set to, none where nobody knows; no time is before `after_ns`."""
         self.samples = 0
         """How many samples were timed."""
         self._ticks, self._rates_hz = ticks, rates_hz
         self._counter: Counter | None = None
         self._line = ArrivalLine(1.0, 1.0)
         self._lost = 0
-        self._last_ns: int | None = None
+        self.last_ns = after_ns
+        """The newest of all times so far."""
         self._suspect: Reading | None = None
 
     @property
@@ -86,9 +87,9 @@ class SampleClock:
 
     def _stamp(self, position: int, step: int, came_ns: int) -> int:
         at_ns = min(self._line.at(position), came_ns)
-        if self._last_ns is not None:
-            at_ns = max(at_ns, self._last_ns + max(1, round(_CATCH_UP * self._line.slope * step)))
-        self._last_ns = at_ns
+        if self.last_ns is not None:
+            at_ns = max(at_ns, self.last_ns + max(1, round(_CATCH_UP * self._line.slope * step)))
+        self.last_ns = at_ns
         return at_ns
 
     def _begun(self, first: Reading) -> tuple[Counter, ArrivalLine]:

@@ -31,26 +31,34 @@ def command(register: int, value: int) -> bytes:
     return _COMMAND.pack(_PREFIX, register, value)
 
 
+_UNLOCKED = command(_UNLOCK, _KEY)
+
+
 def ask(register: int) -> bytes:
     """The bytes that ask for what stands from `register` on, such as the battery's voltage."""
     return command(_READ, register)
 
 
 def setup(rate_hz: int, baud: int | None = None) -> list[bytes]:
-    """The commands, in order, after which a sensor sends what the station wants `rate_hz` times a second, and keeps it.
+    """The commands, in order, after which a sensor sends what the station wants, `rate_hz` times a second.
 
-    At once at `baud`; None leaves that as it is. Each needs some 100 ms before the next. Raises
+    `baud` is the rate over its wire from the last of them on; None where there is no wire, for what is sent over
+    Bluetooth is always the same. Each command needs a tenth of a second, and `save` keeps what they set. Raises
     `BadInput` for a rate that there is not, or that is more than the wire can carry.
     """
     _choose("rate", rate_hz, RATES)
-    if baud is not None:
-        _choose("baud", baud, BAUDS)
-        if rate_hz * len(WANTED) * BITS_A_FRAME > baud:
-            raise BadInput(f"{rate_hz} samples a second", "", f"{baud} baud cannot carry so many")
+    if baud is None:
+        return [_UNLOCKED, command(_RATE, RATES[rate_hz])]
+    _choose("baud", baud, BAUDS)
+    if rate_hz * len(WANTED) * BITS_A_FRAME > baud:
+        raise BadInput(f"{rate_hz} samples a second", "", f"{baud} baud cannot carry so many")
     content = sum(1 << kind - FIRST_TYPE for kind in WANTED)
-    settings = [command(_CONTENT, content), command(_RATE, RATES[rate_hz])]
-    settings += [] if baud is None else [command(_BAUD, BAUDS[baud])]
-    return [command(_UNLOCK, _KEY), *settings, command(_SAVE, 0)]
+    return [_UNLOCKED, command(_CONTENT, content), command(_RATE, RATES[rate_hz]), command(_BAUD, BAUDS[baud])]
+
+
+def save() -> list[bytes]:
+    """The commands that make what is set outlast a loss of power; over a wire at its new rate."""
+    return [_UNLOCKED, command(_SAVE, 0)]
 
 
 def _choose(what: str, value: int, table: Mapping[int, int]) -> None:

@@ -5,7 +5,16 @@ from math import degrees
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, FollowPhase, GiveUpSticks, LearnAir, LearnMounting, PlayInAir, SetHand
+from station.app.actions import (
+    Action,
+    FollowPhase,
+    GiveUpSticks,
+    LearnAir,
+    LearnMounting,
+    LookForSticks,
+    PlayInAir,
+    SetHand,
+)
 from station.app.equipment.sticks_view import Lesson, SticksView, StickView
 from station.app.room_state import Stage
 from station.app.window_state import State
@@ -24,14 +33,16 @@ HELP = (
     " switch or a key plays the kick."
 )
 GESTURE_LABEL, AIR_LABEL, GIVE_UP_LABEL = "Mounting gesture##sticks", "Learn the air kit##sticks", "Give up##sticks"
-PLAY_AIR_LABEL, FOLLOW_LABEL = "play in the air", "the drummer follows my phase"
+PLAY_AIR_LABEL, FOLLOW_LABEL = "play in the air", "follow my phase"
+PORTS_LABEL, LOOK_LABEL = "##stick-ports", "Look there##sticks"
 _NO_STICKS = "No sensor is here."
-_HOW = (
-    'Name its port in the settings, such as sticks = "serial:/dev/ttyUSB0@115200", or start the station with'
-    " --sticks; docs/sensors.md says which sensors are understood."
-)
-_PICTURE_HIGH = 150.0
+_HOW = "Plug one in or switch it on, and say below where it is: docs/sensors.md has the sensors that are understood."
+_PORTS_HINT = "serial:PATH@BAUD; ble:NAME"
+_LONGEST_PORTS = 400
+"""Letters; our choice: two paths and more."""
+_PICTURE_HIGH = 170.0
 _HANDS = ((Limb.LEFT_HAND, "left"), (Limb.RIGHT_HAND, "right"))
+_HAND_NAMES = dict(_HANDS)
 _SEATS = {Limb.LEFT_HAND: 0, Limb.UNKNOWN: 1, Limb.RIGHT_HAND: 2}
 """From left to right, as the player sees their own hands."""
 
@@ -41,6 +52,8 @@ class SticksPanel:
 
     def __init__(self, dispatch: Callable[[Action], None]) -> None:
         self._dispatch = dispatch
+        self._ports: str | None = None
+        """What is typed, None while nobody has."""
 
     def gui(self, state: State) -> None:
         """Draw the panel and do what the user does in it; nothing is learnt while somebody plays."""
@@ -48,9 +61,11 @@ class SticksPanel:
         if not view.sticks:
             theme.heading(_NO_STICKS)
             theme.soft(_HOW)
+            self._where(state.settings.sticks, may_learn)
             return
         sticks = sorted(view.sticks, key=lambda stick: _SEATS.get(stick.limb, 1))
-        draw_sticks([stick.turn for stick in sticks], (imgui.get_content_region_avail().x, theme.points(_PICTURE_HIGH)))
+        size = imgui.get_content_region_avail().x, theme.points(_PICTURE_HIGH)
+        draw_sticks([(_HAND_NAMES.get(stick.limb, "which hand?"), stick.turn) for stick in sticks], size)
         theme.tooltip(
             "Your sticks, as you hold them; what points ahead for long is ahead. The bright face is the sensor"
         )
@@ -62,6 +77,7 @@ class SticksPanel:
         self._gesture(view, may_learn)
         self._air(view, may_learn)
         self._phase(view)
+        self._where(state.settings.sticks, may_learn)
 
     def _stick(self, stick: StickView, may_learn: bool) -> None:
         imgui.separator_text(theme.one_line(stick.device, imgui.get_content_region_avail().x - theme.points(30)))
@@ -113,6 +129,20 @@ class SticksPanel:
             self._dispatch(FollowPhase(on))
         if view.phase is not None:
             theme.soft(_phase_in_words(view.phase))
+
+    def _where(self, ports: str, may_look: bool) -> None:
+        """The ports that are listened to, and others that the user types."""
+        imgui.separator_text("Where they are")
+        typed = ports if self._ports is None else self._ports
+        imgui.set_next_item_width(-1)
+        _, typed = imgui.input_text_with_hint(PORTS_LABEL, _PORTS_HINT, typed[:_LONGEST_PORTS])
+        theme.tooltip("serial:PATH@BAUD, part of an adapter's name, or ble:NAME; a semicolon between two sensors")
+        self._ports = None if typed == ports else typed
+        imgui.begin_disabled(not may_look or typed == ports)
+        if imgui.button(LOOK_LABEL, imgui.ImVec2(-1, theme.points(38))):
+            self._dispatch(LookForSticks(typed))
+        imgui.end_disabled()
+        theme.tooltip("Listen there from now on: sound and kits are silent for a moment")
 
     def _lesson(self, lesson: Lesson) -> None:
         imgui.spacing()

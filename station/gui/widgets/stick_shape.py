@@ -19,17 +19,29 @@ Points = NDArray[np.float64]
 
 LENGTH_M = 0.406
 FULCRUM_M = LENGTH_M / 3
-_PROFILE = np.array(
-    [(0.0, 5.6), (0.004, 7.0), (0.012, 7.25), (0.29, 7.25), (0.345, 5.6), (0.388, 3.5), (0.392, 4.6), (0.399, 5.2)]
-    + [(0.404, 4.0), (0.406, 0.8)]
+_MAKERS_MM = (
+    (0, 5.6),
+    (4, 7.0),
+    (12, 7.25),
+    (290, 7.25),
+    (345, 5.6),
+    (388, 3.5),
+    (392, 4.6),
+    (399, 5.2),
+    (404, 4),
+    (406, 0.8),
 )
-"""Metres from the butt, radius in mm."""
+_PROFILE = np.array(_MAKERS_MM) / 1000.0
+"""Metres from the butt, and the radius there."""
 _SENSOR_M = (0.012, 0.045)
 """Where the sensor's mark lies, from the butt: sold sensors sit on it."""
-_MARK_HALF_M = 0.009
+_MARK_HALF_M = 0.012
 
-_ELEVATION, _AWAY_M, _WIDE = radians(24.0), 1.15, 0.62
-"""The eye: above the horizontal by so much, so far from the fulcrum; metres that the picture's height shows there."""
+_ELEVATION, _ASIDE, _AWAY_M, _HIGH_M = radians(22.0), radians(38.0), 1.15, 0.40
+"""The eye: so far above the horizontal and to the right of behind the player, so far from the fulcrum; metres that the
+picture's height shows there (our choice: how far a tip is raised, and where it points, are both seen)."""
+_THICKER = 1.5
+"""Drawn so much thicker than it is: in a small picture a stick is a line else (our choice)."""
 _LIT = np.array([-0.45, -0.35, 0.82])
 """Where the light comes from: left, behind and above."""
 _STRIPS = 7
@@ -40,8 +52,8 @@ class StickShape(NamedTuple):
     """What to paint of one stick, far before near.
 
     `strips` (strips, n, 2) run from butt to tip, each pair of neighbours the edges of a strip with a `shades` 0 … 1;
-    `sensor` (4, 2) is the sensor's upper face and `faces` 0 … 1 how much of it is seen; `shadow` (n, 2, 2) the two edges
-    of what the stick throws on the head below it.
+    `sensor` (4, 2) is the sensor's upper face and `faces` 0 … 1 how much of it is seen; `shadow` (n, 2, 2) has the two
+    edges of what the stick throws on the head below it.
     """
 
     strips: Points
@@ -60,7 +72,7 @@ def stick_shape(turn: Quaternion, below_m: float = 0.10) -> StickShape:
     side = np.cross(along, view)
     side /= max(float(np.linalg.norm(side)), 1e-9)
     front = np.cross(side, along)
-    radii = _PROFILE[:, 1] / 1000.0
+    radii = _THICKER * _PROFILE[:, 1]
     angles = np.linspace(-np.pi / 2, np.pi / 2, _STRIPS + 1)
     normals = np.sin(angles)[:, None] * side + np.cos(angles)[:, None] * front
     edges = centres[None] + radii[None, :, None] * normals[:, None, :]
@@ -81,16 +93,18 @@ def head_outline(radius_m: float, centre_m: tuple[float, float, float], points: 
 
 def projected(places: NDArray[np.float64]) -> Points:
     """Places (…, 3) in metres on the picture."""
-    x, y, z = places[..., 0], places[..., 1], places[..., 2]
+    ahead, aside, z = places[..., 1], places[..., 0], places[..., 2]
+    x = aside * cos(_ASIDE) + ahead * sin(_ASIDE)
+    y = ahead * cos(_ASIDE) - aside * sin(_ASIDE)
     c, s = cos(_ELEVATION), sin(_ELEVATION)
     depth = _AWAY_M + y * c - z * s
-    scale = _AWAY_M / np.maximum(depth, 0.1) / _WIDE
+    scale = _AWAY_M / np.maximum(depth, 0.1) / _HIGH_M
     return np.stack([x * scale, -(z * c + y * s) * scale], axis=-1)
 
 
 _AHEAD = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 """From the earth's axes with heading 0 along x to the picture's, where ahead is y and left is −x."""
-_EYE = np.array([0.0, -_AWAY_M * cos(_ELEVATION), _AWAY_M * sin(_ELEVATION)])
+_EYE = _AWAY_M * np.array([cos(_ELEVATION) * sin(_ASIDE), -cos(_ELEVATION) * cos(_ASIDE), sin(_ELEVATION)])
 
 
 def _to_eye() -> NDArray[np.float64]:
@@ -101,7 +115,7 @@ def _sensor(axes: NDArray[np.float64]) -> Points:
     """The upper face of the sensor, as wide as the stick is thick and a little more."""
     along, left, up = axes.T
     corners = [
-        (at - FULCRUM_M) * along + side * _MARK_HALF_M * left + 0.008 * up
+        (at - FULCRUM_M) * along + side * _MARK_HALF_M * left + 0.013 * up
         for at, side in ((_SENSOR_M[0], 1), (_SENSOR_M[0], -1), (_SENSOR_M[1], -1), (_SENSOR_M[1], 1))
     ]
     return projected(np.array(corners))

@@ -29,10 +29,10 @@ from station.practice.session.event_log import Ended, PassBegan, Paused, WentOn,
 from station.practice.session.judging import Judging
 from station.practice.session.pausing import NEAR_NS, SILENT_BARS, SessionPause, Silence, Stretch, bar_of, from_bar
 from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
+from station.practice.session.played_hands import PlayedHands, limbs_of
 from station.scoring.align import align
 from station.scoring.matching.alignment import Alignment
 from station.sound.track import PreparedTrack
-from station.sync.strokes.hand_naming import limb_of, strokes_of_hits
 
 LEAD_IN_NS = 300 * NS_PER_MS
 """How long after `start` the first click is heard: time for the engine to wake; our choice."""
@@ -58,8 +58,8 @@ class SessionResult:
 
     `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
     there. `device` is what most hits were played on, `output` what the click was heard on; None where there was none.
-    `pauses` are those after which it went on, each by its bar of `score`; `felt` are the hits, each with its
-    stroke, of which the sticks' sensors told the hand, in its own score's time.
+    `pauses` are those after which it went on, each by its bar of `score`; `felt` are the hits whose hand the sensors on
+    the sticks told, each with its stroke, which is in session time.
     """
 
     plan: Plan
@@ -99,7 +99,7 @@ class Session:
         self._run = Stretch(0, 0, self.plan.cues)
         self._held_ns: int | None = None  # the place on the plan's timeline, while nothing moves
         self._has_left = False  # a stroke has come after so long a silence
-        self._strokes: list[StickStroke] = []
+        self._hands = PlayedHands()
         self.paused = False
         """Whether the transport stands and waits for `resume`."""
         self.pauses: list[SessionPause] = []
@@ -158,7 +158,6 @@ class Session:
             return ()
         bar = 0 if whole else bar_of(self.plan.score, self._judging.last_ns)
         self._run = from_bar(self.plan, bar)
-        self._strokes = [stroke for stroke in self._strokes if stroke.at_ns < self._run.from_ns]
         self.pauses.append(SessionPause(bar, asked, self._judging.forget_from(self._run.from_ns)))
         self.heard.zero_ns, self.paused = None, False
         self._held_ns = self.plan.passes_start_ns + self._run.from_ns
@@ -178,9 +177,7 @@ class Session:
                 if self._held_ns is None and (score_ns := self._score_of(event)) is not None:
                     self._judging.chokes.append(replace(event, at_ns=score_ns))
             case StickStroke():
-                felt_ns = self._score_ns(event.at_ns)
-                if self._held_ns is None and felt_ns is not None:
-                    self._strokes.append(replace(event, at_ns=felt_ns))
+                self._hands.strokes.append(event)
             case _:
                 pass
         return ()
@@ -200,7 +197,9 @@ class Session:
         if self.waits and self.plan.click is not None and (self._has_left or self._is_silent_at(score_ns)):
             self._has_left = True  # they come back: however rarely anybody looks, the silence before it counts
             return ()
-        return self._judging.hit(replace(hit, at_ns=score_ns))
+        judged = replace(hit, at_ns=score_ns)
+        self._hands.judged(judged, hit.at_ns - self.latency.of_stroke(hit.device, hit.piece))
+        return self._judging.hit(judged)
 
     # --- output -----------------------------------------------------------------------------------------------------
 
@@ -256,9 +255,8 @@ class Session:
 
     def result(self) -> SessionResult:
         """The final alignment of all that was heard so far."""
-        hits, strokes = self._judging.hits, strokes_of_hits(self._judging.hits, self._strokes)
-        limbs = [limb_of(hit, stroke) for hit, stroke in zip(hits, strokes, strict=True)] if self._strokes else None
-        performance, last_ns = self._judging.performance(limbs), self._judging.last_ns
+        felt = self._hands.felt(self._judging.hits)
+        performance, last_ns = self._judging.performance(limbs_of(self._judging.hits, felt)), self._judging.last_ns
         heard_until_ns = self.state().score_ns
         if self.paused:  # what came after the last stroke is nobody's
             heard_until_ns = 0 if last_ns is None else last_ns + NEAR_NS
@@ -275,7 +273,7 @@ class Session:
             self._played_on(),
             self.heard.output,
             tuple(self.pauses),
-            tuple((hit, stroke) for hit, stroke in zip(hits, strokes, strict=True) if stroke is not None),
+            tuple((hit, stroke) for hit, stroke in zip(self._judging.hits, felt, strict=False) if stroke is not None),
         )
 
     def _played_on(self) -> str | None:

@@ -5,6 +5,7 @@ them.
 """
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from station.core.pieces import Limb
 from station.render.palette import INK_FAINT, INK_SOFT, with_opacity
 from station.render.phase.phase_plot import LIMB_COLOURS, PLAIN
 from station.render.report.report_layout import ReportBox
-from station.render.text.draw_list import Colour, DrawList
+from station.render.text.draw_list import Colour
 
 YAW_RAD, PITCH_RAD = np.radians(-62.0), np.radians(10.0)
 """How the camera looks at a body that walks along z: almost from its right, a little from above (our choice: it walks
@@ -23,6 +24,25 @@ _HEIGHT_M, _LOW_M = 2.15, -0.22
 _TILE_M, _TILES = 0.5, 5
 """The floor's lines, and how many to each side."""
 _BONE, _JOINT, _STRUCK = 6.0, 4.2, 15.0
+
+
+class Brush(Protocol):
+    """What draws it: a `DrawList`, or a panel of the window; x right, y down."""
+
+    def line(self, start: tuple[float, float], end: tuple[float, float], width: float, colour: Colour) -> None:
+        """A straight line."""
+        ...
+
+    def ellipse(
+        self,
+        centre: tuple[float, float],
+        half: tuple[float, float],
+        colour: Colour,
+        turn_rad: float = 0.0,
+        style: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    ) -> None:
+        """An ellipse; the second of `style` is the width of its line, 0 fills it."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,23 +77,23 @@ def _side(name: str) -> Limb:
 
 
 def draw_walker(
-    draw_list: DrawList, walker: Walker, places: NDArray[np.float64], box: ReportBox, struck: dict[Limb, float]
+    brush: Brush, walker: Walker, places: NDArray[np.float64], box: ReportBox, struck: dict[Limb, float]
 ) -> None:
     """Draw the body at `places` (joints, 3) into `box`; `struck` says how brightly a foot's trigger still shows."""
     view = _View.at(places[walker.root], box)
-    _floor(draw_list, view)
+    _floor(brush, view)
     points = [view.point(place) for place in places]
     depth = places @ view.towards
     for number in np.argsort([depth[list(bone)].mean() for bone in walker.bones]).tolist():
         (parent, child), side = walker.bones[number], walker.sides[number]
         colour = _colour(side)
-        draw_list.line(points[parent], points[child], _BONE * view.pixels_m / 220, colour)
-        draw_list.ellipse(points[child], (_JOINT * view.pixels_m / 220,) * 2, colour)
+        brush.line(points[parent], points[child], _BONE * view.pixels_m / 220, colour)
+        brush.ellipse(points[child], (_JOINT * view.pixels_m / 220,) * 2, colour)
     for limb, joint in walker.feet:
         if glow := struck.get(limb, 0.0):
             radius = _STRUCK * (2.0 - glow)
             ring = with_opacity(_colour(limb), glow)
-            draw_list.ellipse(view.floor_below(places[joint]), (radius, 0.45 * radius), ring, 0.0, (0.0, 3.0, 0.0))
+            brush.ellipse(view.floor_below(places[joint]), (radius, 0.45 * radius), ring, 0.0, (0.0, 3.0, 0.0))
 
 
 def _colour(side: Limb) -> Colour:
@@ -112,7 +132,7 @@ class _View:
         return self.point(place * (1.0, 0.0, 1.0))
 
 
-def _floor(draw_list: DrawList, view: _View) -> None:
+def _floor(brush: Brush, view: _View) -> None:
     """Lines that stand on the floor, so that the body goes past them; paler the farther from it."""
     base = np.floor(view.origin / _TILE_M) * _TILE_M
     reach = _TILES * _TILE_M
@@ -123,12 +143,10 @@ def _floor(draw_list: DrawList, view: _View) -> None:
             ends[:, along] = view.origin[along] + np.array([-reach, reach])
             near = 1.0 - abs(ends[0, axis] - view.origin[axis]) / (reach + _TILE_M)
             colour = with_opacity(INK_SOFT if k == 0 else INK_FAINT, 0.55 * max(near, 0.0))
-            _clipped_line(draw_list, view.point(ends[0]), view.point(ends[1]), view.box, colour)
+            _clipped_line(brush, view.point(ends[0]), view.point(ends[1]), view.box, colour)
 
 
-def _clipped_line(
-    draw_list: DrawList, a: tuple[float, float], b: tuple[float, float], box: ReportBox, colour: Colour
-) -> None:
+def _clipped_line(brush: Brush, a: tuple[float, float], b: tuple[float, float], box: ReportBox, colour: Colour) -> None:
     """The part of a line within `box`, if there is one (Liang and Barsky 1984)."""
     first, last = 0.0, 1.0
     way = (b[0] - a[0], b[1] - a[1])
@@ -142,4 +160,4 @@ def _clipped_line(
             last = min(last, room / run)
     if first < last:
         start, end = ((a[0] + t * way[0], a[1] + t * way[1]) for t in (first, last))
-        draw_list.line(start, end, 1.2, colour)
+        brush.line(start, end, 1.2, colour)

@@ -22,6 +22,9 @@ HARD_CONTACT_S = 0.0012
 HEAD_REBOUND, HARD_REBOUND = (0.35, 0.60), (0.20, 0.40)
 """Speed after over before: 0.51 was measured on a head (Pearl 2023); a cymbal yields and takes more (our choice)."""
 AIR_REBOUND = (0.05, 0.25)
+AIR_SCATTER_RAD = (0.09, 0.12)
+"""In the air nothing is there to aim at: strokes meant for one place scatter by 5° to the sides and 7° up and down
+(one deviation; our choice, somewhat under what half a minute of playing spreads over in `data/imu/airdrums`)."""
 AIR_STOP_S = (0.045, 0.075)
 """How a hand stops a stick in the air; our choice: slower than any head, as fast as forearm muscles reverse."""
 
@@ -31,13 +34,17 @@ BOUNCE_KEEPS = 0.78
 above some 30 a second)."""
 SHOULDER_M = 0.33
 """Where the shoulder strikes a crash's edge, from the butt; our choice: between the tip's taper and the middle."""
-IMPACT_ANGLE_RAD = (-0.02, 0.14)
-"""The stick's elevation as it touches a flat pad; our choice: 0–8° keeps the bead on the head."""
+IMPACT_ANGLE_RAD, ANGLE_SD_RAD = (-0.02, 0.14), 0.01
+"""The stick's elevation as it touches a flat pad: 0–8° keeps the bead on the head. A hand has its habit on each piece
+and strays from it by half a degree (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """One touch. `spec` its row in the specification, `bounce` 0 for the stroke itself, 1 … for a buzz's bounces."""
+    """One touch. `spec` its row in the specification, `bounce` 0 for the stroke itself, 1 … for a buzz's bounces.
+
+    `angle_rad` the stick's elevation at its beginning, `aside_rad` how far to the left of its aim it points.
+    """
 
     spec: int
     bounce: int
@@ -52,6 +59,7 @@ class Contact:
     height_m: float
     struck_m: float
     angle_rad: float
+    aside_rad: float = 0.0
 
     @property
     def end_s(self) -> float:
@@ -71,12 +79,17 @@ class Contact:
 
 def contacts(strokes: Sequence[StickStrokeSpec], rng: np.random.Generator) -> list[Contact]:
     """Every touch of `strokes`, by time; several hands may be among them."""
-    touches = [c for row, stroke in enumerate(strokes) for c in _touches(row, stroke, rng)]
+    low, high = IMPACT_ANGLE_RAD
+    habits = {limb: low + (high - low) * rng.uniform(size=len(Piece)) for limb in Limb}
+    touches = []
+    for row, stroke in enumerate(strokes):
+        angle = float(habits[stroke.limb][stroke.piece] + rng.normal(0, ANGLE_SD_RAD))
+        touches += _touches(row, stroke, angle, rng)
     return _apart(sorted(touches, key=lambda c: c.onset_s))
 
 
-def _touches(row: int, stroke: StickStrokeSpec, rng: np.random.Generator) -> list[Contact]:
-    first = _first_touch(row, stroke, rng)
+def _touches(row: int, stroke: StickStrokeSpec, angle_rad: float, rng: np.random.Generator) -> list[Contact]:
+    first = _first_touch(row, stroke, angle_rad, rng)
     if stroke.kind is not StrokeKind.BUZZ:
         return [first]
     touches, at_s, speed = [first], first.onset_s, first.speed_m_s
@@ -87,7 +100,7 @@ def _touches(row: int, stroke: StickStrokeSpec, rng: np.random.Generator) -> lis
     return touches
 
 
-def _first_touch(row: int, stroke: StickStrokeSpec, rng: np.random.Generator) -> Contact:
+def _first_touch(row: int, stroke: StickStrokeSpec, angle_rad: float, rng: np.random.Generator) -> Contact:
     hard = stroke.zone in (Zone.RIM, Zone.EDGE, Zone.BELL, Zone.BOW) or stroke.piece in CYMBALS
     hard = hard or stroke.kind is StrokeKind.CLICK
     in_air = stroke.kind is StrokeKind.AIR
@@ -109,7 +122,8 @@ def _first_touch(row: int, stroke: StickStrokeSpec, rng: np.random.Generator) ->
         rebound=drawn if stroke.rebound is None else stroke.rebound,
         height_m=height_for(stroke.speed_m_s) if stroke.height_m is None else stroke.height_m,
         struck_m=SHOULDER_M if stroke.shoulder else LENGTH_M,
-        angle_rad=float(rng.uniform(*IMPACT_ANGLE_RAD)),
+        angle_rad=angle_rad + in_air * rng.normal(0, AIR_SCATTER_RAD[1]),
+        aside_rad=in_air * rng.normal(0, AIR_SCATTER_RAD[0]),
     )
 
 

@@ -21,8 +21,9 @@ ADDED = ("x_m", "y_m", "z_m", "turn_rad", "rise_rad", "roll_rad", "calm")
 _LASTING = (GestureKind.REGRIP, GestureKind.TWIRL)
 """A stick that was turned stays turned."""
 
-EASE_S = 0.25
-"""How long a gesture takes to begin and to end, where it lasts long enough (our choice)."""
+EASE_S = 0.4
+"""How long a gesture takes to begin and to end, where it lasts long enough: a hand in a hurry reaches 40 cm in 0.25 s
+(`shared/HUMANS.md`), one at ease takes half as long again (our choice)."""
 
 
 def added_motion(gestures: Sequence[StickGesture], times_s: Floats, base: Floats) -> dict[str, Floats]:

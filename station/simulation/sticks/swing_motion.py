@@ -27,7 +27,7 @@ Floats = NDArray[np.float64]
 FINE_HZ = 8000
 """Steps of the path a second; our choice: ten for the shortest contact, far beyond any sensor's band."""
 
-TRAVEL_M_S, LEAST_TRAVEL_S, MOST_TRAVEL_S = 1.6, 0.05, 0.5
+LEAST_TRAVEL_S, MOST_TRAVEL_S = 0.05, 0.5
 """A reach of 40 cm takes about 0.25 s (`shared/HUMANS.md`), less where there is no time."""
 TREMOR_HZ, TREMOR_RAD, TREMOR_M = (8.0, 12.0), 0.002, 0.0002
 """Physiological tremor of a hand: 8–12 Hz, a fraction of a millimetre (Elble & Koller 1990)."""
@@ -174,7 +174,7 @@ def _targets(touches: Sequence[Contact], limb: Limb, time_s: Floats) -> tuple[Fl
     aims = []
     for touch in touches:
         at = CLICK_PLACE if touch.kind is StrokeKind.CLICK else place(touch.piece)
-        aims.append((*at, heading_rad(limb, at), touch.angle_rad, touch.struck_m - FULCRUM_M))
+        aims.append((*at, heading_rad(limb, at) + touch.aside_rad, touch.angle_rad, touch.struck_m - FULCRUM_M))
     if not aims:
         at = place(Piece.SNARE)
         aims = [(*at, heading_rad(limb, at), 0.05, REACH_M)]

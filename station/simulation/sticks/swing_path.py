@@ -38,6 +38,15 @@ def along(knots: Sequence[Knot], times_s: NDArray[np.float64]) -> NDArray[np.flo
     return result
 
 
+def knot_between(first: Knot, second: Knot, share: float) -> Knot:
+    """The knot at `share` 0 … 1 of the time from one knot to the next, on the path between them."""
+    span = second.at_s - first.at_s
+    weights = _weights(np.array([first, second]), np.array([span]))[0]
+    path = np.polynomial.Polynomial(weights)
+    place, speed, push = path(share), path.deriv()(share), path.deriv(2)(share)
+    return Knot(first.at_s + share * span, float(place), float(speed) / span, float(push) / span**2)
+
+
 def smooth_steps(times: Sequence[tuple[float, float, float]], at_s: NDArray[np.float64]) -> NDArray[np.float64]:
     """A coordinate that moves by minimum jerk: each step is (from_s, to_s, the place it arrives at), in order."""
     knots = [Knot(times[0][0], times[0][2])]

@@ -6,12 +6,11 @@ Given a stroke's height H and speed v, the last descent takes `DESCENT`·H/v; th
 the stick turns in it, and is slow again when the stick strikes (a whip from proximal to distal).
 """
 
-import math
 from collections.abc import Sequence
 
 from station.simulation.sticks.swing_body import FULCRUM_M, LENGTH_M
 from station.simulation.sticks.swing_contact import Contact
-from station.simulation.sticks.swing_path import Knot
+from station.simulation.sticks.swing_path import Knot, knot_between
 from station.simulation.sticks.swing_spec import StrokeKind
 
 DESCENT = 2.2
@@ -27,35 +26,28 @@ WAIT_S = 0.10
 """How long a caught stick at least stays low before the next lift, where there is time (our choice)."""
 LIFT_M_S = 2.3
 """The tip's greatest speed when it is raised (Pearl 2023)."""
+QUICK_LIFT_S, CALM_LIFT_S = 0.06, 0.15
+"""The shortest time that a lift takes, and the least where there is no hurry (our choice)."""
 TOP_S = 0.12
 """How long the slow fall at the top takes (−212 … −120 ms in Pearl 2023), where there is time."""
 LEAST_DOWN = 0.35
 """The least share of a short gap that the descent takes: muscles need time to turn the stick round (our choice)."""
-HIGHEST_ANGLE_RAD = math.radians(68)
-"""The stick's elevation at the top of the highest strokes (0–71° in Pearl 2023)."""
-LOW_HAND = 0.10
-"""Share of low strokes that the hand itself rises; experts move the distal joints more (Altenmüller 2020)."""
-HAND_SPEED = 0.38
-"""The hand's speed at the touch for one unit of (its rise / the stick's rise) of the tip's: 0.22 for .58 (Pearl 2023:
-2.1 of 9.4 m/s)."""
+LOW_HAND, MORE_HAND = 0.18, 0.655
+"""The hand's rise for a tip at h is h·(0.18 + 0.655 h): 28, 45 and 55 % at 15, 40 and 56 cm. In the descent of Pearl
+2023 it was 30, 46 and 58 %, with a reach of 23 cm instead of 27; a hand's share of soft strokes is small, as experts
+move the distal joints more (Altenmüller 2020)."""
+TURNED_M = (1 - LOW_HAND) / (2 * MORE_HAND)
+"""From here on (63 cm) the stick turns no further and the hand does the rest."""
 AIR_HAND = 0.4
 """In the air the forearm stops with the stick, which turns about a point 18 cm behind the fulcrum, half way to the
 elbow: the hand has 18/(18 + 27) of the tip's motion (our choice)."""
-HAND_STOPS_S = 0.015
-"""How long the hand goes on after the touch (10 ms in Pearl 2023, filtered)."""
-
-SLOPE_STEP_M = 1e-6
-"""Small enough for a slope."""
-
 REACH_M = LENGTH_M - FULCRUM_M
 
 
 def hand_rise(height_m: float) -> float:
-    """How far the hand rises for a tip that rises `height_m`, in m: little at first, all that the stick cannot."""
-    turned = REACH_M * math.sin(HIGHEST_ANGLE_RAD)
-    knee = 0.03  # metres over which the stick's turn gives way to the arm; our choice
-    beyond = height_m * (1 - LOW_HAND) - turned
-    return height_m * LOW_HAND + knee * math.log1p(math.exp(min(beyond / knee, 50.0)))
+    """How far the hand rises for a tip that rises `height_m`, in m: little at first, all of it beyond `TURNED_M`."""
+    turned = min(max(height_m, 0.0), TURNED_M)
+    return turned * (LOW_HAND + MORE_HAND * turned) + max(height_m - TURNED_M, 0.0)
 
 
 def tip_knots(touches: Sequence[Contact], lead_s: float) -> list[Knot]:
@@ -84,15 +76,18 @@ def hand_knots(tip: Sequence[Knot], touches: Sequence[Contact]) -> list[Knot]:
         owner = struck or left or coming
         if owner is not None and owner.kind is StrokeKind.AIR:
             knots.append(Knot(knot.at_s, *(AIR_HAND * value for value in knot[1:])))
-        elif struck is not None:
-            risen = max(before.place, 1e-3)
-            speed = -knot.speed * min(HAND_SPEED * hand_rise(risen) / risen, 0.4)
-            knots.append(Knot(knot.at_s, speed * HAND_STOPS_S / 2.5, -speed))
         elif left is None:
-            place = max(knot.place, 0.0)
-            share = (hand_rise(place + SLOPE_STEP_M) - hand_rise(place)) / SLOPE_STEP_M
-            knots.append(Knot(knot.at_s, hand_rise(place), share * knot.speed, share * knot.push))
+            knots.append(_led(knot))
+        if struck is not None and struck.kind is not StrokeKind.AIR:
+            knots += [_led(knot_between(before, knot, share)) for share in (0.85, 0.7, 0.5, 0.25)]
     return knots[::-1]
+
+
+def _led(knot: Knot) -> Knot:
+    """Where the hand is, how fast and how pushed, when the tip is at `knot`: `hand_rise` and its derivatives."""
+    low, turned = max(knot.place, 0.0), knot.place < TURNED_M
+    slope, bend = (LOW_HAND + 2 * MORE_HAND * low, 2 * MORE_HAND) if turned else (1.0, 0.0)
+    return Knot(knot.at_s, hand_rise(low), slope * knot.speed, slope * knot.push + bend * knot.speed**2)
 
 
 def _between(left: Knot, touch: Contact, following: Contact) -> list[Knot]:
@@ -100,7 +95,7 @@ def _between(left: Knot, touch: Contact, following: Contact) -> list[Knot]:
     gap = following.onset_s - left.at_s
     caught = _caught(left, touch.kind is StrokeKind.AIR)
     down = DESCENT * following.height_m * (1 - SLOW_FALL) / following.speed_m_s
-    up = max(0.06, 2.0 * max(following.height_m - caught.place, 0.0) / LIFT_M_S)
+    up = max(QUICK_LIFT_S, 2.0 * max(following.height_m - caught.place, 0.0) / LIFT_M_S)
     if gap < caught.at_s - left.at_s + up + down:
         return [_bounce(left, gap, following)]
     if touch.kind.is_caught and gap > caught.at_s - left.at_s + WAIT_S + up + down:
@@ -122,8 +117,10 @@ def _bounce(left: Knot, gap: float, following: Contact) -> Knot:
 def _late_rise(from_s: float, place: float, following: Contact) -> list[Knot]:
     """Wait, then rise in time for `following`."""
     down = DESCENT * following.height_m * (1 - SLOW_FALL) / following.speed_m_s
-    up = max(0.06, 2.0 * max(following.height_m - place, 0.0) / LIFT_M_S)
-    start = following.onset_s - down - TOP_S / 2 - up
+    latest = following.onset_s - down - TOP_S / 2
+    quick = max(QUICK_LIFT_S, 2.0 * max(following.height_m - place, 0.0) / LIFT_M_S)
+    up = max(quick, min(CALM_LIFT_S, latest - from_s))
+    start = latest - up
     waited = [Knot(start, place)] if start > from_s + 0.01 else []
     return waited + _top(max(start, from_s) + up, following)
 

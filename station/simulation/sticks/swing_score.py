@@ -18,6 +18,8 @@ FLAM_S, DRAG_S = 0.028, 0.055
 """A flam's grace stroke comes 15–40 ms early, a drag's notes are 40–70 ms apart (`shared/HUMANS.md`)."""
 GRACE, ACCENT = 0.4, 1.45
 """Grace strokes have 25–50 % of the main velocity; an accent of 116 stands beside a normal 80 (`shared/HUMANS.md`)."""
+FREE_S = 0.18
+"""Time for a hand to strike, travel 30 cm at 3 m/s and strike again (`shared/HUMANS.md`)."""
 SPEED_FOR_VELOCITY = 1.25
 """A velocity that is 1 % higher needs a tip about 1.25 % faster: `speed_for_velocity` from 40 to 112, in logarithms."""
 _HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
@@ -37,8 +39,9 @@ LOW_M = 0.09
 class PlayerSpec:
     """A player: the beat's own unsteadiness as a share of the interval, the hands' in s, the velocities' as a share.
 
-    `wrong_sticking` is the share of strokes that the other hand plays; `correction` how much of an error to the click
-    is taken back, per second. A professional by `shared/HUMANS.md`: 2–3 %, 4–8 ms, 6–10 %; `correction` is our choice.
+    `wrong_sticking` is the share of strokes that the other hand plays where it is free; `correction` how much of an
+    error to the click is taken back, per second (our choice). A professional by `shared/HUMANS.md`: 2–3 %, 4–8 ms,
+    6–10 %.
     """
 
     clock_share: float = 0.025
@@ -114,7 +117,7 @@ def as_played_by(player: PlayerSpec, strokes: Sequence[StickStrokeSpec], seed: i
         force = float(np.exp(rng.normal(0, player.force_share)))
         speed = stroke.speed_m_s * force**SPEED_FOR_VELOCITY
         height = height_for(speed) if stroke.height_m is None else stroke.height_m
-        wrong = rng.uniform() < player.wrong_sticking
+        wrong = rng.uniform() < player.wrong_sticking and _is_free(_OTHER[stroke.limb], stroke.at_s, ordered)
         played.append(
             replace(
                 stroke,
@@ -125,6 +128,11 @@ def as_played_by(player: PlayerSpec, strokes: Sequence[StickStrokeSpec], seed: i
             )
         )
     return sorted(played, key=lambda stroke: stroke.at_s)
+
+
+def _is_free(hand: Limb, at_s: float, strokes: Sequence[StickStrokeSpec]) -> bool:
+    """Whether `hand` can take over a stroke: it has none of its own within `FREE_S`."""
+    return all(abs(stroke.at_s - at_s) >= FREE_S for stroke in strokes if stroke.limb is hand)
 
 
 def _lean_s(gaps_s: NDArray[np.float64], player: PlayerSpec, rng: np.random.Generator) -> NDArray[np.float64]:

@@ -17,11 +17,16 @@ is foretold (`air_latency`): its time may then lie in the future, and it should 
 from station.core.events import Hit, PhaseEstimate
 from station.core.imu import Mounting
 from station.core.pieces import Limb, Piece
+from station.core.units import NS_PER_MS
 from station.sync.air.air_hand import AirCall, AirHand
 from station.sync.air.air_status import AirStatus
 from station.sync.air.air_zones import AIR_DEVICE, AirKit, velocity_of
 from station.sync.air.zone_learning import AirAim, ZoneLearning
 from station.sync.strokes.stick_orientation import StickMotion
+
+AIR_AHEAD_NS = 20 * NS_PER_MS
+"""How long before its beat a stroke in the air may sound where it is foretold; our choice: about the latency of a sound
+card and a wireless sensor together."""
 
 
 class AirDrums:

@@ -61,7 +61,7 @@ class StrokeForecast:
 
     def beat_ns(self, fastest: Swing, now: Swing) -> int | None:
         """When the beat of a stroke that is being braked comes, or None where that is not sure."""
-        if now.down_m_s >= BRAKED * fastest.down_m_s:
+        if now.speed_m_s >= BRAKED * fastest.speed_m_s:
             return None
         if self._braked is None or self._braked[0] != fastest.at_ns:
             self._braked = fastest.at_ns, brake_of(fastest, now)

@@ -6,18 +6,17 @@ timing?", NIME 2014, measured it: that peak comes at the same time whatever the 
 (the lowest point) comes after the beat, at a time that varies with the tempo. He measured hands; here it is the
 stick's tip, where it is sharpest and does not depend on where the sensor sits.
 
-A stroke is: the tip falls (`STARTS_M_S`), is braked by half its weight or more, and loses much of its speed within a
-moment. The peak of acceleration counts from the fastest point on, for the push that starts a stroke has a peak of its
-own. A stick that turns sideways, is lowered or twirled, or comes up, makes none. The next one needs the stick to have
-risen again: armed by angle, not by time.
+A stroke is: the tip falls (`STARTS_M_S`) and loses much of its speed within a moment. The peak of acceleration counts
+from the fastest point on, for the push that starts a stroke has a peak of its own. A stick that turns sideways, is
+lowered or twirled, or comes up, makes none. The next one needs the stick to have risen again: armed by angle, not by
+time.
 """
 
 from enum import Enum, auto
 from math import radians
 from typing import NamedTuple
 
-from station.core.imu import STANDARD_GRAVITY_M_S2
-from station.core.units import NS_PER_S
+from station.core.units import NS_PER_MS, NS_PER_S
 from station.sync.air.stick_swing import Swing, wrapped
 
 STARTS_M_S = 0.2
@@ -33,16 +32,14 @@ BRAKED = 0.9
 """Below this share of its greatest speed a tip is being braked: beyond what noise does (our choice)."""
 _STOPPED = 0.6
 """Below this share a stroke is told from a fall that goes on; our choice: a bell-shaped brake peaks at half."""
-_SLOWED = 0.75
-"""The tip has lost a quarter of its speed in all directions too: a stick that swings through sideways has not (our
-choice)."""
 _PAST_PEAK = 0.97
 """Acceleration below this share of its highest is past the peak: beyond what noise does (our choice)."""
 _TURNED_BACK = 0.5
 """A stick that goes up at this share of the speed it fell with has struck, wherever its peak was (our choice)."""
-_LEAST_BRAKE_M_S2 = STANDARD_GRAVITY_M_S2 / 2.0
-"""Softer braking is a stick that is lowered; our choice: 1 m/s lost in 200 ms."""
-_LONGEST_BRAKE_NS = 250_000_000
+_LONGEST_STOP_NS = 25 * NS_PER_MS
+"""From `BRAKED` to `_STOPPED` a stroke takes no longer. A hand that goes to and fro at 3 Hz would take so long, one at
+5–7 Hz (HUMANS) 11–15 ms; a stick that is lowered within a quarter of a second takes 31 (by minimum jerk)."""
+_LONGEST_BRAKE_NS = 250 * NS_PER_MS
 """Longer is no stop; our choice: a second's quarter is two strokes of a fast hand (HUMANS: 5–7 Hz)."""
 _RISEN_RAD, _RISEN_SHARE = radians(3.0), 0.2
 """A stick that has risen by this, and by this share of its last fall, may strike again (our choice)."""
@@ -58,6 +55,8 @@ def most_strokes_hz(rate_hz: float) -> float:
 class _State(Enum):
     SPENT = auto()
     """Has struck, and has not risen since."""
+    LOWERED = auto()
+    """Has fallen and was slowed too gently for a stroke; falls on."""
     ARMED = auto()
     FALLS = auto()
     BRAKES = auto()
@@ -84,6 +83,7 @@ class AirStrokes:
         self.unresolved = 0
         self._state = _State.ARMED
         self._top_rad = self._lowest_rad = self._fall_rad = 0.0
+        self._slowest_m_s = 0.0
         self._samples = 0
         self._since_fastest: list[Swing] = []
 
@@ -100,6 +100,8 @@ class AirStrokes:
         """The stroke that is certain with this sample, or None."""
         if self._state is _State.SPENT:
             self._rest(swing)
+        elif self._state is _State.LOWERED:
+            self._lower(swing)
         elif self._state is _State.ARMED:
             self._wait(swing)
         else:
@@ -111,6 +113,12 @@ class AirStrokes:
         if swing.elevation_rad - self._lowest_rad >= max(_RISEN_RAD, _RISEN_SHARE * self._fall_rad):
             self._state, self._top_rad = _State.ARMED, swing.elevation_rad
 
+    def _lower(self, swing: Swing) -> None:
+        self._slowest_m_s = min(self._slowest_m_s, swing.down_m_s)
+        if swing.down_m_s < STARTS_M_S or BRAKED * swing.down_m_s > self._slowest_m_s:
+            self._state = _State.ARMED
+            self._wait(swing)
+
     def _wait(self, swing: Swing) -> None:
         self._top_rad = max(self._top_rad, swing.elevation_rad)
         if swing.down_m_s >= STARTS_M_S:
@@ -120,42 +128,55 @@ class AirStrokes:
         """A sample of the fall or of what brakes it."""
         self._samples += 1
         fastest = self._since_fastest[0]
-        if swing.down_m_s >= fastest.down_m_s:
+        if swing.speed_m_s >= fastest.speed_m_s and swing.down_m_s > 0.0:
             self._state, self._since_fastest = _State.FALLS, [swing]
             return None
         self._since_fastest.append(swing)
-        if swing.down_m_s < BRAKED * fastest.down_m_s:
+        if swing.speed_m_s < BRAKED * fastest.speed_m_s:
             self._state = _State.BRAKES
         if swing.at_ns - fastest.at_ns > _LONGEST_BRAKE_NS:
-            self._state, self._since_fastest = _State.ARMED, []
+            self._lowered(swing)
             return None
         return self._told(swing) if self._state is _State.BRAKES else None
 
     def _told(self, swing: Swing) -> AirBeat | None:
         fastest = self._since_fastest[0]
-        if swing.down_m_s > _STOPPED * fastest.down_m_s:
+        if swing.speed_m_s > _STOPPED * fastest.speed_m_s and swing.down_m_s > 0.0:
             return None
         hardest = max(range(len(self._since_fastest)), key=lambda index: self._since_fastest[index].jolt_m_s2)
         past = swing.jolt_m_s2 <= _PAST_PEAK * self._since_fastest[hardest].jolt_m_s2
         if not past and swing.down_m_s > -_TURNED_BACK * fastest.down_m_s:
             return None
         if not self._is_stroke(swing):
-            self._state, self._since_fastest = _State.ARMED, []
+            self._lowered(swing)
             return None
         beat = self._beat(hardest)
         self._fall_rad = self._top_rad - swing.elevation_rad
         self._state, self._lowest_rad, self._since_fastest = _State.SPENT, swing.elevation_rad, []
         return beat
 
+    def _lowered(self, swing: Swing) -> None:
+        self._state, self._slowest_m_s, self._since_fastest = _State.LOWERED, swing.down_m_s, []
+
     def _is_stroke(self, swing: Swing) -> bool:
         """Whether the fall that this sample ends was meant to strike."""
-        fastest = self._since_fastest[0]
-        is_slowed = swing.speed_m_s <= _SLOWED * fastest.speed_m_s
-        meant = self._is_swung(swing) and is_slowed and brake_of(fastest, swing) >= _LEAST_BRAKE_M_S2
+        braked_ns, stopped_ns = self._passed_ns(BRAKED), self._passed_ns(_STOPPED)
+        is_stopped = braked_ns is not None and stopped_ns is not None and stopped_ns - braked_ns <= _LONGEST_STOP_NS
+        meant = is_stopped and self._is_swung(swing)
         if meant and self._samples < _FEWEST_SAMPLES:
             self.unresolved += 1
             return False
         return meant
+
+    def _passed_ns(self, share: float) -> int | None:
+        """When the tip first had less than this share of its greatest speed, between samples; None if it has more."""
+        run, below = self._since_fastest, share * self._since_fastest[0].speed_m_s
+        after = next((index for index, swing in enumerate(run) if swing.speed_m_s <= below), None)
+        if after is None:
+            return None
+        one, other = run[after - 1], run[after]
+        part = (one.speed_m_s - below) / (one.speed_m_s - other.speed_m_s)
+        return one.at_ns + round((other.at_ns - one.at_ns) * part)
 
     def _is_swung(self, swing: Swing) -> bool:
         """Whether it fell as fast, as straight down and as far as a stroke does."""
@@ -182,8 +203,8 @@ class AirStrokes:
 
 
 def brake_of(fastest: Swing, now: Swing) -> float:
-    """How hard the tip's fall has been braked since its fastest point, m/s²; `now` is later."""
-    return (fastest.down_m_s - now.down_m_s) * NS_PER_S / (now.at_ns - fastest.at_ns)
+    """How hard the tip has been braked since its fastest point, m/s²; `now` is later."""
+    return (fastest.speed_m_s - now.speed_m_s) * NS_PER_S / (now.at_ns - fastest.at_ns)
 
 
 def _vertex(before: float, peak: float, after: float) -> float:

@@ -28,6 +28,9 @@ _OWN_SD = radians(4.0)
 """How far a zone may come to lie from where it was learnt: as far as strokes scatter (our choice)."""
 _OWN_WALK = radians(0.05)
 """How much it moves from stroke to stroke (our choice: half a degree in a hundred strokes)."""
+_ASTRAY = 3.0
+"""A stroke that is known to mean a zone and lies so many deviations beside it says that the heading was wrong: of
+strokes whose heading is right one in 370 does (normal distribution)."""
 _TURN, _RATE, _FIRST = 0, 1, 2
 """Places in the state: heading turned, its rate, and the zones' own from there on."""
 
@@ -94,6 +97,10 @@ class HeadingTracker:
 
     def fix(self, at_ns: int, index: int, heading_rad: float) -> None:
         """A stroke that is known to have meant zone `index`: a pad was hit there, or the player was asked for it."""
+        if not self.lost:
+            miss, deviation, _, _ = self._miss(index, *self._moved(at_ns), heading_rad, 0.0)
+            if abs(miss) > _ASTRAY * deviation:
+                self.lose()
         if self.lost:
             zone = self.zones[index]
             self._state[_TURN] = wrapped(heading_rad - zone.heading_rad - self._state[_FIRST + index])

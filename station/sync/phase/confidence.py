@@ -26,7 +26,6 @@ CMU trials (docs/phase.md): walks have E1 0.85 to 0.99 with a model of another p
 LOCKED, LOST = 0.6, 0.3
 """Confidence that locks, and below which the lock is lost (our choice: a doubtful step does not flicker)."""
 _FULL_ENERGY = (SIZE[1] ** 2, LARGEST_SIZE[1] ** 2)
-_BLOCK = 64
 
 
 def weight_of_newest(cadence_rad: float) -> float:
@@ -77,23 +76,6 @@ def locks(confidence: FloatArray) -> npt.NDArray[np.bool_]:
     last = np.maximum.accumulate(np.where(said != 0, np.arange(len(said)), 0))
     locked: npt.NDArray[np.bool_] = said[last] > 0
     return locked
-
-
-def running_means(values: FloatArray, weight: float) -> FloatArray:
-    """The exponentially weighted means (k, n) of values (k, n), from 0 on, as `Confidence` steps them."""
-    rows, count = values.shape
-    blocks = -(-count // _BLOCK)
-    padded = np.zeros((rows, blocks * _BLOCK))
-    padded[:, :count] = values
-    ages = np.arange(_BLOCK)[None, :] - np.arange(_BLOCK)[:, None]
-    spread = np.where(ages >= 0, weight * (1 - weight) ** np.maximum(ages, 0), 0.0)
-    means = padded.reshape(rows, blocks, _BLOCK) @ spread
-    decay = (1 - weight) ** np.arange(1, _BLOCK + 1)
-    carried = np.zeros(rows)
-    for block in range(blocks):
-        means[:, block] += carried[:, None] * decay
-        carried = means[:, block, -1]
-    return means.reshape(rows, -1)[:, :count]
 
 
 def _part(value: float, ramp: tuple[float, float]) -> float:

@@ -4,6 +4,7 @@ A cycle reaches from one reference to the next. Boyd and Godbout 2012, § 3.1, t
 positive slope, of the right femur's x-rotation; phase ramps from 0 to 2π between them.
 """
 
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -42,8 +43,8 @@ def cycle(signal: Signal, start_s: float, end_s: float) -> Exemplar:
     return Exemplar(signal.values[inside], phase_rad, end_s - start_s)
 
 
-def cycles(signal: Signal, reference: str, most: int | None = 1) -> list[Exemplar]:
-    """The first cycles (`most`, or all) between rising crossings of the channel `reference`.
+def cycles(signal: Signal, reference: str, most: int | None = 1, names: Sequence[str] | None = None) -> list[Exemplar]:
+    """The first cycles (`most`, or all) between rising crossings of the channel `reference`, of `names` or all.
 
     Raises `BadInput` where there is no such channel, or no whole cycle.
     """
@@ -52,4 +53,5 @@ def cycles(signal: Signal, reference: str, most: int | None = 1) -> list[Exempla
         fault = f"{reference}: expected two zero crossings with positive slope, found {len(crossings_s)}"
         raise BadInput(signal.name, "", fault)
     pairs = list(pairwise(crossings_s.tolist()))[:most]
-    return [cycle(signal, start_s, end_s) for start_s, end_s in pairs]
+    kept = signal if names is None else signal.only(names)
+    return [cycle(kept, start_s, end_s) for start_s, end_s in pairs]

@@ -81,7 +81,8 @@ class PeriodicModel:
 
     def zero_mean(self, values: FloatArray) -> FloatArray:
         """Samples (n, c), or one (c,), in the model's zero-mean form."""
-        return (values - self.mean) / self.scale
+        centred = values - self.mean
+        return centred / self.scale if (self.scale != 1).any() else centred
 
     def rotated(self, by_rad: float) -> "PeriodicModel":
         """The same motion with its phases `by_rad` larger; exact where that is a whole number of centres' steps."""

@@ -16,18 +16,19 @@ too (`templates`), and `confidence` says what E_max cannot.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import inf, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from station.sync.phase.cadence import CadenceRule
-from station.sync.phase.confidence import Confidence, confidences, locks, running_means, weight_of_newest
+from station.sync.phase.cadence import DOUBTFUL, CadenceRule, doubt_weight
+from station.sync.phase.confidence import Confidence, confidences, locks, weight_of_newest
 from station.sync.phase.lanes import Lanes
 from station.sync.phase.objective import Objective
 from station.sync.phase.periodic_model import TURN, PeriodicModel
-from station.sync.phase.templates import Past, Templates, templates, with_past
+from station.sync.phase.templates import Past, Seen, Templates, templates
+from station.sync.signals.running_mean import running_means
 from station.sync.signals.signal import FloatArray
 
 
@@ -38,8 +39,10 @@ class TrackerSettings:
     `cadence_rad`: Δφ, the phase expected from sample to sample. `smoothing`: λ, how much that counts beside the signal.
     `start_rad`: φ̂ before the first sample; None begins where the first sample fits best.
     `feedback`: the part of each surprise by which the expected cadence changes, 0 in the paper; it stays within
-    `span` times Δφ and Δφ / `span`. `lags`: the samples that are compared together, by their age, the newest (0) first;
-    further ones make a phase unique where one instant is not, as with a single channel.
+    `span` times Δφ and Δφ / `span`. `most_doubt`: how much less the signal may be like the model at the tracker's phase
+    than at another, for some time, before it begins anew there; None in the paper, which waits. `lags`: the samples
+    that are compared together, by their age, the newest (0) first; further ones make a phase unique where one instant
+    is not, as with a single channel.
     """
 
     cadence_rad: float = 0.05
@@ -47,19 +50,22 @@ class TrackerSettings:
     start_rad: float | None = 0.0
     feedback: float = 0.0
     span: float = 2.5
+    most_doubt: float | None = None
     lags: tuple[int, ...] = (0,)
 
     def __post_init__(self) -> None:
         assert 0 < self.cadence_rad < pi
         assert self.smoothing >= 0
         assert 0 <= self.feedback < 1 <= self.span
+        assert self.most_doubt is None or self.most_doubt > 0
         assert self.lags[0] == min(self.lags) == 0
 
 
 PAPER = TrackerSettings()
-ADAPTIVE = TrackerSettings(start_rad=None, feedback=0.05)
-"""The tracker beyond the paper. Feedbacks from 0.02 to 0.2 lock alike on the CMU walks at half to two and a half times
-their tempo (docs/phase.md); the span leaves room beyond half and double."""
+ADAPTIVE = TrackerSettings(start_rad=None, feedback=0.02, most_doubt=0.3)
+"""The tracker beyond the paper. Feedbacks from 0.01 to 0.2 lock alike on the CMU walks at half to two and a half times
+their tempo, a smaller one holds better on uneven ground (docs/phase.md); the span leaves room beyond half and double;
+doubts of 0.2 to 0.4 serve alike."""
 
 
 class PhaseStep(NamedTuple):
@@ -95,7 +101,11 @@ class _Parts:
         self.step_rad = TURN / model.centre_count
         self.usual = settings.cadence_rad / self.step_rad
         span = settings.span if settings.feedback else 1.0
-        self.cadence = CadenceRule(settings.feedback, self.usual / span, self.usual * span)
+        most_doubt = inf if settings.most_doubt is None else settings.most_doubt
+        weight = doubt_weight(settings.cadence_rad)
+        self.cadence = CadenceRule(
+            settings.feedback, self.usual, self.usual / span, self.usual * span, most_doubt, weight
+        )
         ends_rad = settings.cadence_rad / span, settings.cadence_rad * span
         self.templates: Templates = templates(model, settings.lags, *ends_rad)
         self.objective = Objective(model.centre_count, settings.smoothing)
@@ -104,10 +114,12 @@ class _Parts:
         self.newest = weight_of_newest(settings.cadence_rad)
 
     def start(self, seen: FloatArray) -> float:
-        """The place before the first sample (lags·c,)."""
-        if self.start_rad is not None:
-            return (self.start_rad + pi) / self.step_rad - 1
-        return float(self.templates.directions[self.table].dot(seen).argmax()) - self.usual
+        """The place from 0 to n_m before the first sample (lags·c,)."""
+        if self.start_rad is None:
+            place = float(self.templates.directions[self.table].dot(seen).argmax()) - self.usual
+        else:
+            place = (self.start_rad + pi) / self.step_rad - 1
+        return place % self.objective.count
 
 
 class PhaseTracker:
@@ -118,12 +130,13 @@ class PhaseTracker:
         self._templates, self._cadence, self._best = parts.templates, parts.cadence, parts.objective.best
         self._directions, self._energy = list(self._templates.directions), self._templates.energy.tolist()
         self._table, self._start = parts.table, parts.start
+        self._are_several = len(self._directions) > 1
         self._mean, self._per_scale = model.mean, (1 / model.scale if (model.scale != 1).any() else None)
         self._count, self._step_rad = model.centre_count, parts.step_rad
         self._place: float | None = None
         self._pace = self._usual = parts.usual
         self._past = Past(settings.lags) if len(settings.lags) > 1 else None
-        self._sureness = Confidence(parts.newest)
+        self._sureness, self._doubt = Confidence(parts.newest), 0.0
 
     def step(self, sample: Sequence[float] | FloatArray) -> PhaseStep:
         """The phase after one more sample (c,)."""
@@ -135,32 +148,44 @@ class PhaseTracker:
         energy = float(seen.dot(seen))
         per_length = 1 / sqrt(energy) if energy else 0.0
         products = self._directions[self._table].dot(seen)
-        pace, count, sureness = self._pace, self._count, self._sureness
+        pace, count, cadence = self._pace, self._count, self._cadence
         expected = (self._start(seen) if self._place is None else self._place) + pace
-        centre, beyond, quality, likeness = self._best(products, per_length, expected)
+        centre, beyond, quality, likeness, surprise = self._best(products, per_length, expected)
+        better = float(products.max()) * per_length - likeness if likeness < DOUBTFUL else 0.0
+        self._doubt += cadence.doubt_weight * (better - self._doubt)
+        is_lost = self._doubt > cadence.most_doubt
+        if is_lost:
+            fitting = float(products.argmax())
+            centre, beyond, quality, likeness, surprise = self._best(products, per_length, fitting)
+            self._doubt = 0.0
         self._place = place = centre + beyond
-        surprise = place - expected
-        surprise -= count * round(surprise / count)
-        sure = sureness.step(likeness, (pace + surprise) / self._usual, energy, self._energy[self._table][centre])
-        if self._cadence.feedback:
-            self._pace = pace = self._cadence.after(pace, likeness, surprise)
-            self._table = self._templates.table(pace * self._step_rad)
+        speed = 0.0 if is_lost else (pace + surprise) / self._usual
+        sureness = self._sureness
+        sure = sureness.step(likeness, speed, energy, self._energy[self._table][centre])
+        if cadence.feedback:
+            self._pace = pace = self._usual if is_lost else cadence.after(pace, likeness, surprise)
+            if self._are_several:
+                self._table = self._templates.table(pace * self._step_rad)
         phase_rad = pi - ((count - 1 - place) * self._step_rad) % TURN
         return PhaseStep(phase_rad, quality, sure, pace * self._step_rad, sureness.is_locked)
 
 
 def tracked(model: PeriodicModel, values: FloatArray, settings: TrackerSettings = PAPER) -> PhaseTrack:
     """The phase at every sample of `values` (n, c), which are in the model's channels and their own units."""
-    if not len(values):
-        nothing = np.zeros(0)
-        return PhaseTrack(nothing, nothing, nothing, nothing, np.zeros(0, np.bool_))
     parts = _Parts(model, settings)
-    seen = with_past(model.zero_mean(values), settings.lags)
-    way = Lanes(parts.objective, parts.templates, parts.cadence).way(seen, parts.start(seen[0]), parts.usual)
-    paces = np.concatenate([[parts.usual], way.pace[:-1]])
-    tables = parts.templates.tables(paces * parts.step_rad)
-    expected = parts.templates.energy[tables, way.centre.astype(np.int64)]
-    asked = np.array([way.likeness, way.speed / parts.usual, way.energy, expected])
+    lanes = Lanes(parts.objective, parts.templates, parts.cadence)
+    if len(values) >= lanes.worth:
+        return _in_lanes(parts, lanes, Seen(model, values, settings.lags))
+    tracker = PhaseTracker(model, settings)
+    steps = np.array([tracker.step(sample) for sample in values], dtype=np.float64).reshape(-1, len(PhaseStep._fields))
+    phase_rad, quality, confidence, cadence_rad, locked = steps.T
+    return PhaseTrack(phase_rad, quality, confidence, cadence_rad, locked > 0)
+
+
+def _in_lanes(parts: _Parts, lanes: Lanes, seen: Seen) -> PhaseTrack:
+    start = parts.start(seen.at(np.zeros(1, np.int64))[0])
+    way = lanes.way(seen, start, parts.usual)
+    asked = np.array([way.likeness, way.speed / parts.usual, way.energy, way.expected])
     confidence = confidences(running_means(asked, parts.newest))
     phase_rad = pi - np.mod((parts.objective.count - 1 - way.place) * parts.step_rad, TURN)
     return PhaseTrack(phase_rad, way.quality, confidence, way.pace * parts.step_rad, locks(confidence))

@@ -73,9 +73,18 @@ class Past:
         return np.concatenate([self._samples[place] for place in self._places])
 
 
-def with_past(values: FloatArray, lags: Sequence[int]) -> FloatArray:
-    """What `Past` gives for each sample of a signal: (n, c) to (n, lags·c)."""
-    if len(lags) == 1:
-        return values
-    at = np.arange(len(values))
-    return np.concatenate([values[np.maximum(at - lag, 0)] for lag in lags], axis=1)
+class Seen:
+    """What a tracker sees of a whole signal `values` (n, c): what `Past` gives for each sample."""
+
+    def __init__(self, model: PeriodicModel, values: FloatArray, lags: Sequence[int]) -> None:
+        self._model, self._values, self._lags = model, values, lags
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def at(self, samples: npt.NDArray[np.int64]) -> FloatArray:
+        """The model's zero-mean form of these samples (k,) and older ones, a new array (k, lags·c)."""
+        if len(self._lags) == 1:
+            return self._model.zero_mean(self._values.take(samples, axis=0))
+        ages = [self._values.take(np.maximum(samples - lag, 0), axis=0) for lag in self._lags]
+        return np.concatenate([self._model.zero_mean(each) for each in ages], axis=1)

@@ -5,20 +5,15 @@ channels" (Boyd and Godbout 2012, § 5).
 """
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.errors import BadInput
+from station.music.formats.smf.track_writer import ControlMove
+from station.sync.signals.signal import Signal
+
 GREATEST = 127
-
-
-class ControlCue(NamedTuple):
-    """A controller takes a value, 0 … 127."""
-
-    at_ns: int
-    controller: int
-    value: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,13 +33,27 @@ class ChannelLevel:
 
 def level_cues(
     level: ChannelLevel, at_ns: NDArray[np.int64], samples: NDArray[np.float64], sure: NDArray[np.bool_]
-) -> list[ControlCue]:
+) -> list[ControlMove]:
     """The controller's moves over a recording (n,): a cue where its value is new and the tracker is `sure`.
 
     Where sureness ends the controller goes to 0, so that nothing hangs.
     """
     wanted = np.where(sure, level.values(samples), 0)
     is_new = np.diff(wanted, prepend=0) != 0
-    return [ControlCue(at, level.controller, value) for at, value in zip(
+    return [ControlMove(at, level.controller, value) for at, value in zip(
         at_ns[is_new].tolist(), wanted[is_new].tolist(), strict=True
     )]  # fmt: skip
+
+
+def parse_level(text: str, signal: Signal, source: str) -> ChannelLevel:
+    """The level that a user wrote as CHANNEL=CONTROLLER, over the range that the channel has in `signal`.
+
+    Raises `BadInput` that names `source`, or the signal where it has no such channel or the channel never moves.
+    """
+    channel, _, controller = text.rpartition("=")
+    if not channel or not controller.isdecimal() or int(controller) > GREATEST:
+        raise BadInput(source, text, f"expected CHANNEL=CONTROLLER, the controller from 0 to {GREATEST}")
+    samples = signal.only([channel]).values
+    if not len(samples) or np.ptp(samples) == 0:
+        raise BadInput(signal.name, channel, "never moves")
+    return ChannelLevel(channel, float(samples.min()), float(samples.max()), int(controller))

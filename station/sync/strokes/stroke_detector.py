@@ -7,8 +7,9 @@ After a contact the detector is deaf until the tip has been raised again by an a
 raise it, the smallest bounce of a buzz does. No time is masked beyond the contact itself.
 
 `fall` is the downward part of the rate at which the stick's direction turns (rad/s, + down): a twist about the stick's
-own axis does not enter, nor how the sensor is rolled. Tip velocity = the sensor's (its acceleration less gravity,
-integrated since the stick last stood still or turned round at the top) + rate × lever arm.
+own axis does not enter, nor how the sensor is rolled. Tip velocity = rate × lever arm about the fulcrum + the hand's,
+downwards, as far as it is known: the sensor's acceleration less gravity, integrated since the stick last stood still or
+turned round at the top. Sideways the hand travels from drum to drum, and nothing tells how fast.
 """
 
 import math
@@ -32,11 +33,12 @@ SUDDEN_SHARE = 0.65
 a hand at 10 Hz takes 31 % in 5 ms and 63 % in 10 ms."""
 SLOWEST_FALL_RAD_S = 1.0
 """A slower fall is no stroke: 0.3 m/s at the tip, as after a free fall from 4 mm."""
-LEAST_FALL_RAD = 0.02
-"""A shorter fall is no stroke: 5 mm at the tip; our choice, a quarter of the lowest ghost stroke's height."""
-RAISED_S, LEAST_RAISE_RAD = 0.003, 0.01
-"""Armed again when raised by what the stick fell within the shortest contact (3 ms), at least by 3 mm at the tip: a
-stick that rebounds at 0.3 needs 10 ms for that, and a second bounce comes after 50 ms at the earliest (HUMANS.md)."""
+LEAST_RAD = 0.01
+"""A shorter fall is no stroke, a shorter rise arms nothing: 3 mm at the tip, as a free bounce of 50 ms rises (g t²/8),
+the shortest of a double stroke (HUMANS.md)."""
+RAISED_S = 0.003
+"""Armed again when raised by what the stick fell within the shortest contact (3 ms): one that rebounds at 0.3 needs
+10 ms for that."""
 SUNK_RAD = 0.04
 """Or when it has sunk by 1 cm at the tip since the contact: a head does not give way so far (8 mm at 5 m/s, HUMANS.md),
 so the stick was in the air; the hand went down as the tip bounced."""
@@ -49,8 +51,16 @@ STILL_RAD_S, STILL_M_S = 0.2, 0.05
 TURNING_M_S = 0.5
 """How fast the hand may be while the stick turns round at the top: in the recorded stroke (HUMANS.md) it sinks 5 cm in
 the slow fall of 92 ms."""
+HAND_M_S = 1.5
+"""How much the hand itself may add to a tip's speed, give or take: in the recorded stroke up to 3.2 m/s, at the contact
+0.5; our choice, between."""
+TRAVEL_S = 0.1
+"""For so long the hand's pushes sideways are remembered: half a travel of 0.25 s from drum to drum (HUMANS.md). What
+speed they make is what the hand may have downwards too, at the top of a stroke on the way."""
 CONTACT_M_S = 10.0
 """How wrong the sensor's velocity may be after a contact, which no accelerometer follows: the fastest tip's own."""
+FULCRUM_SHARE = 1 / 3
+"""A stick turns about a third of its length from the butt (HUMANS.md)."""
 DRIFT_M_S2 = 0.35
 """How fast the integrated velocity goes wrong: a tilt that is 2° off, as VQF's is in motion (Laidig & Seel 2023)."""
 
@@ -71,19 +81,22 @@ class StrokeDetector:
     def __init__(self, device: str, mounting: Mounting) -> None:
         self.device, self.mounting = device, mounting
         self.orientation = StickOrientation(mounting)
+        self._lever = (mounting.tip_m + mounting.butt_m) * (1 - FULCRUM_SHARE)
         self._begin_ns: int | None = None
         self._start()
 
     def _start(self) -> None:
         self._kept: deque[_Instant] = deque()
-        self._velocity = self._force = (0.0, 0.0, 0.0)  # of the sensor, in the earth's axes
+        self._velocity = self._force = 0.0  # of the sensor, upwards
+        self._push = 0.0  # the mean of its acceleration sideways
         self._doubt = CONTACT_M_S
         self._below = self._sink = 0.0  # how far the tip has sunk since its top, and how fast it does
         self._is_armed = True
         self._fastest = 0.0  # of this fall
         self._top = self._low = self._high = 0.0
         self._raise = 0.0
-        self._due_s: float | None = None
+        self._due_s: float | None = None  # when a contact that was noticed is told, and from when on it may have been
+        self._since_s = 0.0
 
     def feed(self, sample: ImuSample) -> list[StickStroke]:
         """The strokes that are certain with `sample`: about 15 ms after their contact."""
@@ -103,8 +116,9 @@ class StrokeDetector:
             if self._is_armed and self._is_contact(now):
                 self._doubt = CONTACT_M_S
                 self._is_armed, self._due_s = False, now.at_s + self._after_s()
+                self._since_s = self._earlier(now).at_s
                 self._low = self._high = now.sine
-                self._raise = max(LEAST_RAISE_RAD, self._fastest * RAISED_S)
+                self._raise = max(LEAST_RAD, self._fastest * RAISED_S)
             return None
         if now.at_s < self._due_s:
             return None
@@ -126,7 +140,7 @@ class StrokeDetector:
         speed = self._tip(rows, motion, fall, dt_s)
         now = _Instant(at_s, fall, speed, self._below, rows[2][0], math.atan2(left, up), motion.is_clipped)
         kept.append(now)
-        while kept[0].at_s < at_s - max(KEPT_S, 4 * dt_s):
+        while self._due_s is None and kept[0].at_s < at_s - max(KEPT_S, 4 * dt_s):
             kept.popleft()
         return now if before is not None else None
 
@@ -135,25 +149,30 @@ class StrokeDetector:
         force = turned(rows, motion.acceleration_m_s2)
         before = self._kept[-1].fall if self._kept else 0.0
         half = 0.5 * dt_s
-        (vx, vy, vz), (fx, fy, fz) = self._velocity, self._force
-        vx, vy = vx + half * (fx + force[0]), vy + half * (fy + force[1])
-        vz += half * (fz + force[2] - 2.0 * STANDARD_GRAVITY_M_S2)
+        vz = self._velocity + half * (self._force + force[2] - 2.0 * STANDARD_GRAVITY_M_S2)
         self._doubt += DRIFT_M_S2 * dt_s
+        self._push += (math.hypot(force[0], force[1]) - self._push) * min(dt_s / TRAVEL_S, 1.0)
         if before <= 0.0 < fall or self._is_still(fall, force):
-            known = STILL_M_S if self._is_still(fall, force) else TURNING_M_S
+            known = STILL_M_S if self._is_still(fall, force) else math.hypot(TURNING_M_S, self._push * TRAVEL_S)
             share = known**2 / (known**2 + self._doubt**2)
             if share < 0.5:
                 self._below = 0.0
-            vx, vy, vz = vx * share, vy * share, vz * share
+            vz *= share
             self._doubt *= math.sqrt(share)
-        self._velocity, self._force = (vx, vy, vz), force
-        lever = self.mounting.tip_m
+        self._velocity, self._force = vz, force[2]
         _, p, q = motion.rate_rad_s
-        wx, wy, wz = turned(rows, (0.0, q * lever, -p * lever))
-        sink = max(0.0, -(vz + wz))
+        wx, wy, _ = turned(rows, (0.0, q * self._lever, -p * self._lever))
+        down = self._down(fall, fall * self.mounting.tip_m - vz)
+        sink = max(0.0, down)
         self._below = self._below + 0.5 * (self._sink + sink) * dt_s if sink > 0.0 else 0.0
         self._sink = sink
-        return math.sqrt((vx + wx) ** 2 + (vy + wy) ** 2 + (vz + wz) ** 2)
+        return math.sqrt(wx**2 + wy**2 + down**2)
+
+    def _down(self, fall: float, integrated: float) -> float:
+        """The tip's speed downwards: of turning about the fulcrum alone, and `integrated`, weighed by their variances."""
+        turned_m_s = fall * self._lever
+        share = HAND_M_S**2 / (HAND_M_S**2 + self._doubt**2)
+        return turned_m_s + (integrated - turned_m_s) * share
 
     def _is_still(self, fall: float, force: Vector) -> bool:
         x, y, z = force
@@ -175,7 +194,7 @@ class StrokeDetector:
             self._fastest = max(self._fastest, now.fall)
 
     def _is_contact(self, now: _Instant) -> bool:
-        if self._fastest < SLOWEST_FALL_RAD_S or self._top - min(i.sine for i in self._kept) < LEAST_FALL_RAD:
+        if self._fastest < SLOWEST_FALL_RAD_S or self._top - min(i.sine for i in self._kept) < LEAST_RAD:
             return False
         return self._earlier(now).fall - now.fall >= SUDDEN_SHARE * self._fastest
 
@@ -196,19 +215,23 @@ class StrokeDetector:
         interval_s = self._kept[-1].at_s - self._kept[-2].at_s
         return max(AFTER_S, 1.01 * interval_s)
 
-    def _stroke(self, is_derived: bool) -> StickStroke:
+    def _stroke(self, is_derived: bool) -> StickStroke | None:
+        """The contact that was noticed; None where the tip came to it too slowly."""
         kept = list(self._kept)
         pairs = list(pairwise(kept))
         interval_s = min(b.at_s - a.at_s for a, b in pairs)
         times = [(a.at_s + b.at_s) / 2 for a, b in pairs]
         pulse = [max(0.0, (a.fall - b.fall) / (b.at_s - a.at_s)) for a, b in pairs]
-        contact = contact_of(times, pulse, interval_s, pulse.index(max(pulse)))
+        peak = max((k for k, at_s in enumerate(times) if at_s >= self._since_s), key=lambda k: pulse[k])
+        contact = contact_of(times, pulse, interval_s, peak)
         onset_s = contact.onset_s - (interval_s / 2 if is_derived else 0.0)
         foot = max(contact.first, 1)
         clean = kept[foot] if kept[foot].fall > kept[foot - 1].fall else kept[foot - 1]  # the foot's own may be smeared
         earlier = max((i for i in kept if i.at_s <= clean.at_s - SUDDEN_S), default=kept[0])
         left_s = max(0.0, onset_s - clean.at_s)
         speed, fall = _at_onset(clean.speed, earlier.speed, clean, earlier, left_s), clean.fall
+        if speed < SLOWEST_FALL_RAD_S * self._lever:
+            return None
         up = max((-i.fall for i in kept if i.at_s > onset_s), default=0.0)
         down = _at_onset(clean.fall, earlier.fall, clean, earlier, left_s)
         assert self._begin_ns is not None

@@ -23,7 +23,7 @@ LEG = 0.245 + 0.246
 ANKLE_HEIGHT, FOOT_LENGTH = 0.039, 0.152
 """The ankle above the sole, the foot's length: shares of stature (the same source)."""
 BEHIND_ANKLE = 0.25
-"""So much of the foot's length lies behind the ankle (our choice; half of it moves footfalls by 13 ms in the median)."""
+"""So much of the foot's length lies behind the ankle (our choice; half of it moves contacts by 13 ms)."""
 SIDES = ("r", "l")
 
 

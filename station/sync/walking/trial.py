@@ -1,16 +1,10 @@
-"""A recorded trial: its signal, its skeleton and where each foot came down; and the model of a gait fitted to one.
-
-A person's posture differs from the exemplar's by constants, and so does one file format's rest pose from another's:
-`zero_mean` takes the channels' own means away, as the paper's § 3 assumes of every signal, and puts the model's there.
-That needs the whole recording; live, the signals part of the tracker is what removes them.
-"""
+"""A recorded trial: its signal, its skeleton and where each foot came down; and the model of a gait fitted to one."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 from station.sync.phase.exemplars import cycles
 from station.sync.phase.periodic_model import CENTRES, PeriodicModel, fitted
-from station.sync.phase.phase_tracker import PAPER, PhaseTrack, TrackerSettings, tracked
 from station.sync.signals.signal import CHANNEL_SETS, Signal
 from station.sync.signals.signal_files import read_signal
 from station.sync.walking.footfall import Steps, footfalls
@@ -59,14 +53,3 @@ def gait_model(signal: Signal, centre_count: int = CENTRES) -> PeriodicModel:
     """
     channels = signal.only(GAIT_CHANNELS)
     return fitted(GAIT_CHANNELS, cycles(channels, GAIT_CHANNELS[0]), centre_count)
-
-
-def zero_mean(model: PeriodicModel, signal: Signal) -> Signal:
-    """The model's channels of a recording, each moved so that its mean is the model's; raises `BadInput`."""
-    channels = signal.only(model.channels)
-    return replace(channels, values=channels.values - channels.values.mean(axis=0) + model.mean)
-
-
-def track_recording(model: PeriodicModel, signal: Signal, settings: TrackerSettings = PAPER) -> PhaseTrack:
-    """The phase of a whole recording, made zero-mean; raises `BadInput` where it lacks a channel."""
-    return tracked(model, zero_mean(model, signal).values, settings)

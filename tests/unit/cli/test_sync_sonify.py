@@ -3,11 +3,12 @@
 import json
 from pathlib import Path
 
+import mido
 import numpy as np
 import pytest
 import soundfile
 
-from station.cli.sync_sonify import COMMAND
+from station.cli.sync import COMMAND as SYNC
 from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.music.formats.smf.standard_midi import performance_from_midi, read_midi
@@ -34,7 +35,8 @@ def folder(tmp_path: Path) -> Path:
 
 
 def sonify(folder: Path, *words: str) -> int:
-    return COMMAND.main("station sync sonify", "", [str(folder / "walk.toml"), str(folder / "walk.csv"), *words])
+    model, signal = str(folder / "walk.toml"), str(folder / "walk.csv")
+    return SYNC.main("station sync", "", ["sonify", model, signal, *words])
 
 
 def test_a_midi_file_has_a_kick_and_a_snare_in_turn(folder: Path) -> None:
@@ -46,6 +48,16 @@ def test_a_midi_file_has_a_kick_and_a_snare_in_turn(folder: Path) -> None:
     assert {*pieces} == {Piece.KICK, Piece.SNARE}
     gaps_s = np.diff(played.hits["at_ns"][2:]) / 1e9
     assert gaps_s == pytest.approx(PERIOD_S / 2, abs=0.06)
+
+
+def test_a_channel_moves_a_controller_while_locked(folder: Path) -> None:
+    """The knee bends and stretches once a cycle: its controller goes from end to end."""
+    assert sonify(folder, "--out", str(folder / "knee.mid"), "--level", "rtibia_rx=74") == 0
+    (track,) = mido.MidiFile(folder / "knee.mid").tracks
+    values = [message.value for message in track if message.type == "control_change" and message.control == 74]
+    assert min(values) == 0
+    assert max(values) == 127
+    assert len(values) > 200
 
 
 def test_a_sound_file_lasts_as_long_as_the_motion_and_what_rings(folder: Path) -> None:
@@ -69,6 +81,7 @@ def test_own_triggers_instead_of_a_preset(folder: Path, capsys: pytest.CaptureFi
     [
         (("--out", "a.txt"), "expected a name that ends in .mid, .wav, .mp4 or .png"),
         (("--out", "a.png"), "holds no skeleton"),
+        (("--out", "a.wav", "--level", "rtibia_rx=74"), "--level: expected with a file that ends in .mid"),
         (("--out", "a.mid", "--preset", "walk", "--trigger", "0=kick"), "not both"),
         (("--out", "a.mid", "--trigger", "2=kick"), "--trigger: 2=kick"),
         (("--out", "a.mid", "--preset", "skip"), "no such choice"),

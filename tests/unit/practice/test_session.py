@@ -256,7 +256,8 @@ def test_strokes_of_the_sticks_tell_which_hand_played() -> None:
         practice.handle(StickStroke(at_ns, hand.name, hand, 2.0))
     result = practice.result()
     assert result.performance.hits["limb"].tolist() == [Limb.RIGHT_HAND, Limb.LEFT_HAND] * 6
-    assert [stroke.at_ns for _, stroke in result.felt][:2] == [30 * NS_PER_MS, BEAT_NS + 34 * NS_PER_MS]
+    first_hit, first_stroke = result.felt[0]
+    assert (first_hit.at_ns, first_stroke.at_ns) == (0, ZERO_NS + BAR_NS + 30 * NS_PER_MS)
 
 
 def test_without_sensors_nobody_knows_the_hands() -> None:

@@ -23,7 +23,7 @@ def trace(marks: tuple[PhaseMark, ...] = ()) -> PhaseTrace:
 def test_times_and_shares_fill_the_axes() -> None:
     axes = PlotAxes.within(trace(), BOX)
     assert (axes.x(0.0), axes.x(2.0)) == (axes.phase.left, axes.phase.right)
-    assert (axes.y_of_share(0.0), axes.y_of_share(1.0)) == (axes.phase.bottom, pytest.approx(axes.phase.top))
+    assert [axes.y_of_share(0.0), axes.y_of_share(1.0)] == pytest.approx([axes.phase.bottom, axes.phase.top])
     assert axes.quality.top > axes.phase.bottom
     assert axes.quality.bottom < BOX.bottom
 

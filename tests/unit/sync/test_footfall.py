@@ -11,7 +11,8 @@ RATE_HZ = 120.0
 def heel(*corners: tuple[float, float]) -> np.ndarray:
     """Heights through corners (seconds, metres), straight between them."""
     times, heights = zip(*corners, strict=True)
-    return np.interp(np.arange(round(times[-1] * RATE_HZ)) / RATE_HZ, times, heights)
+    height: np.ndarray = np.interp(np.arange(round(times[-1] * RATE_HZ)) / RATE_HZ, times, heights)
+    return height
 
 
 def test_a_foot_falls_where_the_heel_stops_sinking() -> None:

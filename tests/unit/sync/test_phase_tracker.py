@@ -20,7 +20,8 @@ def walk(phase_rad: FloatArray) -> FloatArray:
         15 * np.cos(hip) + 8 * np.sin(knee),
         -15 * np.cos(hip) + 8 * np.sin(knee),
     ]
-    return np.stack(columns, axis=1) + np.array([-15.0, -15.0, 30.0, 30.0])
+    values: FloatArray = np.stack(columns, axis=1) + np.array([-15.0, -15.0, 30.0, 30.0])
+    return values
 
 
 @pytest.fixture(scope="module")
@@ -41,7 +42,7 @@ def signal() -> FloatArray:
 
 def by_the_paper(model: PeriodicModel, values: FloatArray, settings: TrackerSettings) -> tuple[FloatArray, FloatArray]:
     """§ 3.2, steps 1 to 3, as they stand there, all centres looked at."""
-    mu, phi = centres(model.centre_count), settings.start_rad
+    mu, phi = centres(model.centre_count), settings.start_rad or 0.0
     f = model.at(mu)
     phases, qualities = [], []
     for y in values - model.mean:

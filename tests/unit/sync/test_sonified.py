@@ -5,10 +5,11 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece
+from station.sync.phase.recordings import zero_mean
 from station.sync.signals.signal import CHANNEL_SETS, Signal
 from station.sync.sonification.sonified import sonified
 from station.sync.sonification.trigger_table import PRESETS
-from station.sync.walking.trial import gait_model, zero_mean
+from station.sync.walking.trial import gait_model
 
 RATE_HZ, PERIOD_S = 120.0, 1.05
 SECONDS = 8.0

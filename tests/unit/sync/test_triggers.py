@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from station.core.events import Hit
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece
 from station.sync.sonification.triggers import Trigger, share_of, triggered
@@ -18,7 +19,7 @@ def heard(turns: np.ndarray, triggers: tuple[Trigger, ...] = FEET, sure: np.ndar
     return [hit.piece.name for hit in hits(turns, triggers, sure)]
 
 
-def hits(turns: np.ndarray, triggers: tuple[Trigger, ...] = FEET, sure: np.ndarray | None = None) -> list:
+def hits(turns: np.ndarray, triggers: tuple[Trigger, ...] = FEET, sure: np.ndarray | None = None) -> list[Hit]:
     at_ns = np.arange(len(turns)) * STEP_NS
     phase = 2 * np.pi * (turns % 1.0) - np.pi
     return triggered(triggers, at_ns, phase, np.ones(len(turns), bool) if sure is None else sure)

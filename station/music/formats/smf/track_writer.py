@@ -12,7 +12,9 @@ played it if they read back as the same strikes, else it has those of General MI
 Source: MIDI Association, RP-001 "Standard MIDI Files 1.0", RP-003 "General MIDI".
 """
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -126,10 +128,19 @@ def _number(row: np.void) -> int:
 # --- a performance ----------------------------------------------------------------------------------------------------
 
 
-def write_performance(performance: Performance, path: str | Path) -> None:
+class ControlMove(NamedTuple):
+    """A controller takes a value, 0 … 127."""
+
+    at_ns: int
+    controller: int
+    value: int
+
+
+def write_performance(performance: Performance, path: str | Path, moves: Sequence[ControlMove] = ()) -> None:
     """Write `performance` as a MIDI file of format 0 in real time; the file starts at time 0, or at an earlier hit.
 
-    Times are kept to half of `PERFORMANCE_TICK_NS`. Raises `DeviceError` if the disk refuses.
+    Times are kept to half of `PERFORMANCE_TICK_NS`. `moves`, from time 0 on, are written beside the hits. Raises
+    `DeviceError` if the disk refuses.
     """
     hits, chokes = performance.hits, performance.chokes
     start_ns = min(int(hits["at_ns"].min(initial=0)), int(chokes["at_ns"].min(initial=0)))
@@ -143,6 +154,7 @@ def write_performance(performance: Performance, path: str | Path) -> None:
         _grabs(_divided(chokes["at_ns"] - start_ns, PERFORMANCE_TICK_NS), np.array(choke_numbers, np.uint8)),
         _known(starts, hits, Piece.HIHAT, PEDAL_CONTROLLER),
         _known(starts, hits, Piece.SNARE, SNARE_POSITION_CONTROLLER),
+        _moved(moves, start_ns),
     ]
     messages = np.concatenate(parts)
     track = OutTrack("Drums", messages, _instrument(kit_map or GENERAL_MIDI), [_PERFORMANCE_TEMPO])
@@ -166,6 +178,14 @@ def _choke_number(piece: int, pieces: NDArray[np.uint8], numbers: NDArray[np.uin
     """A number that means `piece` in this file: one that was hit, else General MIDI's."""
     struck = numbers[pieces == piece]
     return int(struck[0]) if len(struck) else general_midi_note(Piece(piece), Zone.EDGE, Articulation.NORMAL)
+
+
+def _moved(moves: Sequence[ControlMove], start_ns: int) -> Messages:
+    rows = _messages(len(moves), _DESCRIBES, _CONTROL)
+    at_ns, controllers, values = np.array(moves, np.int64).reshape(-1, 3).T
+    rows["tick"] = _divided(at_ns - start_ns, PERFORMANCE_TICK_NS)
+    rows["first"], rows["second"] = controllers, values
+    return rows
 
 
 def _known(starts: NDArray[np.int64], hits: NDArray[np.void], piece: Piece, controller: int) -> Messages:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -245,3 +246,13 @@ def test_a_bluetooth_packet_and_answers() -> None:
     assert reading.rate_rad_s == pytest.approx((500 * DEGREE, 0, 0))
     assert reading.orientation == pytest.approx((math.sqrt(0.5), math.sqrt(0.5), 0, 0))
     assert told == [Told(battery=0.6), Told(temperature_c=22.41)]
+
+
+def test_the_lines_of_the_manual_are_understood() -> None:
+    manual = Path(__file__).parents[4] / "docs" / "sensors.md"
+    lines = [line.strip() for line in manual.read_text(encoding="utf-8").splitlines() if "1000000," in line]
+    assert len(lines) == 2
+    for line in lines:
+        reading = only(ImuCsvDecoder().feed(line.encode() + b"\n", 0))
+        assert reading.ticks == 1_000_000
+        assert reading.acceleration_m_s2 == pytest.approx((0.012 * G, -0.034 * G, 0.998 * G))

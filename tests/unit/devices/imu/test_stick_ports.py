@@ -171,10 +171,9 @@ def test_two_sensors_of_one_name_are_told_apart() -> None:
 
 
 def test_a_missing_radio_is_told_once_and_awaited() -> None:
-    sensor = FakeSensor("WT901")
-    air = FakeAir(sensor, fault="No Bluetooth adapters found.")
+    air = FakeAir(FakeSensor("WT901"), fault="No adapters.")
     watched = Watched(air, "ble:WT901")
-    assert watched.poll_until("fault").fault == "Bluetooth cannot be used (No Bluetooth adapters found.): is the radio on?"
+    assert watched.poll_until("fault").fault == "Bluetooth cannot be used (No adapters.): is the radio on?"
     air.fault = ""
     watched.poll_until("found")
     watched.watches.close()

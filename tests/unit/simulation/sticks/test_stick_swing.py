@@ -55,7 +55,7 @@ def test_peak_speeds_of_the_real_stroke() -> None:
     motion = _full_stroke().sticks[R].motion
     tip, hand = (np.linalg.norm(np.gradient(p, 1 / FINE_HZ, axis=0), axis=1) for p in _tip_and_hand(motion))
     assert tip.max() == pytest.approx(9.4, abs=0.2)
-    assert hand.max() == pytest.approx(3.2, abs=0.4)
+    assert hand.max() == pytest.approx(3.2, abs=0.5)
     turning = np.degrees(np.hypot(*motion.rate_rad_s()[:, 1:].T)).max()
     assert turning == pytest.approx(math.degrees((9.4 - 2.0) / 0.27), rel=0.1)
 
@@ -95,6 +95,20 @@ def test_head_gives_by_millimetres() -> None:
         tip = motion.point_m(LENGTH_M)[:, 2]
         touch = int(np.searchsorted(motion.time_s, 3.0))
         assert tip[touch] - tip[touch : touch + 60].min() == pytest.approx(deep, rel=0.6)
+
+
+@pytest.mark.parametrize("speed", [2.0, 5.0, 9.4, 12.0])
+def test_nothing_jerks_on_the_way_down(speed: float) -> None:
+    """Nor is the whip harder than the measured one.
+
+    Pearl's hand is braked by 85 m/s² in the last 20 ms while the stick's turn grows by 830 rad/s² at 33 rad/s: 76 mm
+    from the butt that is √((85 + 49 + 10)² + 64²) = 158 m/s² at 9.4 m/s. It goes with the square of the speed; a quarter and
+    2 g more are allowed.
+    """
+    motion = play([StickStrokeSpec(3.0, R, speed_m_s=speed)]).sticks[R].motion
+    before = (motion.time_s > 2.0) & (motion.time_s < 2.999)
+    felt = np.linalg.norm(motion.force_free_of_gravity(0.076)[before], axis=1)
+    assert felt.max() < 1.25 * 158 * (speed / 9.4) ** 2 + 2 * STANDARD_GRAVITY_M_S2
 
 
 def test_energy_is_lost_in_every_touch() -> None:
@@ -169,6 +183,21 @@ def test_the_tip_strikes_what_it_is_meant_to() -> None:
     tip = motion.point_m(LENGTH_M)
     for at_s, place in ((3.0, (-0.07, 0.45, 0.66)), (3.4, (-0.42, 0.62, 0.86))):
         assert np.linalg.norm(tip[np.searchsorted(motion.time_s, at_s)] - place) < 0.05
+
+
+def test_a_hand_strikes_a_piece_at_its_usual_angle() -> None:
+    truth = play([StickStrokeSpec(3 + 0.2 * i, (R, L)[i % 2]) for i in range(80)], seed=3).truth
+    for hand in (R, L):
+        assert truth["angle_rad"][truth["limb"] == hand].std() < 0.03
+
+
+def test_strokes_in_the_air_scatter_about_their_place() -> None:
+    strokes = [StickStrokeSpec(3 + 0.4 * i, R, kind=StrokeKind.AIR) for i in range(60)]
+    played = play(strokes, seed=4)
+    motion = played.sticks[R].motion
+    at = np.searchsorted(motion.time_s, played.truth["at_s"])
+    assert 3 < np.degrees(motion.heading_rad[at].std()) < 9
+    assert 4 < np.degrees(motion.elevation_rad[at].std()) < 12
 
 
 def test_the_stick_keeps_its_length() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from station.simulation.sticks.swing_path import Knot, along, smooth_steps
+from station.simulation.sticks.swing_path import Knot, along, knot_between, smooth_steps
 
 
 def test_reach_is_minimum_jerk() -> None:
@@ -40,3 +40,11 @@ def test_stays_before_the_first_knot_and_after_the_last() -> None:
 def test_steps_wait_between_moves() -> None:
     moved = smooth_steps([(0, 0, 1.0), (1, 2, 5.0), (4, 5, 2.0)], np.array([0.5, 1.5, 3.0, 4.5, 6.0]))
     assert moved == pytest.approx([1.0, 3.0, 5.0, 3.5, 2.0])
+
+
+def test_knot_between_leaves_the_path_as_it_is() -> None:
+    first, second = Knot(1.0, 0.3, -1.0, 5.0), Knot(1.5, 0.0, 2.0, -8.0)
+    at = np.array([1.0, 1.1, 1.2, 1.35, 1.45, 1.5])
+    middle = knot_between(first, second, 0.4)
+    assert middle.at_s == pytest.approx(1.2)
+    assert along([first, middle, second], at) == pytest.approx(along([first, second], at))

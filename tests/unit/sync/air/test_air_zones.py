@@ -100,11 +100,15 @@ class TestDrift:
 
     def test_a_pad_is_an_absolute_fix(self) -> None:
         hand = tracker()
+        hand.fix(S, 1, radians(35.0 - 60.0))  # its pad says hi-hat, the heading the ride: it has turned by 60°
+        assert degrees(hand.drift_rad) == pytest.approx(-60.0, abs=1.0)
+        assert hand.clear_zone(2 * S, radians(-60.0), 0.0) is ROW[0]
+
+    def test_pads_that_agree_move_a_zone(self) -> None:
+        hand = tracker()
         for beat in range(8):
-            hand.fix(beat * S, 0, radians(25.0))
-        # of 25° that eight strokes agree on, the hand's drift and the player's own bias share all but a little
-        assert hand.clear_zone(9 * S, radians(25.0), 0.0) is ROW[0]
-        assert degrees(hand.drift_rad) > 8.0
+            hand.fix(beat * S, 0, radians(12.0))
+        assert hand.clear_zone(9 * S, radians(16.0), 0.0) is ROW[0]  # 4° on; half-way to the next is 17.5
 
     def test_a_lost_heading_is_doubt_without_end(self) -> None:
         hand = tracker()
@@ -168,7 +172,7 @@ class TestLearning:
         assert [each.piece for each in learning.learnt().kit.zones] == [Piece.SNARE]
         learning.strike(Limb.LEFT_HAND, aim._replace(speed_m_s=5.0))
         learning.strike(Limb.LEFT_HAND, aim._replace(speed_m_s=5.0))
-        assert learning.now is None
+        assert learning.left == 0
         assert not learning.strike(Limb.LEFT_HAND, aim)
         assert learning.learnt().kit.normal_speed_m_s == pytest.approx(4.0)
 

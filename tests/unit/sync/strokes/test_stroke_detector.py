@@ -144,6 +144,19 @@ def test_lost_samples_lose_no_other_stroke() -> None:
     assert [one.at_ns / 1e9 for one in heard] == pytest.approx(onsets_s, abs=0.005)
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_however_many_samples_are_lost_strokes_come_in_order_and_with_sense(seed: int) -> None:
+    angle, onsets_s, _ = strokes_by_angle([Stroke(), Stroke(0.1), Stroke(1.0)] * 3)
+    samples, random = measured(angle, Sensor(200)), np.random.default_rng(seed)
+    heard = found([sample for sample in samples if random.random() > 0.1 * seed])
+    times = [one.at_ns for one in heard]
+    assert times == sorted(times)
+    assert len(heard) <= len(onsets_s)
+    assert all(one.speed_m_s is not None and 0 <= one.speed_m_s < 30 for one in heard)
+    if seed < 2:
+        assert len(heard) >= 8
+
+
 def test_a_sensor_without_a_gyro_tells_strokes_by_its_own_orientation() -> None:
     angle, onsets_s, _ = strokes_by_angle([Stroke()] * 3)
     samples = [
@@ -185,7 +198,7 @@ def test_the_recorded_stroke_has_its_published_speed_height_and_rebound() -> Non
     still = [STANDARD_GRAVITY_M_S2 * along[0, 1], STANDARD_GRAVITY_M_S2 * across[0, 1], 0.0]
     rows = np.concatenate([np.tile(still, (240, 1)), rows])
     samples = [ImuSample(round(k * 1e9 / 240), (a, 0.0, b), (0.0, w, 0.0)) for k, (a, b, w) in enumerate(rows.tolist())]
-    (stroke,) = found(samples, Mounting(Limb.RIGHT_HAND, tip_m=length))
+    (stroke,) = found(samples, Mounting(Limb.RIGHT_HAND, tip_m=length, butt_m=length / 2))
     lowest_s = 1 + time[np.argmin(tip[:, 1])]
     assert stroke.at_ns / 1e9 == pytest.approx(lowest_s, abs=0.006)
     assert stroke.speed_m_s == pytest.approx(9.4, rel=0.1)
