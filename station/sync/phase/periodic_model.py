@@ -37,7 +37,7 @@ def centres(count: int) -> FloatArray:
 def wrapped(phase_rad: FloatArray) -> FloatArray:
     """The same phases in (−π, π]."""
     within: FloatArray = pi - np.mod(pi - phase_rad, TURN)
-    return within
+    return np.where(within > -pi, within, pi)  # a remainder may be rounded up to the whole turn
 
 
 def gaussians(phase_rad: FloatArray, count: int) -> FloatArray:

@@ -26,7 +26,7 @@ from station.sync.phase.cadence import DOUBTFUL, CadenceRule, doubt_weight
 from station.sync.phase.confidence import Confidence, confidences, locks, weight_of_newest
 from station.sync.phase.lanes import Lanes
 from station.sync.phase.objective import Objective
-from station.sync.phase.periodic_model import TURN, PeriodicModel
+from station.sync.phase.periodic_model import TURN, PeriodicModel, wrapped
 from station.sync.phase.templates import Past, Seen, Templates, templates
 from station.sync.signals.running_mean import running_means
 from station.sync.signals.signal import FloatArray
@@ -167,6 +167,8 @@ class PhaseTracker:
             if self._are_several:
                 self._table = self._templates.table(pace * self._step_rad)
         phase_rad = pi - ((count - 1 - place) * self._step_rad) % TURN
+        if phase_rad <= -pi:  # a remainder may be rounded up to the whole turn
+            phase_rad = pi
         return PhaseStep(phase_rad, quality, sure, pace * self._step_rad, sureness.is_locked)
 
 
@@ -189,7 +191,7 @@ def _in_lanes(parts: _Parts, lanes: Lanes, seen: Seen) -> PhaseTrack:
     for way in lanes.ways(seen, start, parts.usual):
         asked = np.array([way.likeness, way.speed / parts.usual, way.energy, way.expected])
         means = running_means(asked, parts.newest, means[:, -1])
-        phase_rad = pi - np.mod((parts.objective.count - 1 - way.place) * parts.step_rad, TURN)
+        phase_rad = wrapped((way.place + 1) * parts.step_rad - pi)
         rows.append(np.array([phase_rad, way.quality, confidences(means), way.pace * parts.step_rad]))
     phase_rad, quality, confidence, cadence_rad = np.concatenate(rows, axis=1)
     return PhaseTrack(phase_rad, quality, confidence, cadence_rad, locks(confidence))

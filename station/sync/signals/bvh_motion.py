@@ -11,7 +11,7 @@ import numpy as np
 
 from station.core.errors import BadInput
 from station.sync.signals.signal import FloatArray, Signal
-from station.sync.signals.signal_text import numbered_lines, numbers
+from station.sync.signals.signal_text import is_count, numbered_lines, numbers
 
 Vector = tuple[float, float, float]
 Lines = Iterator[tuple[int, str]]
@@ -131,7 +131,7 @@ def _frames(lines: Lines, width: int, path: Path) -> tuple[FloatArray, float]:
     """The frames (n, `width`), and the seconds between two."""
     _expect(lines, "MOTION", path)
     line, words = _entry(lines, "Frames:", path)
-    if len(words) != 1 or not words[0].isdecimal():
+    if len(words) != 1 or not is_count(words[0]):
         raise BadInput(path, f"line {line}", "expected the number of frames")
     count = int(words[0])
     line, words = _entry(lines, "Frame", path)

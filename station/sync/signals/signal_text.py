@@ -13,6 +13,10 @@ MOST_BYTES = 64_000_000
 """Our choice: the longest trial of the CMU database has 6 MB, ten minutes of its 62 channels about 55."""
 
 
+_MOST_DIGITS = 11
+"""Our choice: a year of frames at 240 a second has ten."""
+
+
 def numbered_lines(path: Path, expected: str, comment: str = "") -> Iterator[tuple[int, str]]:
     """The lines of a file that say something, stripped, with their numbers from 1; raises `BadInput`."""
     text = utf8_text(read_regular(path, MOST_BYTES), path, expected)
@@ -20,6 +24,11 @@ def numbered_lines(path: Path, expected: str, comment: str = "") -> Iterator[tup
         words = (line.split(comment, 1)[0] if comment else line).strip()
         if words:
             yield number, words
+
+
+def is_count(word: str) -> bool:
+    """Whether a word is a whole number from 0 that a file can count to."""
+    return word.isascii() and word.isdecimal() and len(word) < _MOST_DIGITS
 
 
 def numbers(words: Sequence[str], path: Path, line: int) -> list[float]:

@@ -29,6 +29,11 @@ def test_centres_lie_in_the_half_open_turn() -> None:
     )
 
 
+def test_a_rounding_error_beyond_pi_does_not_become_minus_pi() -> None:
+    beyond = np.nextafter(np.pi, 4)
+    assert wrapped(np.array([beyond, -np.pi, 3 * np.pi])).min() > -np.pi
+
+
 @pytest.mark.parametrize("count", [3, 4, 16])
 def test_gaussians_are_the_normal_density_wrapped(count: int) -> None:
     apart = PHASE[:, None] - centres(count)[None, :]

@@ -151,6 +151,9 @@ def test_csv(tmp_path: Path) -> None:
         ("3,4", "3", "line 3: expected 3 numbers, found 2"),
         ("0.5", "0", "line 3: time_s does not increase: 0 after 0"),
         (CSV, "", "line 1: expected a header"),
+        pytest.param(
+            "left,right\n0,1,2", "l" * 200_000 + ",right\n0,1", "line 2: expected 3 numbers, found 2", id="a long name"
+        ),
     ],
 )
 def test_csv_faults(tmp_path: Path, old: str, new: str, fault: str) -> None:
@@ -173,6 +176,9 @@ def test_csv_faults(tmp_path: Path, old: str, new: str, fault: str) -> None:
         ("10\n", "", "line 4: expected the number of a frame, found root"),
         (":DEGREES", ":RADIANS", "line 3: expected :FULLY-SPECIFIED or :DEGREES, found :RADIANS"),
         (AMC, ":DEGREES", "holds no frame"),
+        pytest.param(
+            "10\n", "1" * 5000 + "\n", "line 4: expected the number of a frame", id="a long number of a frame"
+        ),
     ],
 )
 def test_amc_faults(amc: Path, old: str, new: str, fault: str) -> None:
@@ -217,6 +223,9 @@ def test_amc_without_its_skeleton(amc: Path) -> None:
         ("CHANNELS 3 Zrotation", "CHANNELS 3 Wrotation", "line 9: no such channel: Wrotation"),
         ("OFFSET 1.5", "OFFSET", "line 8: expected 3 numbers, found 2"),
         ("Frames: 3", "Frames: 4", "4 frames announced, 3 found"),
+        pytest.param(
+            "Frames: 3", "Frames: " + "3" * 5000, "line 17: expected the number of frames", id="a long number of frames"
+        ),
         ("Time: .01", "Time: 0", "line 18: expected Frame Time: and seconds above 0"),
         ("9.25", "", "line 21: expected 9 numbers, found 8"),
         ("9.5", "inf", "line 20: expected a number at place 9"),
