@@ -131,6 +131,7 @@ def judged(model: DrillModel, played: Played, found: list[PhaseEstimate]) -> Row
 
 
 def tracked(model: DrillModel, played: Played) -> list[PhaseEstimate]:
+    """What the tracker tells of it."""
     tracker = DrillTracker(model)
     return [estimate for event in played.told for estimate in tracker.handle(event)]
 

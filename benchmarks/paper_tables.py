@@ -23,7 +23,7 @@ from station.core.errors import BadInput
 from station.sync.phase.exemplars import rising_crossings_s
 from station.sync.phase.periodic_model import TURN, PeriodicModel, wrapped
 from station.sync.phase.phase_tracker import PAPER, TrackerSettings, tracked
-from station.sync.phase.recordings import track_recording, zero_mean
+from station.sync.phase.whole_recording import track_recording, zero_mean
 from station.sync.sonification.trigger_table import PRESETS
 from station.sync.sonification.triggers import share_of
 from station.sync.walking.trial import GAIT_CHANNELS, Trial, gait_model

@@ -15,6 +15,7 @@ from station.motion.kinematics.figure import load_figure
 from station.motion.kit.kit import load_kit
 from station.motion.style.style_file import Slots, load_style
 from station.sound.samples.kit_folder import KIT_TABLE
+from station.sync.air.air_file import read_air
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +76,13 @@ GOOD = {
         "latency_ms = -3",
         needs="on",
     ),
+    "air kit": Good(
+        'normal_speed_m_s = 3\n[[zones]]\nlimb = "left_hand"\npiece = "snare"\nheading_deg = 12\nelevation_deg = -8\n'
+        'heading_sd_deg = 6\nelevation_sd_deg = 8\n[[zones]]\nlimb = "left_hand"\npiece = "tom_1"\nzone = "rim"\n'
+        "heading_deg = -30\nelevation_deg = 5\nheading_sd_deg = 6.5\nelevation_sd_deg = 8\n",
+        "elevation_deg = -8",
+        needs="limb",
+    ),
 }
 
 _READERS: dict[str, Callable[[Path], object]] = {
@@ -88,6 +96,7 @@ _READERS: dict[str, Callable[[Path], object]] = {
     "sounds": lambda path: read(read_source(path), KIT_TABLE),
     "settings": load_settings,
     "calibration": load_calibration,
+    "air kit": read_air,
 }
 
 

@@ -530,7 +530,15 @@ class FollowPhase:
     on: bool
 
 
-StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
+@dataclass(frozen=True, slots=True)
+class SoundPhase:
+    """Let the phase that is followed sound the drill's strokes, from the next session on, or no longer."""
+
+    on: bool
+
+
+StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase | SoundPhase
+EquipmentAction = MappingAction | CalibrationAction | StickAction
 
 # --- files ------------------------------------------------------------------------------------------------------------
 
@@ -608,9 +616,7 @@ Action = (
     | PlayerAction
     | StyleAction
     | SettingsAction
-    | MappingAction
-    | CalibrationAction
-    | StickAction
+    | EquipmentAction
     | FileAction
     | PhaseAction
 )

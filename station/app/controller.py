@@ -179,12 +179,8 @@ class Controller:
             self._chooser.act(action)
         elif isinstance(action, do.PracticeAction):
             self._practise(action)
-        elif isinstance(action, do.MappingAction):
-            self._toasts.notify(self.mapping.act(action))
-        elif isinstance(action, do.CalibrationAction):
-            self._measure(action)
-        elif isinstance(action, do.StickAction):
-            self.sticks.act(action)
+        elif isinstance(action, do.EquipmentAction):
+            self._equip(action)
         elif isinstance(action, do.StyleAction):
             self._restyle(action)
         elif isinstance(action, do.SettingsAction):
@@ -200,6 +196,14 @@ class Controller:
             self._toasts.notify(action.line)
         else:
             assert_never(action)
+
+    def _equip(self, action: do.EquipmentAction) -> None:
+        if isinstance(action, do.MappingAction):
+            self._toasts.notify(self.mapping.act(action))
+        elif isinstance(action, do.StickAction):
+            self.sticks.act(action)
+        else:
+            self._measure(action)
 
     def _practise(self, action: do.PracticeAction) -> None:
         match action:

@@ -16,6 +16,7 @@ from station.motion.kinematics import figure
 from station.motion.kit import kit
 from station.motion.style import style_file
 from station.sound.samples import kit_folder
+from station.sync.air import air_file
 
 _ENDING = "*.toml"
 
@@ -49,6 +50,7 @@ KINDS = (
     TomlKind(
         "calibration", measured_latency.FIELDS, lambda _: measured_latency.CALIBRATION, (measured_latency.FILE_NAME,)
     ),
+    TomlKind("air kit", air_file.FIELDS, lambda _: air_file.AIR_KIT, (air_file.FILE_NAME,)),
 )
 
 

@@ -199,7 +199,7 @@ def _track(options: TrackOptions) -> int:
 def _settings(options: TrackOptions, model: PeriodicModel, signal: Signal) -> TrackerSettings:
     """The settings that were said; the model's own period tells the cadence where nothing else does."""
     from station.sync.phase.phase_tracker import ADAPTIVE, PAPER
-    from station.sync.phase.recordings import own_cadence
+    from station.sync.phase.whole_recording import own_cadence
 
     settings = PAPER if options.paper else ADAPTIVE
     cadence = options.cadence
@@ -211,7 +211,7 @@ def _settings(options: TrackOptions, model: PeriodicModel, signal: Signal) -> Tr
 
 def _in_units_of(model: PeriodicModel, signal: Signal, taken: str) -> FloatArray:
     """The signal about the model's own mean."""
-    from station.sync.phase.recordings import zero_mean
+    from station.sync.phase.whole_recording import zero_mean
 
     if taken == _MODEL:
         return signal.values

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import DeviceError, StationError
-from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit, SensorEvent, SensorSamples
+from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit, PhaseEstimate, SensorEvent, SensorSamples
 from station.core.imu import Mounting
 from station.core.units import NS_PER_S
 from station.devices.capture.capture_writer import CaptureFile
@@ -56,6 +56,7 @@ from station.engine.midi_player import MidiOut, OpenMidiOut, no_midi_out
 from station.engine.sound_player import SoundPlayer
 from station.sound.mixer import Mixer
 from station.sound.track import load
+from station.sync.sonification.live_triggers import LiveTriggers
 from station.sync.sticks import Sticks
 
 STATUS_EVERY_NS = NS_PER_S
@@ -111,7 +112,7 @@ class Engine:
         self._decoders = DecoderBank()
         self._devices: list[str] = []
         self._watches_bytes = self._watches_sensors = False
-        self._sticks = Sticks()
+        self._sticks, self._triggers = Sticks(), LiveTriggers(())
         self._recording = RunningCapture(open_capture, self._decoders)
         self._zero_ns: int | None = None
         self._events: list[EngineEvent] = []
@@ -149,6 +150,9 @@ class Engine:
             if isinstance(told, Hit):
                 self._player.sound(told)
                 self._recording.stroke(told)
+            elif isinstance(told, PhaseEstimate):
+                for struck in self._triggers.handle(told, self._now_ns):
+                    self._player.sound(struck)
             self._events.append(told)
 
     def device_found(self, device: str, at_ns: int) -> None:
@@ -250,6 +254,7 @@ class Engine:
                 self._sticks.play_air(command.kit, command.ahead_ns)
             case TrackPhase():
                 self._sticks.track_drill(command.model)
+                self._triggers = LiveTriggers(command.triggers)
 
     def _set_backing(self, command: SetBacking) -> None:
         track = command.loaded

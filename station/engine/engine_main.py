@@ -20,6 +20,7 @@ from station.devices.device_ports import Watches, watch_devices
 from station.devices.mapping.device_file import own_kit
 from station.devices.mapping.stick_file import own_stick
 from station.devices.midi.midi_out import open_midi_output
+from station.devices.port_watch import ClaimedPorts
 from station.devices.stick_ports import StickWatches, watch_sticks
 from station.engine.card import Card
 from station.engine.engine import Engine
@@ -88,7 +89,8 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
     )
     card = _card(engine, config, outbox) if config.sound else None
     undisturbed = card.paused if card is not None else nullcontext
-    watches, sticks = _watches(engine, config, card), _stick_watches(engine, config)
+    claims = ClaimedPorts()
+    watches, sticks = _watches(engine, config, card, claims), _stick_watches(engine, config, claims)
     runner = Runner(engine, watches.kits, card, sticks=sticks.sticks)
     for command in config.first_commands:
         engine.handle(command)
@@ -116,15 +118,15 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
     return runner.is_worn_out and not engine.quitting
 
 
-def _watches(engine: Engine, config: EngineConfig, card: Card | None) -> Watches:
-    watches = watch_devices(config.kits, config.midi_driver, monotonic_ns, card)
+def _watches(engine: Engine, config: EngineConfig, card: Card | None, claims: ClaimedPorts) -> Watches:
+    watches = watch_devices(config.kits, config.midi_driver, monotonic_ns, card, claims)
     if watches.fault is not None:
         engine.notify(f"no MIDI kit can be heard: {watches.fault}")
     return watches
 
 
-def _stick_watches(engine: Engine, config: EngineConfig) -> StickWatches:
-    watches = watch_sticks(config.sticks)
+def _stick_watches(engine: Engine, config: EngineConfig, claims: ClaimedPorts) -> StickWatches:
+    watches = watch_sticks(config.sticks, claims)
     if watches.fault is not None:
         engine.notify(f"not every stick can be heard: {watches.fault}")
     return watches

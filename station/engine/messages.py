@@ -16,6 +16,7 @@ from station.sound.buses import Bus, ClickVoice
 from station.sound.track import PreparedTrack, Track
 from station.sync.air.air_zones import AirKit
 from station.sync.drill.drill_model import DrillModel
+from station.sync.sonification.triggers import Trigger
 
 __all__ = [
     "CUE_DTYPE",
@@ -139,9 +140,13 @@ class SetAirDrums:
 
 @dataclass(frozen=True, slots=True)
 class TrackPhase:
-    """Tell where in the drill of `model` the sticks are, as `PhaseEstimate`s from now on; None for no longer."""
+    """Tell where in the drill of `model` the sticks are, as `PhaseEstimate`s from now on; None for no longer.
+
+    The phase lets `triggers` sound; what they sound is heard, and is no hit of the student's.
+    """
 
     model: DrillModel | None
+    triggers: tuple[Trigger, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -61,7 +61,7 @@ class Sticks:
             self._mount_in_air(device, detector.mounting)
 
     def struck(self, hit: Hit) -> None:
-        """Take a stroke on a pad: the air kit leaves its piece to it, and learns where the stick that made it points."""
+        """Take a stroke on a pad: the air kit leaves its piece to it, and learns where that stick points."""
         if self._air is not None and hit.device != AIR_DEVICE:
             self._air.pad(hit)
             self._pads.append(hit)

@@ -1,9 +1,9 @@
 """A drummer with a kit and a sensor on each stick, in a process of its own: three ptys that speak bytes on time.
 
-As a program: `python -m tests.fakes.virtual_drummer FOLDER PLAN`. PLAN is a JSON list of [at_ns, port, hex bytes], times
-from the start of playing; for the word `unplug` or `plug` instead of bytes the port's cable is pulled or put in. It
-says `ready` once its ports are there, FOLDER/kit, FOLDER/right and FOLDER/left, waits for `play START_NS` (monotonic;
-what was due long before is left out), plays, says `done`, and keeps its ports until its input ends.
+As a program: `python -m tests.fakes.virtual_drummer FOLDER PLAN`. PLAN is a JSON list of [at_ns, port, hex bytes],
+times from the start of playing; for the word `unplug` or `plug` instead of bytes the port's cable is pulled or put in.
+It says `ready` once its ports are there, FOLDER/kit, FOLDER/right and FOLDER/left, waits for `play START_NS`
+(monotonic; what was due long before is left out), plays, says `done`, and keeps its ports until its input ends.
 """
 
 import json
@@ -41,7 +41,7 @@ class VirtualDrummer:
 
     def __init__(self, folder: Path, plan: Iterable[Deed]) -> None:
         self._folder, path = folder, folder / "plan.json"
-        path.write_text(json.dumps(sorted(plan)))
+        path.write_text(json.dumps(sorted(plan, key=lambda deed: deed.at_ns)))
         self._child = Child(__name__, [str(folder), str(path)], {})
 
     def port(self, name: str) -> str:

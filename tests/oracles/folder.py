@@ -16,6 +16,7 @@ KINDS = {
     "the Groove MIDI Dataset": "gmd/**/*.mid",
     "a WitMotion's packets": "imu/witmotion_hazer/*.txt",
     "the CMU motions": "mocap/**/*.[ab][mv][ch]",
+    "air drums": "imu/airdrums/1_sensor?.txt",
 }
 """What is compared with, and the pattern of its files."""
 

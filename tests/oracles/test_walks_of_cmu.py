@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from station.sync.phase.phase_tracker import PAPER, TrackerSettings
-from station.sync.phase.recordings import track_recording
+from station.sync.phase.whole_recording import track_recording
 from station.sync.sonification.trigger_table import PRESETS
 from station.sync.sonification.triggers import share_of
 from station.sync.walking.trial import Trial, gait_model
@@ -17,6 +17,8 @@ from tests.oracles.folder import ORACLES, oracles
 pytestmark = [pytest.mark.oracle]
 
 LEG = ("femur", "tibia", "foot", "toes")
+LEVEL = [each for each in oracles("the CMU motions") if each.id != "mocap/amc/03/03_04.amc"]
+"""All but a walk over steps."""
 CONVERGED = 0.75
 """Of a cycle: the paper's longest."""
 
@@ -37,7 +39,7 @@ def test_both_editions_put_the_legs_in_one_place(trial: str) -> None:
     assert np.abs(ours - theirs).max() < 1e-4
 
 
-@pytest.mark.parametrize("path", oracles("the CMU motions"))
+@pytest.mark.parametrize("path", LEVEL)
 def test_a_body_walks_upright_on_the_floor(path: Path) -> None:
     """Heels within 8 cm of the floor (a marker's shift, a sole) whenever they are lowest; the head a stature above."""
     trial = Trial.read(path)

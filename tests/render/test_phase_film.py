@@ -56,7 +56,8 @@ def test_a_film_lasts_as_long_as_the_motion_and_has_its_sound(
 ) -> None:
     told, scene = walk
     soundtrack = Soundtrack(cues_of(told.hits, 0.0), Sounds(KIT, None))
-    video, shown = VideoFormat(SIZE, Fraction(FPS), soundtrack.rate_hz), []
+    video = VideoFormat(SIZE, Fraction(FPS), soundtrack.rate_hz)
+    shown: list[int] = []
     write_phase_film(scene, "walk", soundtrack, video, tmp_path / "a.mp4", shown.append)
     start_s, end_s = scene.trace.span_s
     with av.open(str(tmp_path / "a.mp4")) as file:

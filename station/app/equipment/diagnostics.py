@@ -148,10 +148,8 @@ def check_hid() -> Check:
     denied = [(port, why) for port in ports if (why := directory.no_access(port)) is not None]
     if denied:
         finding, remedy = ("; ".join(sorted(set(texts))) for texts in zip(*denied, strict=True))
-        return Check("kit (game drums)", False, f"{finding} cannot be opened", remedy)
-    return Check(
-        "kit (game drums)", True, ", ".join(ports) or "no game drums, no foot switch; only who has them needs them"
-    )
+        return Check("kit (games)", False, f"{finding} cannot be opened", remedy)
+    return Check("kit (games)", True, ", ".join(ports) or "no game drums and no foot switch")
 
 
 def check_sound() -> Check:

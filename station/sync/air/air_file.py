@@ -44,7 +44,7 @@ def read_air(path: Path) -> AirKit:
         source = read_source(path)
     except NoSuchFile:
         return AirKit(())
-    return read(source, _KIT)
+    return read(source, AIR_KIT)
 
 
 def save_air(kit: AirKit, path: Path) -> None:
@@ -97,10 +97,8 @@ def _kit(normal_speed_m_s: float, zones: tuple[AirZone, ...]) -> AirKit:
     return AirKit(zones, normal_speed_m_s)
 
 
-_KIT = record(
-    _kit,
-    {
-        "normal_speed_m_s": Field(number(_SLOWEST_NORMAL_M_S, FULL_SPEED_M_S), NORMAL_SPEED_M_S),
-        "zones": Field(list_of(record(_zone, _ZONE), "an array of tables: [[zones]]"), ()),
-    },
-)
+FIELDS: Fields = {
+    "normal_speed_m_s": Field(number(_SLOWEST_NORMAL_M_S, FULL_SPEED_M_S), NORMAL_SPEED_M_S),
+    "zones": Field(list_of(record(_zone, _ZONE), "an array of tables: [[zones]]"), ()),
+}
+AIR_KIT = record(_kit, FIELDS)

@@ -23,19 +23,18 @@ Array = NDArray[np.float64]
 SLOWEST, FASTEST, TEMPO_STEP = 0.45, 2.2, 1.05
 """The tempi kept in mind, as parts of the model's: half to double with room to spare, each 5 % faster than the one
 before, about what a tempo must change for most listeners to notice it (our choice)."""
-WEIGHT_PER_S = 30.0
-"""What E₁ counts for, each second: samples 10 ms apart are nearly the same sample, so that one counts 0.3 (our choice;
-from 10 to 100 the figures of docs/drill-phase.md hardly change)."""
+WEIGHT_PER_S = 45.0
+"""What E₁ counts for, each second: samples 10 ms apart are nearly the same, so that one counts 0.45 (our choice)."""
 JUMP = 20.0
 """No way falls farther behind: about what a second and a half of a middling match is worth (our choice)."""
 CHANGE = 0.3
 """What one step of tempo, or one of phase beside the tempo, costs: a hundredth of a second's match (our choice)."""
 CHANGES_PER_S = 25.0
 """How often tempo and phase may so change: 5 % of tempo 25 times a second is faster than anybody plays (our choice)."""
-REST = 1.0
-"""A channel that is always this, in model and sample, beside channels of SD 1: so a sample at rest matches a model at
-rest, where the normalised correlation of nothing with nothing would say anything (our choice)."""
-
+REST = 3.0
+"""A channel that is always this, in model and sample, beside channels of SD 1: so rest matches rest, where the
+normalised correlation of nothing with nothing would say anything, and strong motion counts more than weak. People
+strike alike and prepare unlike: with 1 the simulated sticks are lost at half the tempo, with 2 to 4 they are found."""
 APART = 8
 """Phases so many centres away are others: half a stroke of the busiest hand (`drill_model.CENTRES_A_STROKE`)."""
 

@@ -11,7 +11,7 @@ from station.core.units import NS_PER_S
 from station.music.formats.smf.track_writer import ControlMove
 from station.sync.phase.periodic_model import PeriodicModel
 from station.sync.phase.phase_tracker import PhaseTrack, TrackerSettings
-from station.sync.phase.recordings import track_recording
+from station.sync.phase.whole_recording import track_recording
 from station.sync.signals.signal import Signal
 from station.sync.sonification.channel_levels import ChannelLevel, level_cues
 from station.sync.sonification.triggers import Trigger, triggered

@@ -37,20 +37,22 @@ _ZONES = {meaning.piece: meaning for _, meaning in sorted(GENERAL_MIDI.items(), 
 """How General MIDI strikes a piece, where it has several numbers by the lowest."""
 
 
-def drill_triggers(loop: Score) -> tuple[Trigger, ...]:
-    """A trigger a stroke of a loop that the model's φ runs through from 0 to 2π, grace strokes included.
+def drill_triggers(loop: Score, repeats: int = 1) -> tuple[Trigger, ...]:
+    """A trigger a stroke, grace strokes included, of a loop in which the model's φ runs `repeats` times from 0 to 2π.
 
-    The loop's beginning is φ = 0, hence the threshold 0.5.
+    Of a loop that is told by its shortest repeat the first one's strokes are taken. Its beginning is φ = 0, hence the
+    threshold 0.5.
     """
-    length_ns = loop.length_ns
+    cycle_ns = loop.length_ns / repeats
+    inside = loop.onset_ns < cycle_ns
     return tuple(
         Trigger(
-            (int(at_ns) / length_ns + 0.5) % 1.0,
+            (at_ns / cycle_ns + 0.5) % 1.0,
             NoteMeaning(Piece(note["piece"]), Zone(note["zone"]), Articulation(note["articulation"]), _known(note)),
             int(note["velocity"]),
             limb=Limb(note["limb"]),
         )
-        for at_ns, note in zip(loop.onset_ns.tolist(), loop.notes, strict=True)
+        for at_ns, note in zip(loop.onset_ns[inside].tolist(), loop.notes[inside], strict=True)
     )
 
 

@@ -43,7 +43,7 @@ class Trigger:
 
 
 def share_of(phase_rad: float) -> float:
-    """Where in the cycle a phase in (−π, π] is, as thresholds count: (φ + π)/2π, from 0 to 1."""
+    """Where in the cycle a phase is, as thresholds count: (φ + π)/2π, from 0 to 1 for a phase in (−π, π]."""
     return (phase_rad + pi) / (2 * pi)
 
 

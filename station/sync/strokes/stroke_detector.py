@@ -7,8 +7,9 @@ After a contact the detector is deaf until the tip has been raised again by an a
 raise it, the smallest bounce of a buzz does. No time is masked beyond the contact itself.
 
 `fall` is the downward part of the rate at which the stick's direction turns (rad/s, + down): a twist about the stick's
-own axis does not enter, nor how the sensor is rolled. Tip velocity = the sensor's (its acceleration less gravity,
-integrated since the stick last stood still or turned round at the top) + rate × lever arm.
+own axis does not enter, nor how the sensor is rolled. Tip velocity = rate × lever arm about the fulcrum + the hand's,
+downwards, as far as it is known: the sensor's acceleration less gravity, integrated since the stick last stood still or
+turned round at the top. Sideways the hand travels from drum to drum, and nothing tells how fast.
 """
 
 import math
@@ -50,8 +51,16 @@ STILL_RAD_S, STILL_M_S = 0.2, 0.05
 TURNING_M_S = 0.5
 """How fast the hand may be while the stick turns round at the top: in the recorded stroke (HUMANS.md) it sinks 5 cm in
 the slow fall of 92 ms."""
+HAND_M_S = 1.5
+"""How much the hand itself may add to a tip's speed, give or take: in the recorded stroke up to 3.2 m/s, at the contact
+0.5; our choice, between."""
+TRAVEL_S = 0.1
+"""For so long the hand's pushes sideways are remembered: half a travel of 0.25 s from drum to drum (HUMANS.md). What
+speed they make is what the hand may have downwards too, at the top of a stroke on the way."""
 CONTACT_M_S = 10.0
 """How wrong the sensor's velocity may be after a contact, which no accelerometer follows: the fastest tip's own."""
+FULCRUM_SHARE = 1 / 3
+"""A stick turns about a third of its length from the butt (HUMANS.md)."""
 DRIFT_M_S2 = 0.35
 """How fast the integrated velocity goes wrong: a tilt that is 2° off, as VQF's is in motion (Laidig & Seel 2023)."""
 
@@ -72,12 +81,14 @@ class StrokeDetector:
     def __init__(self, device: str, mounting: Mounting) -> None:
         self.device, self.mounting = device, mounting
         self.orientation = StickOrientation(mounting)
+        self._lever = (mounting.tip_m + mounting.butt_m) * (1 - FULCRUM_SHARE)
         self._begin_ns: int | None = None
         self._start()
 
     def _start(self) -> None:
         self._kept: deque[_Instant] = deque()
-        self._velocity = self._force = (0.0, 0.0, 0.0)  # of the sensor, in the earth's axes
+        self._velocity = self._force = 0.0  # of the sensor, upwards
+        self._push = 0.0  # the mean of its acceleration sideways
         self._doubt = CONTACT_M_S
         self._below = self._sink = 0.0  # how far the tip has sunk since its top, and how fast it does
         self._is_armed = True
@@ -138,25 +149,30 @@ class StrokeDetector:
         force = turned(rows, motion.acceleration_m_s2)
         before = self._kept[-1].fall if self._kept else 0.0
         half = 0.5 * dt_s
-        (vx, vy, vz), (fx, fy, fz) = self._velocity, self._force
-        vx, vy = vx + half * (fx + force[0]), vy + half * (fy + force[1])
-        vz += half * (fz + force[2] - 2.0 * STANDARD_GRAVITY_M_S2)
+        vz = self._velocity + half * (self._force + force[2] - 2.0 * STANDARD_GRAVITY_M_S2)
         self._doubt += DRIFT_M_S2 * dt_s
+        self._push += (math.hypot(force[0], force[1]) - self._push) * min(dt_s / TRAVEL_S, 1.0)
         if before <= 0.0 < fall or self._is_still(fall, force):
-            known = STILL_M_S if self._is_still(fall, force) else TURNING_M_S
+            known = STILL_M_S if self._is_still(fall, force) else math.hypot(TURNING_M_S, self._push * TRAVEL_S)
             share = known**2 / (known**2 + self._doubt**2)
             if share < 0.5:
                 self._below = 0.0
-            vx, vy, vz = vx * share, vy * share, vz * share
+            vz *= share
             self._doubt *= math.sqrt(share)
-        self._velocity, self._force = (vx, vy, vz), force
-        lever = self.mounting.tip_m
+        self._velocity, self._force = vz, force[2]
         _, p, q = motion.rate_rad_s
-        wx, wy, wz = turned(rows, (0.0, q * lever, -p * lever))
-        sink = max(0.0, -(vz + wz))
+        wx, wy, _ = turned(rows, (0.0, q * self._lever, -p * self._lever))
+        down = self._down(fall, fall * self.mounting.tip_m - vz)
+        sink = max(0.0, down)
         self._below = self._below + 0.5 * (self._sink + sink) * dt_s if sink > 0.0 else 0.0
         self._sink = sink
-        return math.sqrt((vx + wx) ** 2 + (vy + wy) ** 2 + (vz + wz) ** 2)
+        return math.sqrt(wx**2 + wy**2 + down**2)
+
+    def _down(self, fall: float, integrated: float) -> float:
+        """The tip's speed downwards: of turning about the fulcrum, and `integrated`, weighed by their variances."""
+        turned_m_s = fall * self._lever
+        share = HAND_M_S**2 / (HAND_M_S**2 + self._doubt**2)
+        return turned_m_s + (integrated - turned_m_s) * share
 
     def _is_still(self, fall: float, force: Vector) -> bool:
         x, y, z = force
@@ -199,7 +215,8 @@ class StrokeDetector:
         interval_s = self._kept[-1].at_s - self._kept[-2].at_s
         return max(AFTER_S, 1.01 * interval_s)
 
-    def _stroke(self, is_derived: bool) -> StickStroke:
+    def _stroke(self, is_derived: bool) -> StickStroke | None:
+        """The contact that was noticed; None where the tip came to it too slowly."""
         kept = list(self._kept)
         pairs = list(pairwise(kept))
         interval_s = min(b.at_s - a.at_s for a, b in pairs)
@@ -213,8 +230,10 @@ class StrokeDetector:
         earlier = max((i for i in kept if i.at_s <= clean.at_s - SUDDEN_S), default=kept[0])
         left_s = max(0.0, onset_s - clean.at_s)
         speed, fall = _at_onset(clean.speed, earlier.speed, clean, earlier, left_s), clean.fall
-        up = max((-i.fall for i in kept if i.at_s > onset_s), default=0.0)
-        down = _at_onset(clean.fall, earlier.fall, clean, earlier, left_s)
+        if speed < SLOWEST_FALL_RAD_S * self._lever:
+            return None
+        is_clipped = any(instant.is_clipped for instant in kept)
+        up = -min(i.fall for i in kept[contact.last + 1 : contact.last + 3])  # the foot's own may be smeared
         assert self._begin_ns is not None
         return StickStroke(
             self._begin_ns + round(onset_s * NS_PER_S),
@@ -222,9 +241,9 @@ class StrokeDetector:
             self.mounting.limb,
             speed,
             clean.height + speed * left_s,
-            min(max(up / down, 0.0), 1.0) if down > 0 else None,
+            None if is_clipped else min(max(up * self._lever / speed, 0.0), 1.0),
             math.asin(min(max(clean.sine - fall * left_s, -1.0), 1.0)),
-            any(instant.is_clipped for instant in kept),
+            is_clipped,
             roll_rad=clean.roll,
         )
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.sync.signals.signal import Signal
-from station.sync.walking.skeleton import SIDES, Skeleton
+from station.sync.walking.mocap_skeleton import SIDES, Skeleton
 
 SMOOTHED_S = 0.04
 """The heel's height is averaged over so long before its velocity is taken (our choice: five frames at 120 Hz)."""

@@ -12,7 +12,7 @@ from station.core.schema import either
 from station.sync.signals.amc import skeleton_beside
 from station.sync.signals.asf import AsfSkeleton, Bone, read_asf
 from station.sync.signals.bvh_motion import BONES, BvhMotion, read_bvh
-from station.sync.walking.skeleton import Channel, Joint, Skeleton
+from station.sync.walking.mocap_skeleton import Channel, Joint, Skeleton
 
 INCH_M = 0.0254
 BVH_UNIT_M = INCH_M / 0.45

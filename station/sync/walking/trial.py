@@ -8,7 +8,7 @@ from station.sync.phase.periodic_model import CENTRES, PeriodicModel, fitted
 from station.sync.signals.signal import CHANNEL_SETS, Signal
 from station.sync.signals.signal_files import read_signal
 from station.sync.walking.footfall import Steps, footfalls
-from station.sync.walking.skeleton import Points, Skeleton
+from station.sync.walking.mocap_skeleton import Points, Skeleton
 from station.sync.walking.skeleton_of import skeleton_with_heels
 
 GAIT_CHANNELS = CHANNEL_SETS["walk"]

@@ -5,7 +5,7 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece
-from station.sync.phase.recordings import zero_mean
+from station.sync.phase.whole_recording import zero_mean
 from station.sync.signals.signal import CHANNEL_SETS, Signal
 from station.sync.sonification.sonified import sonified
 from station.sync.sonification.trigger_table import PRESETS

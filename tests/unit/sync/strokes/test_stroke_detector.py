@@ -198,7 +198,7 @@ def test_the_recorded_stroke_has_its_published_speed_height_and_rebound() -> Non
     still = [STANDARD_GRAVITY_M_S2 * along[0, 1], STANDARD_GRAVITY_M_S2 * across[0, 1], 0.0]
     rows = np.concatenate([np.tile(still, (240, 1)), rows])
     samples = [ImuSample(round(k * 1e9 / 240), (a, 0.0, b), (0.0, w, 0.0)) for k, (a, b, w) in enumerate(rows.tolist())]
-    (stroke,) = found(samples, Mounting(Limb.RIGHT_HAND, tip_m=length))
+    (stroke,) = found(samples, Mounting(Limb.RIGHT_HAND, tip_m=length, butt_m=length / 2))
     lowest_s = 1 + time[np.argmin(tip[:, 1])]
     assert stroke.at_ns / 1e9 == pytest.approx(lowest_s, abs=0.006)
     assert stroke.speed_m_s == pytest.approx(9.4, rel=0.1)

@@ -7,7 +7,7 @@ from station.sync.signals.asf import AsfSkeleton, Bone
 from station.sync.signals.bvh_motion import BvhMotion
 from station.sync.signals.bvh_motion import Joint as BvhJoint
 from station.sync.signals.signal import Signal
-from station.sync.walking.skeleton import Skeleton, about
+from station.sync.walking.mocap_skeleton import Skeleton, about
 from station.sync.walking.skeleton_of import of_asf, of_bvh
 
 UNIT_M = 0.0254 / 0.45
