@@ -14,7 +14,7 @@ from station.core.events import Hit
 from station.core.pieces import Limb
 from station.simulation.sticks.swing_body import LENGTH_M
 from station.simulation.sticks.swing_contact import Contact, contacts
-from station.simulation.sticks.swing_motion import FINE_HZ, GRIPS, StickMotion, stick_motion
+from station.simulation.sticks.swing_motion import FINE_HZ, GRIPS, StickPath, stick_motion
 from station.simulation.sticks.swing_pads import ModuleSpec, pad_hits
 from station.simulation.sticks.swing_sensor import SensorSpec, SimulatedStick, measure
 from station.simulation.sticks.swing_spec import StickGesture, StickStrokeSpec, StrokeKind
@@ -95,7 +95,7 @@ def _span(touches: Sequence[Contact], gestures: Sequence[StickGesture]) -> tuple
     return min(starts, default=LEAD_S) - LEAD_S, max(ends, default=LEAD_S) + TAIL_S
 
 
-def _truth(touches: Sequence[Contact], motions: Mapping[Limb, StickMotion]) -> NDArray[np.void]:
+def _truth(touches: Sequence[Contact], motions: Mapping[Limb, StickPath]) -> NDArray[np.void]:
     """What the sticks did at each touch, read off their paths."""
     truth = np.zeros(len(touches), TRUTH_DTYPE)
     tips = {limb: motion.point_m(LENGTH_M) for limb, motion in motions.items()}

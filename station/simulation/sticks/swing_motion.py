@@ -58,7 +58,7 @@ GRIPS = {
 
 
 @dataclass(frozen=True, slots=True)
-class StickMotion:
+class StickPath:
     """A stick's path at `time_s` (n,): its `fulcrum_m` (n, 3), `heading`, `elevation` and `roll` in rad (n,) each.
 
     `contact_force_n` (n,) acts on it along its own z axis at `struck_m` (n,) from the butt.
@@ -130,7 +130,7 @@ def stick_motion(
     span_s: tuple[float, float],
     grip: Grip,
     rng: np.random.Generator,
-) -> StickMotion:
+) -> StickPath:
     """The path of `limb`'s stick over `span_s` through its `touches`, with its `gestures` beside them."""
     time_s = np.arange(math.floor((span_s[1] - span_s[0]) * FINE_HZ)) / FINE_HZ + span_s[0]
     lead_s = (touches[0].onset_s - span_s[0]) if touches else 0.0
@@ -150,7 +150,7 @@ def stick_motion(
     turned = rise - angle
     force, struck = _forces(touches, time_s)
     fulcrum[:, 2] += _kicks(touches, time_s)
-    return StickMotion(
+    return StickPath(
         limb,
         time_s,
         fulcrum,

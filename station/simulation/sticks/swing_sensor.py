@@ -16,7 +16,7 @@ from station.core.imu import STANDARD_GRAVITY_M_S2, ImuSample, Mounting, Quatern
 from station.core.pieces import Limb
 from station.core.units import NS_PER_S
 from station.simulation.sticks.swing_body import LENGTH_M
-from station.simulation.sticks.swing_motion import FINE_HZ, StickMotion
+from station.simulation.sticks.swing_motion import FINE_HZ, StickPath
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -113,7 +113,7 @@ class SimulatedStick:
     temperature_c: Floats
     measured: int
     sensor: SensorSpec
-    motion: StickMotion
+    motion: StickPath
 
     @property
     def samples(self) -> tuple[ImuSample, ...]:
@@ -133,7 +133,7 @@ class SimulatedStick:
         ]
 
 
-def measure(motion: StickMotion, sensor: SensorSpec, device: str, rng: np.random.Generator) -> SimulatedStick:
+def measure(motion: StickPath, sensor: SensorSpec, device: str, rng: np.random.Generator) -> SimulatedStick:
     """What `sensor` reports of `motion`."""
     turn = random_turn(rng) if sensor.turn is None else sensor.turn
     chip = CHIPS[sensor.chip]
@@ -282,7 +282,7 @@ def _arrivals(time_s: Floats, link: Link, rng: np.random.Generator) -> tuple[NDA
     return kept, np.maximum.accumulate(arrival)
 
 
-def _orientations(motion: StickMotion, time_s: Floats, turn: Quaternion, rng: np.random.Generator) -> Floats:
+def _orientations(motion: StickPath, time_s: Floats, turn: Quaternion, rng: np.random.Generator) -> Floats:
     """Earth from sensor, as the chip's own fusion tells it, (n, 4): right but for a heading of its own."""
     rows = np.clip(np.searchsorted(motion.time_s, time_s), 0, len(motion.time_s) - 1)
     north = rng.uniform(-math.pi, math.pi)

@@ -11,7 +11,7 @@ from station.core.imu import STANDARD_GRAVITY_M_S2
 from station.core.pieces import Limb, Piece, Zone
 from station.simulation.sticks.stick_swing import SimulatedSticks, StickPair, play
 from station.simulation.sticks.swing_body import FULCRUM_M, LENGTH_M
-from station.simulation.sticks.swing_motion import FINE_HZ, StickMotion
+from station.simulation.sticks.swing_motion import FINE_HZ, StickPath
 from station.simulation.sticks.swing_pads import ModuleSpec
 from station.simulation.sticks.swing_sensor import SensorSpec
 from station.simulation.sticks.swing_spec import GestureKind, StickGesture, StickStrokeSpec, StrokeKind
@@ -60,7 +60,7 @@ def test_peak_speeds_of_the_real_stroke() -> None:
     assert turning == pytest.approx(math.degrees((9.4 - 2.0) / 0.27), rel=0.1)
 
 
-def _tip_and_hand(motion: StickMotion) -> tuple[Floats, Floats]:
+def _tip_and_hand(motion: StickPath) -> tuple[Floats, Floats]:
     return motion.point_m(LENGTH_M), motion.fulcrum_m
 
 
