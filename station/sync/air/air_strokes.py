@@ -20,10 +20,10 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.sync.air.stick_swing import Swing, wrapped
 
 STARTS_M_S = 0.2
-"""A tip that falls so fast may be a stroke; our choice: half of the slowest one."""
-SLOWEST_M_S = 0.4
-"""At least so fast is a stroke; a third of the 1.2 m/s that a tip gains in falling from a soft stroke's 3 inches
-(HUMANS: p)."""
+"""A tip that falls so fast may be a stroke; our choice: not quite half of the slowest one."""
+SLOWEST_M_S = 0.45
+"""At least so fast is a stroke: a free fall from an inch, the lowest ghost's height (our choice), ends at 0.7 m/s, and a
+third of a tip's speed is its hand's (HUMANS)."""
 LEAST_FALL_RAD = radians(4.0)
 """An inch at the tip of a stick that turns a third from its butt (HUMANS): lower than any stroke that is meant."""
 _DOWNWARD = 0.5
