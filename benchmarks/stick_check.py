@@ -230,9 +230,8 @@ def examine_strokes(seeds: range, names: Sequence[str]) -> None:
                 heard = hear(played)
                 costs.append((heard.took_s, heard.samples))
                 scores.append(scored(f"{name} · {sensor_name} · seed {seed}", played, heard))
+        _table_total(sensor_name, [s for s in scores if f"· {sensor_name} ·" in s.name])
     _table("strokes, worst cases first", sorted(scores, key=lambda s: -s.badness)[:40])
-    for name in names:
-        _table_total(name, [s for s in scores if f"· {name} ·" in s.name])
     took, samples = (sum(column) for column in zip(*costs, strict=True))
     print(f"\ncost: {1e6 * took / samples:.1f} µs a sample ({samples} samples, {took:.1f} s)")
 
@@ -348,7 +347,8 @@ def _table_total(name: str, scores: Sequence[Score]) -> None:
         f"lag {np.median(lag):.1f} ({min(lag):.1f} … {max(lag):.1f}) ms, SD {sd:.2f} ms, "
         f"speed {100 * np.nanmedian([s.speed_off for s in scores]):+.1f} ± "
         f"{100 * np.nanmedian([s.speed_sd for s in scores]):.1f} %, "
-        f"height {np.nanmedian([s.height_off_cm for s in scores]):.1f} cm"
+        f"height {np.nanmedian([s.height_off_cm for s in scores]):.1f} cm",
+        flush=True,
     )
 
 

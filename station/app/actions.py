@@ -530,7 +530,14 @@ class FollowPhase:
     on: bool
 
 
-StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase
+@dataclass(frozen=True, slots=True)
+class SoundPhase:
+    """Let the phase that is followed sound the drill's strokes, from the next session on, or no longer."""
+
+    on: bool
+
+
+StickAction = LookForSticks | SetHand | LearnMounting | LearnAir | GiveUpSticks | PlayInAir | FollowPhase | SoundPhase
 EquipmentAction = MappingAction | CalibrationAction | StickAction
 
 # --- files ------------------------------------------------------------------------------------------------------------

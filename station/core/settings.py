@@ -63,9 +63,10 @@ class Settings:
     are where the window looks from, `score` how it shows the score, `theme` its colours (`app.view_settings`),
     `panel_scale` how many times as large as designed its panels are, `double` whether the student is shown as a second
     drummer, `double_beside` whether beside the demonstrator and not over them, `air_drums` whether strokes in the air
-    are hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock, `course`
-    names the course whose lessons are listed, empty for all; `welcomed` whether the questions of the first start were
-    asked (`app.first_start`).
+    are hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock,
+    `sound_phase` whether that phase sounds the drill's strokes as it passes them, `course` names the course whose
+    lessons are listed, empty for all; `welcomed` whether the questions of the first start were asked
+    (`app.first_start`).
     """
 
     student: str = "student"
@@ -107,6 +108,7 @@ class Settings:
     double_beside: bool = False
     air_drums: bool = False
     follow_phase: bool = False
+    sound_phase: bool = False
 
     @property
     def threshold_of(self) -> dict[Piece, int]:

@@ -41,7 +41,7 @@ class VirtualDrummer:
 
     def __init__(self, folder: Path, plan: Iterable[Deed]) -> None:
         self._folder, path = folder, folder / "plan.json"
-        path.write_text(json.dumps(sorted(plan)))
+        path.write_text(json.dumps(sorted(plan, key=lambda deed: deed.at_ns)))
         self._child = Child(__name__, [str(folder), str(path)], {})
 
     def port(self, name: str) -> str:

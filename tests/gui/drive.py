@@ -50,7 +50,7 @@ from station.gui.panels.playback_row import STOP_LABEL as HITS_STOP
 from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
 from station.gui.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
 from station.gui.panels.practice_panel import LEARN_LABEL, PRACTICE
-from station.gui.panels.sticks_panel import FOLLOW_LABEL, GESTURE_LABEL, LOOK_LABEL, PORTS_LABEL, STICKS
+from station.gui.panels.sticks_panel import FOLLOW_LABEL, GESTURE_LABEL, LOOK_LABEL, PORTS_LABEL, SOUND_LABEL, STICKS
 from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.panels.velocity_part import LEARN_LABEL as TOUCH_LABEL
 from station.gui.window import Window
@@ -524,6 +524,9 @@ def sticks(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click(f"**/{FOLLOW_LABEL}")
     ctx.yield_(2)
     drive.seen["follows"] = load_settings(drive.settings).follow_phase
+    ctx.item_click(f"**/{SOUND_LABEL}")
+    ctx.yield_(2)
+    drive.seen["sounds"] = load_settings(drive.settings).sound_phase
     ctx.item_input_value(f"**/{PORTS_LABEL}", "serial:/dev/ttyUSB0@fast")
     ctx.item_click(f"**/{LOOK_LABEL}")
     ctx.yield_(2)

@@ -122,6 +122,7 @@ def a_stick_is_seen_and_put_in_a_hand(seen: dict[str, Any]) -> None:
     assert seen["asks"].startswith("Lay both sticks")
     assert seen["given up"]
     assert seen["follows"]
+    assert seen["sounds"]
     assert seen["watched"] == [True, False]
     assert "expected serial:PATH@BAUD" in seen["refused"]
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from station.core.imu import STANDARD_GRAVITY_M_S2
-from station.devices.imu.detect import DetectingDecoder
+from station.devices.imu.detect_protocol import DetectingDecoder
 from station.devices.imu.imu_reading import Reading, Told
 from station.devices.imu.witmotion import WitMotionBleDecoder
 from tests.oracles.folder import oracles

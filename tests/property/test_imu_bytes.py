@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from station.core.events import SensorSamples
 from station.core.imu import ImuSample, Mounting
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.imu.detect import DetectingDecoder
+from station.devices.imu.detect_protocol import DetectingDecoder
 from station.devices.imu.imu_protocols import PROTOCOLS
 from station.devices.imu.imu_reading import Heard, ImuDecoder, Reading
 from station.devices.imu.imu_sensor import ImuSensor

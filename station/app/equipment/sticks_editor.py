@@ -5,6 +5,7 @@ kept there, and the engine told to read it anew. Samples come only while somethi
 """
 
 from collections.abc import Callable
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -18,6 +19,7 @@ from station.app.actions import (
     LookForSticks,
     PlayInAir,
     SetHand,
+    SoundPhase,
     StickAction,
 )
 from station.app.equipment.sticks_view import Lesson, SeenStick, SticksView, view_of
@@ -32,7 +34,7 @@ from station.core.events import (
     StickPose,
     StickStroke,
 )
-from station.core.imu import ImuSample
+from station.core.imu import ImuSample, Mounting
 from station.core.pieces import Limb
 from station.core.units import ns_from_s
 from station.devices.mapping.stick_file import save_stick
@@ -44,6 +46,7 @@ from station.sync.air.air_zones import AirKit
 
 if TYPE_CHECKING:
     from station.app.equipment.air_learning import AirLearning
+    from station.sync.strokes.mounting_gesture import GestureResult
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +70,11 @@ sticks (our choice)."""
 
 @dataclass(slots=True)
 class _Gesture:
-    """A gesture that is being made."""
+    """A gesture that is being made, and once it is over what is found in it."""
 
     begun_ns: int
     samples: dict[str, list[ImuSample]] = field(default_factory=dict)
+    result: "Future[GestureResult] | None" = None
 
     def step(self, now_ns: int) -> _Step | None:
         """The part that `now_ns` is in, None when it is over."""
@@ -85,6 +89,12 @@ class _Gesture:
         """How much of it is over, 0 … 1."""
         whole_ns = ns_from_s(sum(step.lasts_s for step in _GESTURE))
         return min(1.0, max(0.0, (now_ns - self.begun_ns) / whole_ns))
+
+
+def _understood(samples: dict[str, list[ImuSample]], before: dict[str, Mounting]) -> "GestureResult":
+    from station.sync.strokes.mounting_gesture import learn_mounting
+
+    return learn_mounting(samples, before)
 
 
 class SticksEditor:
@@ -104,6 +114,7 @@ class SticksEditor:
         self._send, self._store, self._anew = send, store, anew
         self._folder, self._air_path = folder, air or air_path()
         self._seen: dict[str, SeenStick] = {}
+        self._thread = ThreadPoolExecutor(1, "mounting gesture")
         self._gesture: _Gesture | None = None
         self._air: AirLearning | None = None
         self._learnt: tuple[str, ...] = ()
@@ -139,16 +150,17 @@ class SticksEditor:
             settings.air_drums,
             self._kit.zones,
             settings.follow_phase,
+            settings.sound_phase,
             self._phase,
         )
 
     def _lesson(self) -> Lesson | None:
         if self._air is not None:
             return Lesson(self._air.asks, self._air.done)
-        step = None if self._gesture is None else self._gesture.step(self._now_ns)
-        if self._gesture is None or step is None:
+        if self._gesture is None:
             return None
-        return Lesson(step.asks, self._gesture.done(self._now_ns))
+        step = self._gesture.step(self._now_ns)
+        return Lesson("One moment." if step is None else step.asks, self._gesture.done(self._now_ns))
 
     # --- from the engine ---------------------------------------------------------------------------------------------
 
@@ -193,7 +205,7 @@ class SticksEditor:
         """The time: what is complete is learnt and kept. Raises `DeviceError` if the disk or the engine refuses."""
         self._now_ns = now_ns
         if self._gesture is not None and self._gesture.step(now_ns) is None:
-            self._keep_mountings(self._gesture.samples)
+            self._learn_mountings(self._gesture)
         elif self._air is not None and self._air.is_over:
             self._keep_air(self._air)
 
@@ -218,6 +230,8 @@ class SticksEditor:
                 self._send(SetAirDrums(self._kit, AIR_AHEAD_NS) if on else SetAirDrums(None))
             case FollowPhase(on):
                 self._store.update(lambda settings: replace(settings, follow_phase=on))
+            case SoundPhase(on):
+                self._store.update(lambda settings: replace(settings, sound_phase=on))
             case _:
                 assert_never(action)
 
@@ -267,21 +281,24 @@ class SticksEditor:
         save_stick(seen.mounting, device, self._folder)
         self._send(ReloadDevice(device))
 
-    def _keep_mountings(self, samples: dict[str, list[ImuSample]]) -> None:
-        from station.sync.strokes.mounting_gesture import learn_mounting
+    def _learn_mountings(self, gesture: _Gesture) -> None:
+        """Have the gesture understood in a thread, for that takes seconds of a fast sensor; then keep what it shows."""
+        if gesture.result is None:
+            before = {device: seen.mounting for device, seen in self._seen.items()}
+            gesture.result = self._thread.submit(_understood, gesture.samples, before)
+        elif gesture.result.done():
+            self.give_up()
+            self._keep_mountings(gesture.result.result())
 
-        before = {device: seen.mounting for device, seen in self._seen.items()}
-        self.give_up()
-        result = learn_mounting(samples, before)
+    def _keep_mountings(self, result: "GestureResult") -> None:
         shown = {device: mounting for device, mounting in result.mountings.items() if mounting.learnt}
+        silent = [f"{device}: nothing came from it" for device in self._seen if device not in result.mountings]
         for device, mounting in shown.items():
-            told = mounting if mounting.limb.is_hand else replace(mounting, limb=before[device].limb)
-            self._seen[device].mounting = told
-            save_stick(told, device, self._folder)
+            seen = self._seen[device]
+            seen.mounting = mounting if mounting.limb.is_hand else replace(mounting, limb=seen.mounting.limb)
+            save_stick(seen.mounting, device, self._folder)
             self._send(ReloadDevice(device))
-        silent = [f"{device}: nothing came from it" for device in before if device not in samples]
-        found = [f"{device} is learnt and kept" for device in shown]
-        self._learnt = (*found, *result.faults, *silent)
+        self._learnt = (*(f"{device} is learnt and kept" for device in shown), *result.faults, *silent)
 
     def _learn_air(self) -> None:
         from station.app.equipment.air_learning import AirLearning

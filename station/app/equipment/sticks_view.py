@@ -78,6 +78,7 @@ class SticksView:
     plays_air: bool = False
     zones: tuple[AirZone, ...] = ()
     follows_phase: bool = False
+    sounds_phase: bool = False
     phase: PhaseEstimate | None = None
 
 

@@ -92,7 +92,9 @@ class LessonSession:
         self._folder = folder
         self.view.make_ahead()
         if settings.follow_phase:
-            self._following = PhaseFollowing(self._engine, self.plan, self._demonstrator, self._notify)
+            self._following = PhaseFollowing(
+                self._engine, self.plan, self._demonstrator, self._notify, settings.sound_phase
+            )
 
     # --- while it runs -----------------------------------------------------------------------------------------------
 

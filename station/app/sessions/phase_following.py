@@ -21,14 +21,25 @@ from station.scenes.session_part import AHEAD
 from station.sync.drill.drill_model import DrillModel
 from station.sync.drill.drummed_model import Demonstrated, drill_model
 from station.sync.drill.phase_clock import PhaseClock
+from station.sync.sonification.trigger_table import drill_triggers
+from station.sync.sonification.triggers import Trigger
 
 
 class PhaseFollowing:
-    """For one session, from its beginning to its end; `notify` hears why there is nothing to follow."""
+    """For one session, from its beginning to its end; `notify` hears why there is nothing to follow.
+
+    With `sounds` the phase lets the section's strokes sound.
+    """
 
     def __init__(
-        self, engine: EngineClient, plan: Plan, demonstrator: Demonstrator, notify: Callable[[str], None]
+        self,
+        engine: EngineClient,
+        plan: Plan,
+        demonstrator: Demonstrator,
+        notify: Callable[[str], None],
+        sounds: bool = False,
     ) -> None:
+        self._sounding = plan.section if sounds else None
         played = Demonstrated(plan.kit, demonstrator.figure, demonstrator.style)
         self._engine, self._notify = engine, notify
         self._coming: Future[DrillModel] | None = AHEAD.submit(lambda: drill_model(plan.section, played))
@@ -76,4 +87,9 @@ class PhaseFollowing:
 
     def _send(self, model: DrillModel | None) -> None:
         with suppress(DeviceError):  # a dead engine says so itself
-            self._engine.send(TrackPhase(model))
+            self._engine.send(TrackPhase(model, self._triggers(model)))
+
+    def _triggers(self, model: DrillModel | None) -> tuple[Trigger, ...]:
+        if model is None or self._sounding is None:
+            return ()
+        return drill_triggers(self._sounding, model.repeats)

@@ -7,7 +7,7 @@ The sum is the low byte of the sum of bytes 2 to 17. Source: CEVA, BNO08X datash
 
 import struct
 
-from station.devices.imu.framing import FrameCutter
+from station.devices.imu.frame_cutter import FrameCutter
 from station.devices.imu.imu_reading import Heard, Reading, acceleration_of, quaternion_of_angles
 
 _HEADER = b"\xaa\xaa"

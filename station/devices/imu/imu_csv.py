@@ -10,7 +10,7 @@ is damaged. Once checked lines have come, plain ones count as damaged.
 
 import re
 
-from station.devices.imu.framing import LineCutter
+from station.devices.imu.frame_cutter import LineCutter
 from station.devices.imu.imu_reading import Heard, Reading, acceleration_of, rate_of, unit_quaternion
 
 _LONGEST_LINE = 512

@@ -3,7 +3,7 @@
 from station.core.events import SensorEvent, SensorMounted, SensorSamples, SensorStatus
 from station.core.imu import ImuSample, Mounting
 from station.core.units import NS_PER_S
-from station.devices.imu.detect import DetectingDecoder
+from station.devices.imu.detect_protocol import DetectingDecoder
 from station.devices.imu.imu_reading import Reading, Told
 from station.devices.imu.sample_clock import SampleClock
 

@@ -66,7 +66,7 @@ class SampleClock:
         if step is None and self._suspect is not None:
             step = self._begin_anew(self._suspect, reading)
         if step is None:
-            self._lost, self._suspect = self._lost + 1, reading
+            self._suspect = reading  # it is missing, and counted when the next one comes
             return None
         self._suspect = None
         self._line.add(self._counter.position, reading.at_ns)
@@ -81,7 +81,7 @@ class SampleClock:
         line.add(counter.position, suspect.at_ns)
         step = counter.step(reading, line)
         if step is not None:
-            self._lost = self.lost
+            self._lost = self.lost + 1
             self._counter, self._line = counter, line
         return step
 

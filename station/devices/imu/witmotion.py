@@ -15,7 +15,7 @@ angular rate if the one before had it.
 import struct
 
 from station.core.imu import Quaternion, Vector
-from station.devices.imu.framing import FrameCutter
+from station.devices.imu.frame_cutter import FrameCutter
 from station.devices.imu.imu_reading import (
     Heard,
     Reading,

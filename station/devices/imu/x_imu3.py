@@ -23,7 +23,7 @@ import struct
 from collections.abc import Sequence
 
 from station.core.imu import Quaternion
-from station.devices.imu.framing import LineCutter
+from station.devices.imu.frame_cutter import LineCutter
 from station.devices.imu.imu_reading import (
     Heard,
     Reading,

@@ -10,6 +10,7 @@ What is not said is assumed. A fault is `BadInput` with line and column.
 """
 
 import math
+import zlib
 from pathlib import Path
 
 from station.core.errors import BadInput
@@ -24,6 +25,8 @@ from station.devices.mapping.device_file import own_kit_path
 
 _LONGEST_M = 1.0
 """No stick is longer (our choice: the longest on sale have 45 cm)."""
+_LONGEST_NAME = 40
+"""Letters of a sensor's name that its file is called by: with a number behind them still a kit's (`device_file`)."""
 _STRAYS = 0.01
 """How far from 1 the length of a turn may be: it is written with all its digits, and people round (our choice)."""
 
@@ -40,7 +43,9 @@ def sticks_folder() -> Path:
 
 def stick_path(device: str, folder: Path | None = None) -> Path:
     """The file of the sensor called `device`, whether there is one or not."""
-    return own_kit_path(device, folder or sticks_folder())
+    is_long = len(device) > _LONGEST_NAME  # what tells two sensors apart may stand at the end, as in /dev/serial/by-id
+    name = f"{device[:_LONGEST_NAME]} {zlib.crc32(device.encode('utf-8', 'replace')):08x}" if is_long else device
+    return own_kit_path(name, folder or sticks_folder())
 
 
 def own_stick(device: str, folder: Path | None = None) -> Mounting:

@@ -14,6 +14,7 @@ from station.app.actions import (
     LookForSticks,
     PlayInAir,
     SetHand,
+    SoundPhase,
 )
 from station.app.equipment.sticks_view import Lesson, SticksView, StickView
 from station.app.room_state import Stage
@@ -34,6 +35,7 @@ HELP = (
 )
 GESTURE_LABEL, AIR_LABEL, GIVE_UP_LABEL = "Mounting gesture##sticks", "Learn the air kit##sticks", "Give up##sticks"
 PLAY_AIR_LABEL, FOLLOW_LABEL = "play in the air", "follow my phase"
+SOUND_LABEL = "sound my phase"
 PORTS_LABEL, LOOK_LABEL = "##stick-ports", "Look there##sticks"
 _NO_STICKS = "No sensor is here."
 _HOW = "Plug one in or switch it on, and say below where it is: docs/sensors.md has the sensors that are understood."
@@ -127,6 +129,12 @@ class SticksPanel:
         theme.tooltip("The demonstration goes by where your sticks are in the loop, not by the clock")
         if changed:
             self._dispatch(FollowPhase(on))
+        imgui.begin_disabled(not view.follows_phase)
+        changed, on = theme.checkbox(SOUND_LABEL, view.sounds_phase and view.follows_phase)
+        imgui.end_disabled()
+        theme.tooltip("Each stroke of the drill sounds as your phase passes it; nothing that sounds so is judged")
+        if changed:
+            self._dispatch(SoundPhase(on))
         if view.phase is not None:
             theme.soft(_phase_in_words(view.phase))
 

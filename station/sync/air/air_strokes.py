@@ -41,8 +41,9 @@ _LONGEST_STOP_NS = 25 * NS_PER_MS
 5–7 Hz (HUMANS) 11–15 ms; a stick that is lowered within a quarter of a second takes 31 (by minimum jerk)."""
 _LONGEST_BRAKE_NS = 250 * NS_PER_MS
 """Longer is no stop; our choice: a second's quarter is two strokes of a fast hand (HUMANS: 5–7 Hz)."""
-_RISEN_RAD, _RISEN_SHARE = radians(3.0), 0.2
-"""A stick that has risen by this, and by this share of its last fall, may strike again (our choice)."""
+_RISEN_RAD = radians(1.0)
+"""A stick that has risen by this may strike again: soft strokes in quick succession hardly rise (our choice; the next
+fall must be longer anyway)."""
 _FEWEST_SAMPLES = 4
 """Fewer samples from the start of a fall to its end cannot show that it sped up and was stopped (our choice)."""
 
@@ -82,7 +83,7 @@ class AirStrokes:
     def __init__(self) -> None:
         self.unresolved = 0
         self._state = _State.ARMED
-        self._top_rad = self._lowest_rad = self._fall_rad = 0.0
+        self._top_rad = self._lowest_rad = 0.0
         self._slowest_m_s = 0.0
         self._samples = 0
         self._since_fastest: list[Swing] = []
@@ -110,7 +111,7 @@ class AirStrokes:
 
     def _rest(self, swing: Swing) -> None:
         self._lowest_rad = min(self._lowest_rad, swing.elevation_rad)
-        if swing.elevation_rad - self._lowest_rad >= max(_RISEN_RAD, _RISEN_SHARE * self._fall_rad):
+        if swing.elevation_rad - self._lowest_rad >= _RISEN_RAD:
             self._state, self._top_rad = _State.ARMED, swing.elevation_rad
 
     def _lower(self, swing: Swing) -> None:
@@ -151,7 +152,6 @@ class AirStrokes:
             self._lowered(swing)
             return None
         beat = self._beat(hardest)
-        self._fall_rad = self._top_rad - swing.elevation_rad
         self._state, self._lowest_rad, self._since_fastest = _State.SPENT, swing.elevation_rad, []
         return beat
 

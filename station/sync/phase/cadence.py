@@ -19,7 +19,7 @@ DOUBTFUL = 0.6
 """Likeness up to which a sample tells nothing about the cadence; from there its weight grows to 1 (our choice: half way
 between chance and the 0.85 to 0.99 of the CMU walks). Doubt counts below it alone."""
 DOUBT_TURNS = 1 / 25
-"""The memory of doubt, in periods at Δφ (our choice: of 1/25, 1/12 and 1/6 the best on the uneven ground of CMU 03_04)."""
+"""The memory of doubt, in periods at Δφ (our choice: of 1/25, 1/12 and 1/6 the best on uneven ground, CMU 03_04)."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -184,8 +184,12 @@ def tracked(model: PeriodicModel, values: FloatArray, settings: TrackerSettings 
 
 def _in_lanes(parts: _Parts, lanes: Lanes, seen: Seen) -> PhaseTrack:
     start = parts.start(seen.at(np.zeros(1, np.int64))[0])
-    way = lanes.way(seen, start, parts.usual)
-    asked = np.array([way.likeness, way.speed / parts.usual, way.energy, way.expected])
-    confidence = confidences(running_means(asked, parts.newest))
-    phase_rad = pi - np.mod((parts.objective.count - 1 - way.place) * parts.step_rad, TURN)
-    return PhaseTrack(phase_rad, way.quality, confidence, way.pace * parts.step_rad, locks(confidence))
+    means = np.zeros((4, 1))
+    rows = []
+    for way in lanes.ways(seen, start, parts.usual):
+        asked = np.array([way.likeness, way.speed / parts.usual, way.energy, way.expected])
+        means = running_means(asked, parts.newest, means[:, -1])
+        phase_rad = pi - np.mod((parts.objective.count - 1 - way.place) * parts.step_rad, TURN)
+        rows.append(np.array([phase_rad, way.quality, confidences(means), way.pace * parts.step_rad]))
+    phase_rad, quality, confidence, cadence_rad = np.concatenate(rows, axis=1)
+    return PhaseTrack(phase_rad, quality, confidence, cadence_rad, locks(confidence))

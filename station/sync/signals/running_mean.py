@@ -11,9 +11,11 @@ _BLOCK = 16
 """Samples that are summed at once (our choice: 8 and 32 take as long)."""
 
 
-def running_means(values: FloatArray, weight: float) -> FloatArray:
-    """m(k) = m(k−1) + weight (x(k) − m(k−1)) along the last axis of values (…, n), m before the first being 0."""
-    return _accumulated(values * weight, 1 - weight)
+def running_means(values: FloatArray, weight: float, before: FloatArray | float = 0.0) -> FloatArray:
+    """m(k) = m(k−1) + weight (x(k) − m(k−1)) along the last axis of values (…, n ≥ 1), from the means `before` on."""
+    weighted = values * weight
+    weighted[..., 0] += (1 - weight) * before
+    return _accumulated(weighted, 1 - weight)
 
 
 def _accumulated(values: FloatArray, keep: float) -> FloatArray:

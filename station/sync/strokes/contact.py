@@ -20,11 +20,12 @@ FOOT = 0.1
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """A contact: its onset in seconds on the pulse's own time axis, its duration, the pulse's first index."""
+    """A contact: its onset in seconds on the pulse's own time axis, its duration, the pulse's first and last index."""
 
     onset_s: float
     duration_s: float
     first: int
+    last: int
 
 
 def contact_of(times_s: Sequence[float], pulse: Sequence[float], interval_s: float, peak: int) -> Contact:
@@ -46,4 +47,4 @@ def contact_of(times_s: Sequence[float], pulse: Sequence[float], interval_s: flo
     duration = min(max(math.sqrt(variance) / SPREAD_SHARE, SHORTEST_S), LONGEST_S)
     if interval_s > SHORTEST_S:  # too coarse to tell: the middle of what is possible
         duration = (SHORTEST_S + LONGEST_S) / 2
-    return Contact(centre - duration / 2, duration, first)
+    return Contact(centre - duration / 2, duration, first, last)

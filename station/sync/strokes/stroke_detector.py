@@ -169,7 +169,7 @@ class StrokeDetector:
         return math.sqrt(wx**2 + wy**2 + down**2)
 
     def _down(self, fall: float, integrated: float) -> float:
-        """The tip's speed downwards: of turning about the fulcrum alone, and `integrated`, weighed by their variances."""
+        """The tip's speed downwards: of turning about the fulcrum, and `integrated`, weighed by their variances."""
         turned_m_s = fall * self._lever
         share = HAND_M_S**2 / (HAND_M_S**2 + self._doubt**2)
         return turned_m_s + (integrated - turned_m_s) * share
@@ -232,8 +232,8 @@ class StrokeDetector:
         speed, fall = _at_onset(clean.speed, earlier.speed, clean, earlier, left_s), clean.fall
         if speed < SLOWEST_FALL_RAD_S * self._lever:
             return None
-        up = max((-i.fall for i in kept if i.at_s > onset_s), default=0.0)
-        down = _at_onset(clean.fall, earlier.fall, clean, earlier, left_s)
+        is_clipped = any(instant.is_clipped for instant in kept)
+        up = -min(i.fall for i in kept[contact.last + 1 : contact.last + 3])  # the foot's own may be smeared
         assert self._begin_ns is not None
         return StickStroke(
             self._begin_ns + round(onset_s * NS_PER_S),
@@ -241,9 +241,9 @@ class StrokeDetector:
             self.mounting.limb,
             speed,
             clean.height + speed * left_s,
-            min(max(up / down, 0.0), 1.0) if down > 0 else None,
+            None if is_clipped else min(max(up * self._lever / speed, 0.0), 1.0),
             math.asin(min(max(clean.sine - fall * left_s, -1.0), 1.0)),
-            any(instant.is_clipped for instant in kept),
+            is_clipped,
             roll_rad=clean.roll,
         )
 

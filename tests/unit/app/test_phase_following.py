@@ -21,10 +21,10 @@ from tests.fakes.stations import Line
 PLAN = plan_practice(find_lesson("rock-1"), PlanOptions(loops=2, demonstrations=0))
 
 
-def following(plan: Plan = PLAN) -> tuple[Line, PhaseFollowing, list[str]]:
+def following(plan: Plan = PLAN, sounds: bool = False) -> tuple[Line, PhaseFollowing, list[str]]:
     """One whose model is made: the thread that makes drummers works in order."""
     line, notes = Line(), list[str]()
-    followed = PhaseFollowing(EngineClient(lambda: line, 48_000), plan, Demonstrator(), notes.append)
+    followed = PhaseFollowing(EngineClient(lambda: line, 48_000), plan, Demonstrator(), notes.append, sounds)
     assert followed.advance(0, plan.section, 0.0) is None
     AHEAD.submit(lambda: None).result()
     return line, followed, notes
@@ -63,3 +63,12 @@ def test_where_no_hand_plays_the_student_is_told_and_the_clock_holds() -> None:
     assert asked(line) == []
     assert len(said) == 1
     assert "no hand plays" in said[0]
+
+
+@pytest.mark.parametrize("sounds", [False, True])
+def test_the_section_s_strokes_sound_where_that_is_wished(sounds: bool) -> None:
+    line, followed, _ = following(sounds=sounds)
+    followed.advance(0, PLAN.section, None)
+    (command,) = asked(line)
+    assert command.model is not None
+    assert len(command.triggers) == (len(PLAN.section) // command.model.repeats if sounds else 0)

@@ -10,7 +10,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from station.app.actions import FollowPhase, GiveUpSticks, LearnAir, LearnMounting, LookForSticks, PlayInAir, SetHand
+from station.app.actions import (
+    FollowPhase,
+    GiveUpSticks,
+    LearnAir,
+    LearnMounting,
+    LookForSticks,
+    PlayInAir,
+    SetHand,
+    SoundPhase,
+)
 from station.app.equipment.sticks_editor import SticksEditor
 from station.app.settings_store import SettingsStore
 from station.core.errors import BadInput, DeviceError
@@ -58,6 +67,11 @@ class Page:
     def here(self, *devices: str, mounting: Mounting | None = None) -> None:
         for device in devices:
             self.editor.handle(SensorMounted(0, device, mounting or Mounting()))
+
+    def complete(self, at_s: float) -> None:
+        """The gesture is over, and a thread finds out what it was."""
+        while self.editor.learns:
+            self.editor.advance(ns_from_s(at_s))
 
     def status(self, device: str = RIGHT, at_s: float = 1.0, **said: object) -> None:
         said = {"protocol": "x-imu3", "rate_hz": 200.0, "samples": 990} | said
@@ -211,7 +225,7 @@ def test_the_gesture_says_what_to_do_and_keeps_what_it_shows(page: Page) -> None
     assert asked == ["Lay", "Lay", "Let", "Let", "Take", "Take", "Now"]
     page.measure(RIGHT, measured(taps(3.0), Sensor(200)), 4.0)
     page.measure(LEFT, measured(taps(6.5), Sensor(200)), 4.0)
-    page.editor.advance(ns_from_s(14.0))
+    page.complete(14.0)
     view = page.editor.view()
     assert view.lesson is None
     assert view.learnt == (f"{RIGHT} is learnt and kept", f"{LEFT} is learnt and kept")
@@ -226,7 +240,7 @@ def test_what_the_gesture_does_not_show_is_said_and_nothing_is_kept(page: Page) 
     page.editor.advance(0)
     page.editor.act(LearnMounting())
     page.measure(RIGHT, measured(np.array([STILL] * (10 * FINE_HZ)), Sensor(100)), 4.0)
-    page.editor.advance(ns_from_s(14.0))
+    page.complete(14.0)
     learnt = page.editor.view().learnt
     assert any(line.startswith(RIGHT) and "tapped" in line for line in learnt)
     assert f"{LEFT}: nothing came from it" in learnt
@@ -238,7 +252,7 @@ def test_one_stick_alone_keeps_the_hand_that_was_chosen(page: Page) -> None:
     page.editor.advance(0)
     page.editor.act(LearnMounting())
     page.measure(RIGHT, measured(taps(3.0), Sensor(200)), 4.0)
-    page.editor.advance(ns_from_s(14.0))
+    page.complete(14.0)
     assert own_stick(RIGHT, page.folder).limb is Limb.LEFT_HAND
     assert any("only one stick" in line for line in page.editor.view().learnt)
 
@@ -327,3 +341,9 @@ def test_a_switch_lets_the_drummer_follow_the_phase(page: Page) -> None:
     page.editor.act(FollowPhase(on=True))
     assert page.store.now.follow_phase
     assert page.editor.view().follows_phase
+
+
+def test_a_switch_lets_the_phase_sound_the_drill(page: Page) -> None:
+    page.editor.act(SoundPhase(on=True))
+    assert page.store.now.sound_phase
+    assert page.editor.view().sounds_phase

@@ -38,6 +38,14 @@ def test_each_device_has_a_file_of_its_own(tmp_path: Path) -> None:
     assert stick_path("WT901 ble:AA:00", tmp_path).parent == tmp_path
 
 
+def test_devices_whose_long_names_differ_at_the_end_have_files_of_their_own(tmp_path: Path) -> None:
+    """As the paths in /dev/serial/by-id do."""
+    names = [f"serial:/dev/serial/by-id/usb-Silicon_Labs_CP2102N_USB_to_UART_Bridge_Controller_{end}" for end in "ab"]
+    save_stick(Mounting(Limb.LEFT_HAND), names[0], tmp_path)
+    save_stick(Mounting(Limb.RIGHT_HAND), names[1], tmp_path)
+    assert [own_stick(name, tmp_path).limb for name in names] == [Limb.LEFT_HAND, Limb.RIGHT_HAND]
+
+
 def test_what_is_not_said_is_assumed() -> None:
     assert parse_stick('limb = "left_hand"', "x") == Mounting(Limb.LEFT_HAND)
     assert parse_stick("", "x") == Mounting()

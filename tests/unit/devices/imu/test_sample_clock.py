@@ -183,6 +183,7 @@ def test_a_sensor_that_restarts_costs_one_sample() -> None:
     assert [index for index, at_ns in enumerate(times) if at_ns is None] == [2000]
     found = [at_ns for at_ns in times if at_ns is not None]
     assert all(later > earlier for earlier, later in pairwise(found))
+    assert clock.lost == 1
     late = [(times[i] or 0) - 5_000 * NS_PER_S - stream[i].true_s * NS_PER_S for i in range(2400, 6000)]
     assert np.std(late) < 0.2 * NS_PER_MS
 
@@ -195,6 +196,18 @@ def test_a_damaged_time_costs_one_sample(damage: int) -> None:
     clock = SampleClock(Ticks.MICROSECONDS)
     times = [clock.stamps([each.reading])[0] for each in stream]
     assert [index for index, at_ns in enumerate(times) if at_ns is None] == [400]
+    assert clock.lost == 1
+
+
+def test_a_sample_that_comes_too_late_is_counted_once() -> None:
+    """Two that change places: the time of the first has passed, and it had been counted as missing."""
+    stream, clock = sent(by_micros, uniform, seconds=4.0), SampleClock(Ticks.MICROSECONDS)
+    first, second = stream[400].reading, stream[401].reading
+    changed = [each.reading for each in stream]
+    changed[400:402] = [second._replace(at_ns=first.at_ns), first._replace(at_ns=second.at_ns)]
+    times = [clock.stamps([reading])[0] for reading in changed]
+    assert [index for index, at_ns in enumerate(times) if at_ns is None] == [401]
+    assert clock.lost == 1
 
 
 def test_a_packet_that_comes_twice_counts_once() -> None:
@@ -203,6 +216,7 @@ def test_a_packet_that_comes_twice_counts_once() -> None:
     twice = [reading for each in stream for reading in (each.reading, each.reading)]
     times = [clock.stamps([reading])[0] for reading in twice]
     assert sum(at_ns is not None for at_ns in times) == len(stream)
+    assert clock.lost == 0
 
 
 def test_an_index_that_went_round_unseen_is_told_by_the_time() -> None:

@@ -102,8 +102,8 @@ def test_nothing_jerks_on_the_way_down(speed: float) -> None:
     """Nor is the whip harder than the measured one.
 
     Pearl's hand is braked by 85 m/s² in the last 20 ms while the stick's turn grows by 830 rad/s² at 33 rad/s: 76 mm
-    from the butt that is √((85 + 49 + 10)² + 64²) = 158 m/s² at 9.4 m/s. It goes with the square of the speed; a quarter and
-    2 g more are allowed.
+    from the butt that is √((85 + 49 + 10)² + 64²) = 158 m/s² at 9.4 m/s. It goes with the square of the speed;
+    a quarter and 2 g more are allowed.
     """
     motion = play([StickStrokeSpec(3.0, R, speed_m_s=speed)]).sticks[R].motion
     before = (motion.time_s > 2.0) & (motion.time_s < 2.999)
