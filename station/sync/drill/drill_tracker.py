@@ -33,8 +33,8 @@ RESTS_S = 1.0
 """Motion and steadiness are means over about so long: a stroke every two seconds is still motion (our choice)."""
 FOREIGN, OWN = 0.30, 0.50
 """The correlation of model and sample over the last seconds, of what happens when and how much of it: .44 to .9 where
-other people, and other styles, play this motion; .1 to .5 where it is a foreign one (trials on eight lessons' motions;
-docs/drill-phase.md has what comes of it)."""
+other people, and other styles, play this motion; .1 to .5 where it is a foreign one (trials on six lessons' motions,
+before `REST` was what it is; docs/drill-phase.md has what comes of it)."""
 UNSURE, SURE = 0.5, 2.0
 """By how much the best way is ahead of any to another phase: 2 are odds of seven to one (our choice)."""
 STILL, MOVES = 0.08, 0.25
