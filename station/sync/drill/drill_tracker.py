@@ -32,15 +32,15 @@ REMEMBERS_S = 2.0
 RESTS_S = 1.0
 """Motion and steadiness are means over about so long: a stroke every two seconds is still motion (our choice)."""
 FOREIGN, OWN = 0.30, 0.50
-"""The correlation of model and sample over the last seconds, with what happens when and how much of it: of this motion
-.44 to .9, by other people and in other styles, of a foreign one .1 to .5 (medians in docs/drill-phase.md)."""
+"""The correlation of model and sample over the last seconds, of what happens when and how much of it: .44 to .9 where
+other people, and other styles, play this motion; .1 to .5 where it is a foreign one (trials on six lessons' motions,
+before `REST` was what it is; docs/drill-phase.md has what comes of it)."""
 UNSURE, SURE = 0.5, 2.0
-"""By how much the best way is ahead of any to another phase: .3 to 1.5 where the motion is foreign, for the most part,
-above 2.3 where it is this one (docs/drill-phase.md); 2 are odds of seven to one."""
+"""By how much the best way is ahead of any to another phase: 2 are odds of seven to one (our choice)."""
 STILL, MOVES = 0.08, 0.25
 """RMS of the rates beside the drummer's: noise and a held stick, and the softest player's (our choice)."""
 UNSTEADY, STEADY = 0.40, 0.20
-"""SD of the cadence's logarithm: foreign motions .03 to .57, this one at most .19 (docs/drill-phase.md)."""
+"""SD of the cadence's logarithm: at most .19 where this motion is played, up to .57 where it is a foreign one."""
 LOCKS, LETS_GO = 0.5, 0.2
 """Confidence from which on it is locked, and under which no more (our choice, hysteresis)."""
 
