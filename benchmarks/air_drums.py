@@ -197,7 +197,7 @@ def gesture_table(seeds: int) -> str:
             sims = [play([], gestures, pair=pair_of(SensorSpec()), seed=seed) for seed in range(seeds)]
             sticks = [stick for sim in sims for stick in sim.sticks.values()]
             false = sum(len(beats_of(motions_of(stick), stick.mounting.tip_m)) for stick in sticks)
-            counts.append(f"{false} of {8 * seeds}")
+            counts.append(f"{false} in {8 * seeds}")
         rows.append((kind.value, *counts))
     return table("Motions that are no strokes: false hits, 400 Hz", ("motion", "usual size", "twice as large"), rows)
 

@@ -22,7 +22,7 @@ from station.sync.air.stick_swing import Swing, wrapped
 STARTS_M_S = 0.2
 """A tip that falls so fast may be a stroke; our choice: not quite half of the slowest one."""
 SLOWEST_M_S = 0.45
-"""At least so fast is a stroke: a free fall from an inch, the lowest ghost's height (our choice), ends at 0.7 m/s, and a
+"""At least so fast is a stroke: a free fall from an inch, the lowest ghost's height (our choice), ends at 0.7 m/s; a
 third of a tip's speed is its hand's (HUMANS)."""
 LEAST_FALL_RAD = radians(4.0)
 """An inch at the tip of a stick that turns a third from its butt (HUMANS): lower than any stroke that is meant."""
