@@ -73,7 +73,8 @@ def load_bleak() -> BleLibrary:
         import bleak  # noqa: PLC0415 - optional
     except ImportError:
         raise DeviceError(MISSING) from None
-    return bleak
+    library: BleLibrary = bleak
+    return library
 
 
 @dataclass(frozen=True, slots=True)
