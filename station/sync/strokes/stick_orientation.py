@@ -75,6 +75,8 @@ class StickOrientation:
         self._interval_s = 0.0
         self._before: ImuSample | None = None
         self._rate = (0.0, 0.0, 0.0)
+        self._bias: Vector = (0.0, 0.0, 0.0)  # VQF's, which changes with accelerations only
+        self._turned, self._accelerated = np.zeros(3), np.zeros(3)  # for VQF: numpy's arrays are slow to make
         self._calm_s = 0.0
         self._limit = GyroLimit()
         self._missed_rad = 0.0
@@ -124,7 +126,8 @@ class StickOrientation:
         if sample.rate_rad_s is None:
             turn, unbiased = sample.orientation or NO_TURN, rate
         else:
-            turn, unbiased = vqf.getQuat6D().tolist(), _less(rate, vqf.getBiasEstimate()[0].tolist())
+            (p, q, r), (a, b, c) = rate, self._bias
+            turn, unbiased = vqf.getQuat6D().tolist(), (p - a, q - b, r - c)
         return [
             StickMotion(
                 sample.at_ns,
@@ -150,9 +153,13 @@ class StickOrientation:
         share = dt_s / self._interval_s
         before = self._rate if self._before is not None and sample.rate_rad_s is not None else rate
         half = 0.5 * share
-        vqf.updateGyr(np.array([half * (a + b) for a, b in zip(before, rate, strict=True)]))
-        x, y, z = sample.acceleration_m_s2
         p, q, r = rate
+        turned_rad_s = self._turned
+        turned_rad_s[0] = half * (before[0] + p)
+        turned_rad_s[1] = half * (before[1] + q)
+        turned_rad_s[2] = half * (before[2] + r)
+        vqf.updateGyr(turned_rad_s)
+        x, y, z = sample.acceleration_m_s2
         off = abs(math.sqrt(x * x + y * y + z * z) - STANDARD_GRAVITY_M_S2)
         turning = p * p + q * q + r * r
         is_calm = off < CALM_G * STANDARD_GRAVITY_M_S2 and turning < CALM_RAD_S * CALM_RAD_S
@@ -161,7 +168,10 @@ class StickOrientation:
             self._find_again(vqf)
         is_slow = self._is_lost and off < LOOSE_G * STANDARD_GRAVITY_M_S2 and turning < LOOSE_RAD_S * LOOSE_RAD_S
         if is_slow or self._calm_s > CALM_S or self._before is None:
-            vqf.updateAcc(np.array(sample.acceleration_m_s2))
+            acceleration = self._accelerated
+            acceleration[0], acceleration[1], acceleration[2] = x, y, z
+            vqf.updateAcc(acceleration)
+            self._bias = vqf.getBiasEstimate()[0].tolist()
             self._missed_rad *= 1.0 - min(dt_s / (LOST_S if self._is_lost else VQF_S), 1.0)
 
     def _find_again(self, vqf: VQF) -> None:
@@ -177,7 +187,3 @@ def _derived(before: ImuSample | None, sample: ImuSample, dt_s: float) -> Vector
     if before is None or before.orientation is None or sample.orientation is None:
         return (0.0, 0.0, 0.0)
     return between(before.orientation, sample.orientation, dt_s)
-
-
-def _less(rate: Vector, bias: Vector) -> Vector:
-    return (rate[0] - bias[0], rate[1] - bias[1], rate[2] - bias[2])
