@@ -27,9 +27,9 @@ from station.simulation.sticks.swing_sensor import Link, SensorSpec, SimulatedSt
 from station.simulation.sticks.swing_spec import GestureKind, StickGesture, StickStrokeSpec, StrokeKind
 from station.sync.air.air_drums import AirDrums
 from station.sync.air.air_strokes import AirBeat, AirStrokes
+from station.sync.air.air_swing import SwingReader, wrapped
 from station.sync.air.air_zones import AirKit, AirZone
 from station.sync.air.heading_tracker import HeadingTracker
-from station.sync.air.stick_swing import SwingReader, wrapped
 from station.sync.air.zone_learning import STROKES, AirAim, AskedZone, LearntAir, ZoneLearning, zone_of
 from station.sync.strokes.stick_orientation import StickMotion, StickOrientation
 

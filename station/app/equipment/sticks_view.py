@@ -129,7 +129,8 @@ def _troubles(seen: SeenStick, now_ns: int) -> list[str]:
     clipped = sum(stroke.clipped for stroke in seen.strokes)
     if clipped:
         said.append(
-            f"{clipped} of the last {len(seen.strokes)} strokes were beyond its gyro: they were faster than shown"
+            f"{clipped} of the last {len(seen.strokes)} strokes were beyond its gyro, so faster than shown: "
+            "set it to a wider range, if it has one"
         )
     if pose is not None and pose.drift_rad is not None and degrees(pose.drift_rad) > _SHOWN_DRIFT_DEG:
         said.append(f"its heading may be {degrees(pose.drift_rad):.0f}° off: strike the first piece once")

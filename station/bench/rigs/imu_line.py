@@ -12,6 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from station.bench.rigs.serial_kit import SerialKit
+from station.core.imu import Vector
 from station.devices.driver_clocks import BITS_A_BYTE
 
 _TOGETHER = 16
@@ -20,8 +21,12 @@ _TOGETHER = 16
 
 def x_imu3(index: int, t_us: int) -> bytes:
     """An inertial message of the x-IMU3, whose acceleration along x tells its number modulo 1,000, in mg."""
-    numbers = (0.5, -200.0, 31.25, index % 1_000 / 1_000, 0.0, 1.0)
-    plain = struct.pack("<BQ6f", 0xC9, t_us, *numbers)
+    return x_imu3_measured(t_us, (0.5, -200.0, 31.25), (index % 1_000 / 1_000, 0.0, 1.0))
+
+
+def x_imu3_measured(t_us: int, rate_dps: Vector, acceleration_g: Vector) -> bytes:
+    """An inertial message of the x-IMU3."""
+    plain = struct.pack("<BQ6f", 0xC9, t_us, *rate_dps, *acceleration_g)
     return plain.replace(b"\xdb", b"\xdb\xdd").replace(b"\n", b"\xdb\xdc") + b"\n"
 
 

@@ -4,20 +4,25 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
+from math import degrees
 from pathlib import Path
 from statistics import median
 
 from station.bench.harness.benchmark import Benchmark, Measurement
-from station.bench.rigs.imu_line import SPEECH
-from station.core.events import SensorSamples
+from station.bench.rigs.imu_line import SPEECH, x_imu3_measured
+from station.core.events import SensorMounted, SensorSamples, StickStroke
 from station.core.imu import STANDARD_GRAVITY_M_S2, Mounting
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.imu.imu_sensor import ImuSensor
 from station.devices.serial.serial_names import serial_port
 from station.devices.serial.serial_ports import SerialDirectory
 from station.devices.transport import Transport
+from station.simulation.sticks.stick_swing import HANDS, SimulatedSticks, StickPair, play
+from station.simulation.sticks.swing_sensor import SensorSpec
+from station.simulation.sticks.swing_spec import StickStrokeSpec
+from station.sync.sticks import Sticks
 
 _SAMPLES = 4_000
 _TIMES = 5
@@ -28,6 +33,7 @@ _BAUD = 921_600
 _LINE_S = {False: 10.0, True: 600.0}
 """How long the line sends: in the ordinary run, and in the soak."""
 _POLL_S = 0.0004
+_FAST = StickPair(dict.fromkeys(HANDS, SensorSpec(rate_hz=_RATE_HZ)))
 
 
 def _fed(protocol: str) -> None:
@@ -69,6 +75,35 @@ def _share() -> Measurement:
     return Measurement(
         (time.process_time() - begun) / 10.0 * 100.0, note="decoding and sample clocks; no port, no strokes"
     )
+
+
+def _whole_share() -> Measurement:
+    """Two sticks that play, with an x-IMU3 at 1 kHz each: from their bytes to strokes and poses, as the engine does."""
+    played = play([StickStrokeSpec(1.0 + 0.125 * index, HANDS[index % 2]) for index in range(72)], pair=_FAST)
+    packets = sorted(_packets(played), key=lambda packet: packet[0])
+    sensors = {stick.device: ImuSensor(stick.device, stick.mounting) for stick in played.sticks.values()}
+    sticks, strokes = Sticks(), 0
+    for stick in played.sticks.values():
+        sticks.handle(SensorMounted(0, stick.device, stick.mounting))
+    begun = time.process_time()
+    for at_ns, device, data in packets:
+        for event in sensors[device].feed(data, at_ns):
+            strokes += sum(isinstance(told, StickStroke) for told in sticks.handle(event))
+    taken_s = time.process_time() - begun
+    lasts_s = (packets[-1][0] - packets[0][0]) / NS_PER_S
+    return Measurement(
+        taken_s / lasts_s * 100.0, note=f"decode, clock, orientation, strokes ({strokes} in {lasts_s:.0f} s); no port"
+    )
+
+
+def _packets(played: SimulatedSticks) -> Iterator[tuple[int, str, bytes]]:
+    """When each packet of either stick came, whose it was, and its bytes."""
+    for stick in played.sticks.values():
+        for at_ns, sample in zip(stick.arrival_ns.tolist(), stick.samples, strict=True):
+            p, q, r = map(degrees, sample.rate_rad_s or (0.0, 0.0, 0.0))
+            x, y, z = (each / STANDARD_GRAVITY_M_S2 for each in sample.acceleration_m_s2)
+            t_us = (sample.at_ns - int(stick.stamp_ns[0])) // 1_000
+            yield at_ns, stick.device, x_imu3_measured(t_us, (p, q, r), (x, y, z))
 
 
 def _lost(is_soak: bool) -> Measurement:
@@ -120,6 +155,7 @@ BENCHMARKS = (
         for name in SPEECH
     ),
     Benchmark("imu_two_at_1khz", "% of a core", 5.0, "lower", None, _share),
+    Benchmark("imu_two_at_1khz_whole", "% of a core", 10.0, "lower", None, _whole_share),
     Benchmark("imu_line_lost_samples", "samples", 0.0, "lower", None, partial(_lost, False)),
     Benchmark("imu_line_lost_samples_10_min", "samples", 0.0, "lower", None, partial(_lost, True), True, 900.0),
 )

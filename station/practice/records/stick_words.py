@@ -8,6 +8,8 @@ from station.practice.records.what_next import table_in
 from station.scoring.report.assessment_document import Json
 from station.sync.strokes.stick_remarks import StickFigures, StickRemark, stick_report
 
+AT_LIMIT = "Some strokes were beyond a gyro's range: set the sensor to a wider one, if it has one"
+
 
 def sticks_document(felt: Sequence[tuple[Hit, StickStroke]]) -> dict[str, Json] | None:
     """How the sticks were used, from hits each with the stroke that made it; None without sensors."""
@@ -52,6 +54,8 @@ def sticks_text(document: dict[str, Json]) -> str:
     assert isinstance(remarks, list), "the report is ours"
     lines = [_line(limb.replace("_", " "), figures) for limb, figures in table_in(sticks, "hands").items()]
     lines += [f"* {remark['text']}" for remark in remarks if isinstance(remark, dict)]
+    if any(isinstance(figures, dict) and figures["clipped_share"] for figures in table_in(sticks, "hands").values()):
+        lines.append(f"* {AT_LIMIT}")
     return "\n".join(["", "Sticks", *lines, ""])
 
 

@@ -23,8 +23,8 @@ from station.core.settings import settings_path
 from station.core.toml_faults import wrong
 from station.core.toml_source import read_source
 from station.core.toml_write import toml_text
+from station.sync.air.air_swing import FULL_SPEED_M_S
 from station.sync.air.air_zones import NORMAL_SPEED_M_S, AirKit, AirZone
-from station.sync.air.stick_swing import FULL_SPEED_M_S
 
 FILE_NAME = "air.toml"
 _LEAST_SD_DEG, _MOST_SD_DEG = 1.0, 45.0

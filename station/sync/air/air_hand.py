@@ -10,9 +10,9 @@ from station.core.units import NS_PER_S
 from station.sync.air.air_latency import LoopForecast, StrokeForecast
 from station.sync.air.air_status import AirCounts, AirStatus, status_of
 from station.sync.air.air_strokes import AirBeat, AirStrokes
+from station.sync.air.air_swing import Swing, SwingReader, wrapped
 from station.sync.air.air_zones import AirZone
 from station.sync.air.heading_tracker import HeadingTracker
-from station.sync.air.stick_swing import Swing, SwingReader, wrapped
 from station.sync.strokes.stick_orientation import LONGEST_GAP_S, StickMotion
 
 _TURNS_ON = 0.75

@@ -20,8 +20,8 @@ from typing import NamedTuple
 from station.core.events import PhaseEstimate
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.sync.air.air_strokes import BRAKED, AirBeat, brake_of
+from station.sync.air.air_swing import Swing, wrapped
 from station.sync.air.air_zones import AirZone
-from station.sync.air.stick_swing import Swing, wrapped
 
 AGREE_NS = 5 * NS_PER_MS
 """Forecasts scatter by no more: half of what is full marks, 10 ms (HUMANS)."""

@@ -17,7 +17,7 @@ from math import radians
 from typing import NamedTuple
 
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.sync.air.stick_swing import Swing, wrapped
+from station.sync.air.air_swing import Swing, wrapped
 
 STARTS_M_S = 0.2
 """A tip that falls so fast may be a stroke; our choice: not quite half of the slowest one."""

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import exp, pi, sqrt
 
 from station.core.pieces import Limb, Piece, Zone
-from station.sync.air.stick_swing import FULL_SPEED_M_S, wrapped
+from station.sync.air.air_swing import FULL_SPEED_M_S, wrapped
 
 CLEAR = 0.8
 """Share from which on a zone is named; our choice: four in five, so that a stroke midway names neither."""

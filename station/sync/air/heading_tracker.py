@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_S
+from station.sync.air.air_swing import wrapped
 from station.sync.air.air_zones import CLEAR, AirZone, shares
-from station.sync.air.stick_swing import wrapped
 
 _RATE_SD = radians(5.0) / 60.0
 """Drift to expect, rad/s: the bias that is left of a MEMS gyro's, a tenth of a degree a second (our choice)."""

@@ -11,8 +11,8 @@ from statistics import NormalDist, median
 from typing import NamedTuple
 
 from station.core.pieces import Limb, Piece, Zone
+from station.sync.air.air_swing import wrapped
 from station.sync.air.air_zones import AirKit, AirZone, separation
-from station.sync.air.stick_swing import wrapped
 
 STROKES = 8
 """So many strokes of each piece; at two a second six pieces take half a minute."""

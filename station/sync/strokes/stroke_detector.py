@@ -152,8 +152,9 @@ class StrokeDetector:
         vz = self._velocity + half * (self._force + force[2] - 2.0 * STANDARD_GRAVITY_M_S2)
         self._doubt += DRIFT_M_S2 * dt_s
         self._push += (math.hypot(force[0], force[1]) - self._push) * min(dt_s / TRAVEL_S, 1.0)
-        if before <= 0.0 < fall or self._is_still(fall, force):
-            known = STILL_M_S if self._is_still(fall, force) else math.hypot(TURNING_M_S, self._push * TRAVEL_S)
+        is_still = self._is_still(fall, force)
+        if is_still or before <= 0.0 < fall:
+            known = STILL_M_S if is_still else math.hypot(TURNING_M_S, self._push * TRAVEL_S)
             share = known**2 / (known**2 + self._doubt**2)
             if share < 0.5:
                 self._below = 0.0
@@ -175,9 +176,11 @@ class StrokeDetector:
         return turned_m_s + (integrated - turned_m_s) * share
 
     def _is_still(self, fall: float, force: Vector) -> bool:
+        if abs(fall) >= STILL_RAD_S:
+            return False
         x, y, z = force
         size = math.sqrt(x * x + y * y + z * z)
-        return abs(fall) < STILL_RAD_S and abs(size - STANDARD_GRAVITY_M_S2) < CALM_G * STANDARD_GRAVITY_M_S2
+        return abs(size - STANDARD_GRAVITY_M_S2) < CALM_G * STANDARD_GRAVITY_M_S2
 
     # --- the machine --------------------------------------------------------------------------------------------------
 

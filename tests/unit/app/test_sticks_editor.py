@@ -144,6 +144,7 @@ def test_strokes_beyond_the_gyro_and_a_heading_in_doubt_are_told(page: Page) -> 
     page.editor.handle(StickPose(ns_from_s(1.0), RIGHT, Limb.RIGHT_HAND, (1.0, 0.0, 0.0, 0.0), drift_rad=0.5))
     first, second = page.editor.view().sticks[0].troubles
     assert first.startswith("2 of the last 3 strokes were beyond its gyro")
+    assert first.endswith("set it to a wider range, if it has one")
     assert "29° off" in second, degrees(0.5)
 
 

@@ -3,10 +3,13 @@
 from dataclasses import replace
 from math import radians
 
+import pytest
+
 from station.core.events import Hit, SensorLost, SensorMounted, SensorSamples, StickPose, StickStroke
 from station.core.pieces import Limb, Piece, Zone
 from station.core.units import NS_PER_S
-from station.simulation.sticks.stick_swing import SimulatedSticks, play
+from station.simulation.sticks.stick_swing import SimulatedSticks, StickPair, play
+from station.simulation.sticks.swing_sensor import SensorSpec
 from station.simulation.sticks.swing_spec import StickStrokeSpec
 from station.sync.air.air_zones import AirKit, AirZone
 from station.sync.sticks import Sticks
@@ -64,3 +67,13 @@ def test_a_stick_that_went_is_forgotten_and_a_stranger_is_taken_in() -> None:
     stranger = [replace(samples, device="new") for samples in stick.events()]
     told = [event for samples in stranger for event in sticks.handle(samples)]
     assert {event.limb for event in told if isinstance(event, StickPose)} == {Limb.UNKNOWN}
+
+
+@pytest.mark.parametrize("rate_hz", [200.0, 400.0, 1000.0])
+def test_hard_strokes_with_a_gyro_of_1000_degrees_are_all_told_and_said_to_be_faster(rate_hz: float) -> None:
+    sensor = SensorSpec(rate_hz, rate_range_dps=1000.0)
+    strokes = [StickStrokeSpec(3.0 + 0.3 * index, HANDS[index % 2], speed_m_s=9.0) for index in range(32)]
+    played = play(strokes, pair=StickPair(dict.fromkeys(HANDS, sensor)))
+    told = [event for event in heard(Sticks(), played) if isinstance(event, StickStroke)]
+    assert [stroke.limb for stroke in sorted(told, key=lambda stroke: stroke.at_ns)] == [*HANDS] * 16
+    assert all(stroke.clipped for stroke in told)

@@ -5,7 +5,7 @@ import pytest
 
 from station.core.imu import NO_TURN, STANDARD_GRAVITY_M_S2
 from station.sync.air.air_strokes import AirBeat, AirStrokes, most_strokes_hz
-from station.sync.air.stick_swing import SwingReader, swing_between
+from station.sync.air.air_swing import SwingReader, swing_between
 from station.sync.strokes.stick_orientation import StickMotion
 from tests.fakes.air_stick import Played, Stroke, play
 from tests.real_data import DATA

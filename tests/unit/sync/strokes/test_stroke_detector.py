@@ -87,6 +87,13 @@ def test_a_gyro_at_its_limit_is_said_and_the_stroke_still_timed() -> None:
     assert heard[0].speed_m_s < rates[0] * FULCRUM_FROM_TIP_M
 
 
+def test_a_narrower_gyro_at_its_limit_is_said_as_well() -> None:
+    angle, onsets_s, _ = strokes_by_angle([Stroke()] * 4)  # 15 rad/s = 860 °/s
+    heard = found(measured(angle, Sensor(range_rad_s=math.radians(500.0))))
+    assert [one.at_ns / 1e9 for one in heard] == pytest.approx(onsets_s, abs=0.0015)
+    assert all(one.clipped for one in heard)
+
+
 def test_bounces_50_ms_apart_are_strokes_of_their_own() -> None:
     """A stick that falls on a head and bounces by itself: each fall and rise is a parabola of the angle."""
     falls = [Stroke(0.3, 0.08, rebound=0.0)]
