@@ -27,6 +27,7 @@ from station.practice.records.rejudge import judge_again
 from station.practice.records.session_report import practice_document, report_text
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.session import LEAD_IN_NS, Session
+from station.scenes.result_tables import session_facts
 from station.simulation.sticks.stick_swing import HANDS, SimulatedSticks, StickPair, play
 from station.simulation.sticks.swing_sensor import Link, SensorSpec
 from station.simulation.sticks.swing_spec import StickStrokeSpec
@@ -144,6 +145,9 @@ def test_hands_are_named_judged_reported_and_had_again(tmp_path: Path) -> None:
     text = report_text(document)
     assert "Sticking: " in text
     assert "right hand: " in text
+    shown = session_facts(made.result(), document).words.technique
+    assert shown[0] in text
+    assert shown[0].startswith("Sticking: ")
     again = judge_again(read_capture(capture))
     assert len(again) == 1
     assert again[0].result().felt == made.result().felt
