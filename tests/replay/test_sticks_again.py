@@ -20,7 +20,7 @@ from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.devices.capture.capture import read_capture
 from station.drills.lesson import Lesson
 from station.engine.engine import Engine
-from station.engine.messages import RecordCapture
+from station.engine.messages import Command, RecordCapture
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.practice.records.rejudge import judge_again
@@ -85,8 +85,14 @@ def bytes_of(simulated: SimulatedSticks) -> list[tuple[int, str, bytes]]:
     return sorted(said)
 
 
-def day(made: Session, capture: Path, hands: list[Limb], away_s: tuple[float, float] | None = None) -> SimulatedSticks:
-    """An engine that records and a session that hears it, from the first click to the end."""
+def day(
+    made: Session,
+    capture: Path,
+    hands: list[Limb],
+    away_s: tuple[float, float] | None = None,
+    more: tuple[Command, ...] = (),
+) -> SimulatedSticks:
+    """An engine that records and a session that hears it, from the first click to the end; `more` is sent at first."""
     begins_ns = START_NS + LEAD_IN_NS + made.plan.passes_start_ns
     simulated = sticks(made, hands, begins_ns / NS_PER_S, away_s)
     mountings = {stick.device: replace(stick.mounting, learnt=True) for stick in simulated.sticks.values()}
@@ -97,7 +103,7 @@ def day(made: Session, capture: Path, hands: list[Limb], away_s: tuple[float, fl
         engine.sensor_found(device, 0)
     engine.handle(RecordCapture(capture))
     engine.advance(START_NS)
-    for command in made.start():
+    for command in (*made.start(), *more):
         engine.handle(command)
     last_ns = START_NS
     for at_ns, device, data in bytes_of(simulated):

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from station.core.events import Hit, StickStroke
 from station.core.pieces import word
+from station.practice.records.phase_words import phase_lines
 from station.practice.records.what_next import table_in
 from station.scoring.report.assessment_document import Json
 from station.sync.strokes.stick_remarks import StickFigures, StickRemark, stick_report
@@ -71,8 +72,8 @@ def _line(hand: str, figures: Json) -> str:
 
 
 def stick_lines(document: dict[str, Json]) -> list[str]:
-    """What a result's page says of hands and sticks: the sticking, and the first remarks."""
-    return [*sticking_lines(document), *_remarks(document)[:MOST_REMARKS]]
+    """What a result's page says of hands and sticks: the sticking, the first remarks, and how the hands lean."""
+    return [*sticking_lines(document), *_remarks(document)[:MOST_REMARKS], *phase_lines(document)]
 
 
 def _remarks(document: dict[str, Json]) -> list[str]:
