@@ -1,17 +1,18 @@
 """A live session in the terminal: the engine's process plays and hears, every stroke is shown as it is judged."""
 
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from functools import partial
 from pathlib import Path
 
 from station.cli.console import is_attended, say
 from station.core.clock import MonotonicClock
-from station.core.errors import DeviceError
+from station.core.errors import BadInput, DeviceError
 from station.core.measured_latency import load_calibration
 from station.core.settings import Settings
 from station.devices.device_ports import no_device
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
+from station.music.score import Score
 from station.practice.control.pad_commands import PadCommands, ways_to_go_on
 from station.practice.headless.end_signals import end_asked
 from station.practice.headless.guarded_output import GuardedOutput
@@ -24,6 +25,8 @@ from station.practice.session.plan import Plan
 from station.practice.session.runner import SessionRunner
 from station.practice.session.session import Session
 from station.sound.track import PreparedTrack
+from station.sync.drill.drill_model import DrillModel
+from station.sync.drill.drummed_model import shipped_model
 
 KIT_WAIT_S = 5.0
 """How long to look for a kit before giving up: a USB kit announces itself within two seconds; our choice."""
@@ -62,10 +65,19 @@ def practise_in_terminal(
             if request is not None:
                 telling.attempt(say, "\nmaking the track ready …")
                 runner.session.backing = _track(request, runner.session, settings)
+            drill = _drill(runner.session.plan.section, telling) if config.sticks else None
             setup = LiveSetup(engine, clock, text.show, telling, until_saved.enter_context(end_asked()))
-            return practise_live(setup, runner, capture)
+            return practise_live(setup, runner, capture, drill)
         finally:
             telling.attempt(text.last_words, runner.session)
+
+
+def _drill(section: Score, telling: GuardedOutput) -> DrillModel | None:
+    """The model that the sticks are tracked by, None where a section has none."""
+    telling.attempt(say, "\nlearning how the sticks move in this drill …", end="")
+    with suppress(BadInput):
+        return shipped_model(section)
+    return None
 
 
 def _track(request: BackingRequest, session: Session, settings: Settings) -> PreparedTrack | None:

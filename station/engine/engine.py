@@ -255,6 +255,8 @@ class Engine:
             case TrackPhase():
                 self._sticks.track_drill(command.model)
                 self._triggers = LiveTriggers(command.triggers)
+                if command.note:
+                    self._recording.annotate(command.note, self._now_ns)
 
     def _set_backing(self, command: SetBacking) -> None:
         track = command.loaded

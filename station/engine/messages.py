@@ -142,11 +142,13 @@ class SetAirDrums:
 class TrackPhase:
     """Tell where in the drill of `model` the sticks are, as `PhaseEstimate`s from now on; None for no longer.
 
-    The phase lets `triggers` sound; what they sound is heard, and is no hit of the student's.
+    The phase lets `triggers` sound; what they sound is heard, and is no hit of the student's. A `note` is kept in the
+    capture at that very place, as the text of `Annotate` is.
     """
 
     model: DrillModel | None
     triggers: tuple[Trigger, ...] = ()
+    note: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -255,12 +255,14 @@ class _Standing:
         """What a new engine is sent at `now_ns`, in order."""
         yield from self._levels.values()
         yield from self._pieces.values()
-        for kind in (SetBacking, SetMidiOut, SetAirDrums, TrackPhase, WatchRawBytes, WatchSensors):
+        for kind in (SetBacking, SetMidiOut, SetAirDrums, WatchRawBytes, WatchSensors):
             if kind in self._others:
                 yield self._others[kind]
         record = self._others.get(RecordCapture)
         if isinstance(record, RecordCapture) and (record.path is not None or self._unanswered):
             yield record
+        if TrackPhase in self._others:  # its note belongs into the capture
+            yield self._others[TrackPhase]
         if self._play is None:
             return
         if self._zero_ns is not None:

@@ -4,6 +4,7 @@ import numpy as np
 
 from station.core.units import NS_PER_S
 from station.music.judgement import Label
+from station.practice.records.stick_words import stick_lines
 from station.practice.session.session import SessionResult
 from station.render.report.result_facts import ResultFacts, ResultWords, result_facts
 from station.scoring.matching.right import right_notes
@@ -28,7 +29,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}{_standing(document)}",
         points=float(points) if isinstance(points, float | int) else None,
         advice=tuple(map(str, steps)),
-        technique=tuple(technique_lines(document)),
+        technique=(*stick_lines(document), *technique_lines(document)),
         pass_bars=plan.section.bar_count,
         first_bar=plan.first_bar,
         starts=() if plan.rounds is None else plan.rounds.starts,

@@ -83,6 +83,8 @@ def test_the_report_names_the_hands_that_struck(tmp_path: Path) -> None:
 
     assert named[list(WRONG_ROWS)].all()
     assert document["sticking"]["wrong"] == len(WRONG_ROWS)
+    assert document["phase"]["locked_share"] > 0.3  # one sensor is away for a while, four strokes are the other hand's
+    assert set(document["phase"]["hands"]) == {"right_hand", "left_hand"}
     assert document["sticking"]["right"] == np.sum(named) - len(WRONG_ROWS)
 
 

@@ -20,13 +20,14 @@ from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.devices.capture.capture import read_capture
 from station.drills.lesson import Lesson
 from station.engine.engine import Engine
-from station.engine.messages import RecordCapture
+from station.engine.messages import Command, RecordCapture
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.practice.records.rejudge import judge_again
 from station.practice.records.session_report import practice_document, report_text
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.session import LEAD_IN_NS, Session
+from station.scenes.result_tables import session_facts
 from station.simulation.sticks.stick_swing import HANDS, SimulatedSticks, StickPair, play
 from station.simulation.sticks.swing_sensor import Link, SensorSpec
 from station.simulation.sticks.swing_spec import StickStrokeSpec
@@ -84,8 +85,14 @@ def bytes_of(simulated: SimulatedSticks) -> list[tuple[int, str, bytes]]:
     return sorted(said)
 
 
-def day(made: Session, capture: Path, hands: list[Limb], away_s: tuple[float, float] | None = None) -> SimulatedSticks:
-    """An engine that records and a session that hears it, from the first click to the end."""
+def day(
+    made: Session,
+    capture: Path,
+    hands: list[Limb],
+    away_s: tuple[float, float] | None = None,
+    more: tuple[Command, ...] = (),
+) -> SimulatedSticks:
+    """An engine that records and a session that hears it, from the first click to the end; `more` is sent at first."""
     begins_ns = START_NS + LEAD_IN_NS + made.plan.passes_start_ns
     simulated = sticks(made, hands, begins_ns / NS_PER_S, away_s)
     mountings = {stick.device: replace(stick.mounting, learnt=True) for stick in simulated.sticks.values()}
@@ -96,7 +103,7 @@ def day(made: Session, capture: Path, hands: list[Limb], away_s: tuple[float, fl
         engine.sensor_found(device, 0)
     engine.handle(RecordCapture(capture))
     engine.advance(START_NS)
-    for command in made.start():
+    for command in (*made.start(), *more):
         engine.handle(command)
     last_ns = START_NS
     for at_ns, device, data in bytes_of(simulated):
@@ -144,6 +151,9 @@ def test_hands_are_named_judged_reported_and_had_again(tmp_path: Path) -> None:
     text = report_text(document)
     assert "Sticking: " in text
     assert "right hand: " in text
+    shown = session_facts(made.result(), document).words.technique
+    assert shown[0] in text
+    assert shown[0].startswith("Sticking: ")
     again = judge_again(read_capture(capture))
     assert len(again) == 1
     assert again[0].result().felt == made.result().felt

@@ -14,7 +14,7 @@ from station.app.room_state import PlaceNow, RoomState, ShownResult, Stage
 from station.app.sessions.phase_following import PhaseFollowing
 from station.app.sessions.session_preparation import PreparedSession
 from station.core.errors import DeviceError, StationError
-from station.core.events import Hit
+from station.core.events import Hit, StickPose
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
@@ -48,6 +48,10 @@ class SavedSession:
     fault: StationError | None
 
 
+def _say_nothing(_: str) -> None:
+    """Who does not ask to be followed need not know why they cannot be."""
+
+
 class LessonSession:
     """One session as it is `laid` out, or passes that follow the student; `notify` hears what a user should read.
 
@@ -69,6 +73,7 @@ class LessonSession:
         self.view: SessionView = SessionView(self.plan, demonstrator, None if before is None else before.view)
         self._folder: SessionFolder | None = None
         self._following: PhaseFollowing | None = None
+        self._leads = False  # whether the drummer goes by the student's phase
 
     @property
     def session(self) -> Session:
@@ -91,15 +96,16 @@ class LessonSession:
             raise
         self._folder = folder
         self.view.make_ahead()
-        if settings.follow_phase:
-            self._following = PhaseFollowing(
-                self._engine, self.plan, self._demonstrator, self._notify, settings.sound_phase
-            )
+        self._leads = settings.follow_phase
+        if self._leads:
+            self._following = PhaseFollowing(self._engine, self._runner, self._notify, settings.sound_phase)
 
     # --- while it runs -----------------------------------------------------------------------------------------------
 
     def handle(self, event: EngineEvent, now_ns: int) -> None:
         """Handle one event of the engine."""
+        if self._following is None and self._folder is not None and isinstance(event, StickPose):
+            self._following = PhaseFollowing(self._engine, self._runner, _say_nothing)  # for the report
         if self._following is not None:
             self._following.handle(event)
         notices = self._runner.heard.notices
@@ -112,8 +118,9 @@ class LessonSession:
         """Move on, or wait for a student who has stopped; returns whether the session is over."""
         self._follow(self._runner.advance(now_ns), now_ns)
         if self._following is not None:
-            clock_s = self.view.pass_place_s(self.session)
-            self.view.follow(self._following.advance(now_ns, self.plan.section, clock_s))
+            place_s = self._following.advance(now_ns, self.plan.section, self.view.pass_place_s(self.session))
+            if self._leads:
+                self.view.follow(place_s)
         return self._runner.over
 
     def veto(self) -> bool:

@@ -1,11 +1,11 @@
-"""The drummer of a session follows the student's sticks: a model made meanwhile, sent to the engine, its phases heard.
+"""The sticks of a session are tracked: a model made meanwhile, sent to the engine, its phases heard.
 
 The model of a section takes some seconds to make, on the thread that makes drummers; until then, and while the student
 is not found, the drummer goes by the clock. The model is of the section at its first tempo: where the tempo follows the
 student, the tracker finds theirs from half to double of it, and places are turned into those of the newer pass.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
 
@@ -13,38 +13,30 @@ from station.app.engine_client import EngineClient
 from station.core.errors import BadInput, DeviceError
 from station.core.events import Hit, PhaseEstimate
 from station.core.units import NS_PER_S
-from station.engine.messages import EngineEvent, TrackPhase
+from station.engine.messages import Command, EngineEvent, TrackPhase
 from station.music.score import Score
-from station.practice.session.plan import Plan
-from station.scenes.demonstrator import Demonstrator
+from station.practice.session.runner import SessionRunner
 from station.scenes.session_part import AHEAD
 from station.sync.drill.drill_model import DrillModel
-from station.sync.drill.drummed_model import Demonstrated, drill_model
+from station.sync.drill.drummed_model import shipped_model
 from station.sync.drill.phase_clock import PhaseClock
 from station.sync.sonification.trigger_table import drill_triggers
-from station.sync.sonification.triggers import Trigger
 
 
 class PhaseFollowing:
-    """For one session, from its beginning to its end; `notify` hears why there is nothing to follow.
+    """For the session of `runner`, to its end; `notify` hears why there is nothing to follow.
 
     With `sounds` the phase lets the section's strokes sound.
     """
 
     def __init__(
-        self,
-        engine: EngineClient,
-        plan: Plan,
-        demonstrator: Demonstrator,
-        notify: Callable[[str], None],
-        sounds: bool = False,
+        self, engine: EngineClient, runner: SessionRunner, notify: Callable[[str], None], sounds: bool = False
     ) -> None:
-        self._sounding = plan.section if sounds else None
-        played = Demonstrated(plan.kit, demonstrator.figure, demonstrator.style)
-        self._engine, self._notify = engine, notify
-        self._coming: Future[DrillModel] | None = AHEAD.submit(lambda: drill_model(plan.section, played))
+        self._engine, self._runner, self._notify, self._sounds = engine, runner, notify, sounds
+        section = self._section = runner.session.plan.section
+        self._coming: Future[DrillModel] | None = AHEAD.submit(lambda: shipped_model(section))
         self._clock: PhaseClock | None = None
-        self._loop_s = plan.section.length_ns / NS_PER_S
+        self._loop_s = section.length_ns / NS_PER_S
 
     def handle(self, event: EngineEvent) -> None:
         """Take in a phase, or a stroke on the kit."""
@@ -71,7 +63,7 @@ class PhaseFollowing:
     def end(self) -> None:
         """The engine need not track any longer."""
         self._coming = None
-        self._send(None)
+        self._send((TrackPhase(None),))
 
     def _take_model(self) -> None:
         if self._coming is None or not self._coming.done():
@@ -83,13 +75,10 @@ class PhaseFollowing:
             self._notify(str(fault))
             return
         self._clock = PhaseClock(model)
-        self._send(model)
+        triggers = drill_triggers(self._section, model.repeats) if self._sounds else ()
+        self._send(self._runner.track(self._section, model, triggers))
 
-    def _send(self, model: DrillModel | None) -> None:
+    def _send(self, commands: Sequence[Command]) -> None:
         with suppress(DeviceError):  # a dead engine says so itself
-            self._engine.send(TrackPhase(model, self._triggers(model)))
-
-    def _triggers(self, model: DrillModel | None) -> tuple[Trigger, ...]:
-        if model is None or self._sounding is None:
-            return ()
-        return drill_triggers(self._sounding, model.repeats)
+            for command in commands:
+                self._engine.send(command)

@@ -18,6 +18,7 @@ from station.practice.headless.guarded_output import GuardedOutput
 from station.practice.session.engine_state import EngineState
 from station.practice.session.runner import SessionRunner
 from station.practice.session.session import Session, SessionResult
+from station.sync.drill.drill_model import DrillModel
 
 POLL_S = 0.02
 """How long to wait for an event before handing the session the time; our choice, no verdict depends on it."""
@@ -101,13 +102,20 @@ class LiveSetup:
         return self.telling.fault("not all could be shown while you played, the session is kept")
 
 
-def practise_live(setup: LiveSetup, runner: SessionRunner, capture: Path) -> LiveOutcome:
+def practise_live(
+    setup: LiveSetup, runner: SessionRunner, capture: Path, drill: DrillModel | None = None
+) -> LiveOutcome:
     """Play what `runner` has to play until it is over, the end is `asked` for, or the engine dies.
+
+    The sticks are tracked through the `drill`, the model of its section, where there is one.
 
     Raises `DeviceError` if the engine dies before the transport runs: then there is nothing to report.
     """
     try:
+        section = runner.session.plan.section
         begin(setup.engine, runner, capture)
+        for command in () if drill is None else runner.track(section, drill):
+            setup.engine.send(command)
         while not runner.over and not setup.asked:
             setup.step(runner)
     except DeviceError as error:

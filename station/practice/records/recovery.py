@@ -42,12 +42,14 @@ def offer(settings: Settings) -> str | None:
     return f"a session was cut off before it was judged: {folders[0].name}{more}; {command} judges it"
 
 
-def recovered(capture: Path) -> SessionResult:
+def recovered(capture: Path, with_phase: bool = True) -> SessionResult:
     """The result of the session in a capture; all passes in a row where the tempo followed the student.
+
+    Without `with_phase` nobody tracks the sticks, which takes some seconds.
 
     Raises `BadInput` where the capture cannot be read, or holds no session.
     """
-    results = [session.result() for session in judge_again(read_capture(capture))]
+    results = [session.result() for session in judge_again(read_capture(capture), with_phase)]
     if not results:
         raise BadInput(capture, "", "there is no session in this capture")
     if len(results) == 1:
@@ -59,7 +61,7 @@ def recovered(capture: Path) -> SessionResult:
 def session_of(capture: Path, lesson: Lesson) -> SessionResult | None:
     """The session of `lesson`, as it is now, that a capture holds; None where it holds none."""
     try:
-        result = recovered(capture)
+        result = recovered(capture, with_phase=False)
     except BadInput:  # strokes without a session, or cut off within its log: there is no click to judge by
         return None
     played = result.plan.lesson

@@ -8,35 +8,45 @@ no session.
 
 from collections import deque
 from collections.abc import Iterable
+from contextlib import suppress
 
+from station.core.errors import BadInput
 from station.core.events import Choke, Hit, SensorEvent, SensorLost, SensorMounted, SensorSamples, SensorStatus
 from station.core.pieces import word
 from station.devices.capture.capture import Capture
 from station.devices.capture.replay import CaptureBegan, Entry, LoggedText, OutputChanged, TransportZero, replay_all
 from station.engine.messages import EngineEvent, Sounding, Started
 from station.music.judgement import Label
+from station.music.score import Score
 from station.practice.session.adaptation import lesson_bars
-from station.practice.session.event_log import Ended, PassBegan, Paused, Said, WentOn, said_in, stroke_key
+from station.practice.session.event_log import Ended, PassBegan, Paused, Said, Tracked, WentOn, said_in, stroke_key
 from station.practice.session.session import Session, SessionResult
 from station.scoring.matching.alignment import judgements
 from station.scoring.report.assessment_document import Json
+from station.sync.drill.drill_model import DrillModel
+from station.sync.drill.drummed_model import shipped_model
 from station.sync.sticks import Sticks
 
 
-def judge_again(capture: Capture) -> list[Session]:
+def judge_again(capture: Capture, with_phase: bool = False) -> list[Session]:
     """The sessions that `capture` holds, in order, each as it was when it ended.
 
-    Practice that follows the student has one a pass. Raises `BadInput` where a record or a log text cannot be read.
+    Practice that follows the student has one a pass. `with_phase` the sticks are tracked as they were on the day, which
+    takes some seconds. Raises `BadInput` where a record or a log text cannot be read.
     """
-    return RejudgedSessions(replay_all(capture)).sessions(capture.records[-1].at_ns if capture.records else 0)
+    until_ns = capture.records[-1].at_ns if capture.records else 0
+    return RejudgedSessions(replay_all(capture), with_phase).sessions(until_ns)
 
 
 class RejudgedSessions:
     """Sessions as they come out of the `entries` of a capture."""
 
-    def __init__(self, entries: Iterable[Entry]) -> None:
+    def __init__(self, entries: Iterable[Entry], with_phase: bool = False) -> None:
         self._entries = list(entries)
+        self._with_phase = with_phase
+        self._tracked: dict[LoggedText, Tracked] = {}
         self._due = deque(self._log_texts())
+        self._drill: DrillModel | None = None
         self._done: list[Session] = []
         self._session: Session | None = None
         self._hits: list[Hit] = []
@@ -51,7 +61,11 @@ class RejudgedSessions:
         for entry in self._entries:
             part += isinstance(entry, CaptureBegan)
             if isinstance(entry, LoggedText):
-                yield part, entry, said_in(entry)
+                said = said_in(entry)
+                if isinstance(said, Tracked):
+                    self._tracked[entry] = said  # it has its place among the samples
+                else:
+                    yield part, entry, said
 
     def sessions(self, until_ns: int) -> list[Session]:
         """All of them; one that nobody ended, for the power went, lasts `until_ns`."""
@@ -68,6 +82,9 @@ class RejudgedSessions:
         match entry:
             case CaptureBegan():
                 self._part, self._strokes = self._part + 1, 0
+            case LoggedText() if entry in self._tracked:
+                if self._with_phase:
+                    self._track(self._tracked[entry].section)
             case LoggedText():
                 if any(logged is entry for _, logged, _ in self._due):  # else it was due before, among the strokes
                     while self._apply_next() is not entry:
@@ -97,6 +114,13 @@ class RejudgedSessions:
             if not isinstance(told, Hit):  # a stroke in the air has a record of its own
                 self._hand_over(told)
 
+    def _track(self, section: Score) -> None:
+        with suppress(BadInput):  # there was a model on the day, but a drummer who has changed since may give none
+            self._drill = shipped_model(section)
+            self._sticks.track_drill(self._drill)
+            if self._session is not None:
+                self._session.phases.model = self._drill
+
     def _is_due(self, said: Said | None) -> bool:
         return said is None or said.strokes <= self._strokes
 
@@ -120,6 +144,7 @@ class RejudgedSessions:
                 self._done.append(before)
         self._is_ended = False
         self._session = Session(said.plan, said.latency, waits=said.waits)
+        self._session.phases.model = self._drill
         self._hand_over(Sounding(self._output))
 
     def _apply(self, session: Session, said: Paused | WentOn | Ended) -> None:

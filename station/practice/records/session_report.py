@@ -20,7 +20,8 @@ from station.devices.mapping.device_file import own_kit
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
 from station.practice.records.mastery_report import passes_text
-from station.practice.records.stick_words import sticking_words, sticks_document, sticks_text
+from station.practice.records.phase_words import phase_document, phase_lines
+from station.practice.records.stick_words import sticking_lines, sticks_document, sticks_text
 from station.practice.records.what_next import advice_of, table_in, what_next
 from station.practice.session.adaptation import lesson_bars
 from station.practice.session.lesson_places import written_hands
@@ -77,6 +78,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "next": [*what_next(document, plan)],
     }
     document["sticks"] = sticks_document(result.felt)
+    document["phase"] = phase_document(result.phase)
     return document
 
 
@@ -207,7 +209,8 @@ def _figures_text(document: dict[str, Json]) -> str:
     if rows:
         lines += ["", f"{'piece':17}" + "".join(f"{name:>9}" for name in _COLUMNS)]
     lines += [f"{name_of(piece):17}" + "".join(f"{cell:>9}" for cell in _cells(group)) for piece, group in rows]
-    lines += sticking_words(document)
+    if hands := [*sticking_lines(document), *phase_lines(document)]:
+        lines += ["", *hands]
     craft = technique_lines(document)
     return "\n".join([*lines, "", *craft] if craft else lines) + "\n"
 

@@ -4,11 +4,14 @@ from collections.abc import Sequence
 
 from station.core.events import Hit, StickStroke
 from station.core.pieces import word
+from station.practice.records.phase_words import phase_lines
 from station.practice.records.what_next import table_in
 from station.scoring.report.assessment_document import Json
 from station.sync.strokes.stick_remarks import StickFigures, StickRemark, stick_report
 
 AT_LIMIT = "Some strokes were beyond a gyro's range: set the sensor to a wider one, if it has one"
+MOST_REMARKS = 3
+"""A result's page has room for so many remarks beside all else; the report has them all."""
 
 
 def sticks_document(felt: Sequence[tuple[Hit, StickStroke]]) -> dict[str, Json] | None:
@@ -50,10 +53,8 @@ def sticks_text(document: dict[str, Json]) -> str:
     if document.get("sticks") is None:
         return ""
     sticks = table_in(document, "sticks")
-    remarks = sticks["remarks"]
-    assert isinstance(remarks, list), "the report is ours"
     lines = [_line(limb.replace("_", " "), figures) for limb, figures in table_in(sticks, "hands").items()]
-    lines += [f"* {remark['text']}" for remark in remarks if isinstance(remark, dict)]
+    lines += [f"* {text}" for text in _remarks(document)]
     if any(isinstance(figures, dict) and figures["clipped_share"] for figures in table_in(sticks, "hands").values()):
         lines.append(f"* {AT_LIMIT}")
     return "\n".join(["", "Sticks", *lines, ""])
@@ -73,7 +74,20 @@ def _line(hand: str, figures: Json) -> str:
     return f"{hand}: {figures['strokes']} strokes" + (f", {', '.join(told)}" if told else "")
 
 
-def sticking_words(document: dict[str, Json]) -> list[str]:
+def stick_lines(document: dict[str, Json]) -> list[str]:
+    """What a result's page says of hands and sticks: the sticking, the first remarks, and how the hands lean."""
+    return [*sticking_lines(document), *_remarks(document)[:MOST_REMARKS], *phase_lines(document)]
+
+
+def _remarks(document: dict[str, Json]) -> list[str]:
+    if document.get("sticks") is None:
+        return []
+    remarks = table_in(document, "sticks")["remarks"]
+    assert isinstance(remarks, list), "the report is ours"
+    return [str(remark["text"]) for remark in remarks if isinstance(remark, dict)]
+
+
+def sticking_lines(document: dict[str, Json]) -> list[str]:
     """A line on the hands, none without sensors on the sticks or where no hand is asked for."""
     if document.get("sticking") is None:
         return []
@@ -88,4 +102,4 @@ def sticking_words(document: dict[str, Json]) -> list[str]:
     names = [str(one["bar"]) for one in bars if isinstance(one, dict)]
     where = f", the others in bar{'s' * (len(names) > 1)} {', '.join(names)}" if names else ""
     doubt = f"; {doubtful} cannot be told" if doubtful else ""
-    return ["", f"Sticking: {right} of {right + wrong} strokes from the hand that is written{where}{doubt}"]
+    return [f"Sticking: {right} of {right + wrong} strokes from the hand that is written{where}{doubt}"]

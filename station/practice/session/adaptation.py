@@ -38,6 +38,7 @@ from station.practice.session.plan import (
     Segment,
     plan_practice,
 )
+from station.practice.session.played_phase import all_phases
 from station.practice.session.session import Session, SessionResult
 from station.scoring.align import align
 from station.scoring.matching.hit_windows import Level
@@ -267,6 +268,7 @@ def whole(results: list[SessionResult], bars: tuple[int, int]) -> SessionResult:
             for pause in result.pauses
         ),
         felt=tuple(pair for result in results for pair in result.felt),
+        phase=all_phases([result.phase for result in results]),
     )
 
 

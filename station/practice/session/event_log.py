@@ -1,6 +1,6 @@
 """What a session has written into its capture beside the bytes, so that the capture alone can be judged again.
 
-Each text is one JSON object: `said` (`pass`, `pause`, `go_on`, `end`), and `strokes`, how many strokes and grabbed
+Each text is one JSON object: `said` (`pass`, `pause`, `go_on`, `end`, `track`), and `strokes`, how many strokes and grabbed
 cymbals the session had heard since the capture began (or went on in another engine's hand). By that count, and not by
 the clock, a text has its place among the strokes: the session heard them later than the engine did.
 
@@ -10,6 +10,7 @@ the clock, a text has its place among the strokes: the session heard them later 
 | `pause` | `now_ns`, the session time that it knew; `command`: the strokes that asked for it, each as `stroke_key` has it |
 | `go_on` | `asked`, `whole`, as `Session.resume` takes them |
 | `end` | `now_ns`, the session time at which nothing more was awaited |
+| `track` | from here on the sticks are tracked through a section: its `notes`, `tempos`, `meters`, `end_tick`; it stands among the samples where it was heeded, and tells no `strokes` |
 
 The score is kept as it was judged, strokes and tempo, so that a lesson that has changed since changes nothing.
 """  # noqa: E501 - a table
@@ -83,12 +84,21 @@ class Ended:
 Said = PassBegan | Paused | WentOn | Ended
 
 
+@dataclass(frozen=True, eq=False)
+class Tracked:
+    """The sticks are tracked through the model of `section` (`drummed_model.shipped_model`) from here on."""
+
+    section: Score
+
+
 # --- writing ----------------------------------------------------------------------------------------------------------
 
 
-def text_of(said: Said) -> str:
+def text_of(said: Said | Tracked) -> str:
     """The text as it is kept."""
     match said:
+        case Tracked():
+            return _json({"said": "track", **_section_fields(said.section)})
         case PassBegan():
             fields = {"said": "pass", **_plan_fields(said.plan), "latency": _latency_fields(said.latency)}
             fields["waits"] = said.waits
@@ -98,11 +108,14 @@ def text_of(said: Said) -> str:
             fields = {"said": "go_on", "asked": said.asked, "whole": said.whole}
         case Ended():
             fields = {"said": "end", "now_ns": said.now_ns}
-    return json.dumps({**fields, "strokes": said.strokes}, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return _json({**fields, "strokes": said.strokes})
+
+
+def _json(fields: dict[str, object]) -> str:
+    return json.dumps(fields, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
 
 
 def _plan_fields(plan: Plan) -> dict[str, object]:
-    section, tempo_map = plan.section, plan.section.tempo_map
     return {
         "lesson": plan.lesson.name,
         "title": plan.lesson.title,
@@ -112,12 +125,19 @@ def _plan_fields(plan: Plan) -> dict[str, object]:
         "passes": plan.passes,
         "click": plan.click is not None,
         "level": plan.level,
+        **_section_fields(plan.section),
+        "passes_start_ns": plan.passes_start_ns,
+        "end_ns": plan.end_ns,
+    }
+
+
+def _section_fields(section: Score) -> dict[str, object]:
+    tempo_map = section.tempo_map
+    return {
         "notes": [_without_nan(row) for row in section.notes.tolist()],
         "tempos": [[change.tick, change.us_per_quarter] for change in tempo_map.tempos],
         "meters": [[change.tick, change.beats, change.unit] for change in tempo_map.meters],
         "end_tick": section.end_tick,
-        "passes_start_ns": plan.passes_start_ns,
-        "end_ns": plan.end_ns,
     }
 
 
@@ -146,7 +166,7 @@ _MOST_LEAD_MS = 10_000.0
 # --- reading ----------------------------------------------------------------------------------------------------------
 
 
-def said_in(logged: LoggedText) -> Said | None:
+def said_in(logged: LoggedText) -> Said | Tracked | None:
     """What a session said; None for what no session of this version says. Raises `BadInput` where it is damaged."""
     try:
         fields = json.loads(logged.text)
@@ -162,6 +182,8 @@ def said_in(logged: LoggedText) -> Said | None:
                 return WentOn(_whole(fields["strokes"]), bool(fields["asked"]), bool(fields["whole"]))
             case "end":
                 return Ended(_whole(fields["strokes"]), _whole(fields["now_ns"]))
+            case "track":
+                return Tracked(_section(fields))
             case _:
                 return None
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError):

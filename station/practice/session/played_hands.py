@@ -29,12 +29,17 @@ class PlayedHands:
 
     def felt(self, hits: Sequence[Hit]) -> tuple[StickStroke | None, ...]:
         """The stroke that made each of the judged `hits`, None where nobody can tell; empty without sensors."""
-        if not self.strokes or not hits:
+        span_ns = self.span_ns(hits)
+        if not self.strokes or span_ns is None:
             return ()
+        first, last = span_ns
         played = [replace(hit, at_ns=self._played_ns[hit]) for hit in hits]
-        first = min(hit.at_ns for hit in played) - NEAR_NS
-        last = max(hit.at_ns for hit in played) + NEAR_NS
         return strokes_of_hits(played, [stroke for stroke in self.strokes if first <= stroke.at_ns <= last])
+
+    def span_ns(self, hits: Sequence[Hit]) -> tuple[int, int] | None:
+        """From just before the first of the judged `hits` to just after the last, session time; None of none."""
+        played_ns = [self._played_ns[hit] for hit in hits]
+        return (min(played_ns) - NEAR_NS, max(played_ns) + NEAR_NS) if played_ns else None
 
 
 def limbs_of(hits: Sequence[Hit], felt: Sequence[StickStroke | None]) -> list[Limb] | None:

@@ -12,14 +12,18 @@ from dataclasses import dataclass, replace
 
 from station.core.events import Hit
 from station.drills.mastery.practice_steps import PracticeStep
-from station.engine.messages import Command, EngineEvent
+from station.engine.messages import Command, EngineEvent, TrackPhase
 from station.music.judgement import Judgement
+from station.music.score import Score
 from station.practice.control.pad_commands import PadCommands
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
 from station.practice.session.engine_state import EngineState
+from station.practice.session.event_log import Tracked, text_of
 from station.practice.session.plan import Plan
 from station.practice.session.session import Session, SessionResult
+from station.sync.drill.drill_model import DrillModel
+from station.sync.sonification.triggers import Trigger
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +65,11 @@ class SessionRunner:
     def started(self) -> bool:
         """Whether anything was played, or could have been."""
         return self.session.started or (self._adaptation is not None and bool(self._adaptation.rounds))
+
+    def track(self, section: Score, model: DrillModel, triggers: tuple[Trigger, ...] = ()) -> tuple[Command, ...]:
+        """Track the sticks from now on through `section`, of which `model` is; the commands for it."""
+        self.session.phases.model = model
+        return (TrackPhase(model, triggers, text_of(Tracked(section))),)
 
     # --- from step to step -------------------------------------------------------------------------------------------
 
@@ -116,6 +125,7 @@ class SessionRunner:
         self.session = adaptation.session(before.latency)
         self.session.heard.go_on_from(before.heard)
         self.session.waits = before.waits
+        self.session.phases.model = before.phases.model
         return self.session.start()
 
     # --- what the student asks for -----------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from station.core.events import Choke, Hit, StickStroke
+from station.core.events import Choke, Hit, PhaseEstimate, StickStroke
 from station.core.units import NS_PER_MS
 from station.drills.mastery.feedback_fading import Feedback
 from station.engine.messages import Annotate, Command, EngineEvent, Play, SetBacking, Started, Stop
@@ -30,6 +30,7 @@ from station.practice.session.judging import Judging
 from station.practice.session.pausing import NEAR_NS, SILENT_BARS, SessionPause, Silence, Stretch, bar_of, from_bar
 from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
 from station.practice.session.played_hands import PlayedHands, limbs_of
+from station.practice.session.played_phase import PhasesHeard, PlayedPhase
 from station.scoring.align import align
 from station.scoring.matching.alignment import Alignment
 from station.sound.track import PreparedTrack
@@ -59,7 +60,7 @@ class SessionResult:
     `score` is what is judged: the plan's, or, when the session was stopped early (`complete` False), its strokes up to
     there. `device` is what most hits were played on, `output` what the click was heard on; None where there was none.
     `pauses` are those after which it went on, each by its bar of `score`; `felt` are the hits whose hand the sensors on
-    the sticks told, each with its stroke, which is in session time.
+    the sticks told, each with its stroke, which is in session time; `phase` where in the drill the sticks were.
     """
 
     plan: Plan
@@ -72,6 +73,7 @@ class SessionResult:
     output: str | None = None
     pauses: tuple[SessionPause, ...] = ()
     felt: tuple[tuple[Hit, StickStroke], ...] = ()
+    phase: PlayedPhase | None = None
 
 
 @dataclass(eq=False)
@@ -100,6 +102,8 @@ class Session:
         self._held_ns: int | None = None  # the place on the plan's timeline, while nothing moves
         self._has_left = False  # a stroke has come after so long a silence
         self._hands = PlayedHands()
+        self.phases = PhasesHeard()
+        """Where in the drill the sticks are, while they are tracked."""
         self.paused = False
         """Whether the transport stands and waits for `resume`."""
         self.pauses: list[SessionPause] = []
@@ -178,6 +182,8 @@ class Session:
                     self._judging.chokes.append(replace(event, at_ns=score_ns))
             case StickStroke():
                 self._hands.strokes.append(event)
+            case PhaseEstimate():
+                self.phases.handle(event)
             case _:
                 pass
         return ()
@@ -274,6 +280,12 @@ class Session:
             self.heard.output,
             tuple(self.pauses),
             tuple((hit, stroke) for hit, stroke in zip(self._judging.hits, felt, strict=False) if stroke is not None),
+            self.phases.played(
+                self.plan.section,
+                self.plan.lesson.beat_ticks,
+                self._hands.strokes,
+                self._hands.span_ns(self._judging.hits),
+            ),
         )
 
     def _played_on(self) -> str | None:

@@ -129,16 +129,18 @@ class Pieces:
         """As many lines as there is room for, column by column."""
         columns = max(int((self._box.width - 2 * PADDING) / _TECHNIQUE_WIDTH), 1)
         fit = int((self._box.bottom - 10 - top - 24) / _TECHNIQUE_LINE)
-        shown = lines[: max(fit, 0) * columns]
+        left, width = self._box.left + PADDING, (self._box.width - 2 * PADDING) / columns
+        style = TypeStyle(16, INK_SOFT)
+        broken = [part for line in lines for part in self._draw_list.broken(line, style, width - 10)]
+        shown = broken[: max(fit, 0) * columns]
         if not shown:
             return
-        left, width = self._box.left + PADDING, (self._box.width - 2 * PADDING) / columns
         self._draw_list.text("HANDS AND FEET", (left, top + 18), TypeStyle(14, BRAND, Face.BOLD))
-        style, each = TypeStyle(16, INK_SOFT), -(-len(shown) // columns)
+        each = -(-len(shown) // columns)
         for i, line in enumerate(shown):
             column, row = divmod(i, each)
             at = left + column * width, top + 24 + (row + 0.75) * _TECHNIQUE_LINE
-            self._draw_list.text(self._draw_list.fitted(line, style, width - 10), at, style)
+            self._draw_list.text(line, at, style)
 
 
 def paper(draw_list: DrawList, box: ReportBox) -> None:

@@ -20,8 +20,8 @@ from station.core.errors import BadInput
 from station.core.imu import Mounting
 from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
-from station.motion.kinematics.figure import Figure
-from station.motion.kit.kit import Kit
+from station.motion.kinematics.figure import Figure, figure_of
+from station.motion.kit.kit import DEFAULT_KIT, Kit, load_kit
 from station.motion.style.style import Style
 from station.music.score import Score
 from station.sync.drill.drill_model import CENTRES_A_STROKE, HANDS, DrillModel, channel_names
@@ -39,6 +39,8 @@ COARSEST_S = 0.025
 """Centres are at least so near: a slow drill's strokes are as quick as others (our choice)."""
 MOST_CENTRES = 1024
 """64 strokes of one hand that do not repeat: beyond, a step would take too much of a core (our choice)."""
+LONGEST_S = 40.0
+"""A longer section takes many seconds to make, to be refused at last unless it repeats (our choice)."""
 SMOOTHING_S = (0.005, 0.012)
 """The low-pass is never narrower than the contact, nor so wide that its delay, three of it, is seen (our choice)."""
 FLOOR = np.tile([3.0, 3.0, 3.0, 1.0, 1.0, 1.0], 2)
@@ -94,6 +96,16 @@ def drill_model(section: Score, played: Demonstrated, mountings: Sequence[Mounti
         piece=section.notes["piece"].astype(np.int64),
         limb=limb.astype(np.int64),
     )
+
+
+def shipped_model(section: Score) -> DrillModel:
+    """The model of a section as the shipped drummer plays it on the shipped kit: it depends on the section alone.
+
+    Raises `BadInput` as `drill_model` does, and for a section that would take too long.
+    """
+    if section.length_ns > LONGEST_S * NS_PER_S:
+        raise BadInput("the section", "", "is too long for its phase to be followed; choose fewer bars")
+    return drill_model(section, Demonstrated(load_kit(DEFAULT_KIT), figure_of(), Style()))
 
 
 def _scale(loops: Sequence[Array]) -> Array:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from station.core.events import PhaseEstimate, StickStroke
 from station.core.pieces import Limb
 from station.core.units import NS_PER_S
+from station.scoring.analysis.timing_spread import spread
 from station.sync.drill.drill_model import HANDS, DrillModel
 
 Array = NDArray[np.float64]
@@ -23,6 +24,10 @@ NEAR_S = 0.03
 """A stroke farther than this from any phase was not tracked: three steps of the tracker (our choice)."""
 LEAST_STROKES = 4
 """Of fewer strokes nothing is said (our choice)."""
+FAR_SD, SD_OF_MEDIAN = 4.5, 1.4826
+"""Strokes farther from their median, in SD as the median deviation tells it, are slips (as in `scoring.matching`)."""
+LEAST_REACH_MS = 10.0
+"""Nobody's stroke is a slip for so little (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,11 +42,12 @@ class StrokeOffset:
 
 @dataclass(frozen=True, slots=True)
 class HandLean:
-    """How a hand leans over `strokes` strokes: the median and the SD."""
+    """How a hand leans over `strokes` strokes: mean and SD, and the mean's 95 % interval, None of too few."""
 
     limb: Limb
     late_ms: float
     sd_ms: float
+    ci_ms: tuple[float, float] | None
     late_beats: float
     strokes: int
 
@@ -57,7 +63,9 @@ def stroke_offsets(
     written = {hand: np.unique(model.onset_s[model.limb == hand] % model.cycle_s) for hand in HANDS}
     found = []
     for stroke in strokes:
-        estimate = locked[int(np.argmin(np.abs(at_ns - stroke.at_ns)))]
+        after = min(int(np.searchsorted(at_ns, stroke.at_ns)), len(locked) - 1)
+        near = (max(after - 1, 0), after)
+        estimate = min((locked[row] for row in near), key=lambda each: abs(each.at_ns - stroke.at_ns))
         since_s = (stroke.at_ns - estimate.at_ns) / NS_PER_S
         if abs(since_s) <= NEAR_S and len(written.get(stroke.limb, ())):
             place_s = _place_s(model, estimate, since_s)
@@ -79,7 +87,17 @@ def hand_leans(offsets: Sequence[StrokeOffset]) -> tuple[HandLean, ...]:
     for hand in HANDS:
         mine = [offset for offset in offsets if offset.limb is hand]
         if len(mine) >= LEAST_STROKES:
-            late_ms = [offset.late_ms for offset in mine]
-            beats = float(np.median([offset.late_beats for offset in mine]))
-            leans.append(HandLean(hand, float(np.median(late_ms)), float(np.std(late_ms, ddof=1)), beats, len(mine)))
+            late_ms = np.array([offset.late_ms for offset in mine])
+            own = np.flatnonzero(_is_usual(late_ms))
+            told = spread(late_ms[own], own)
+            beats = float(np.mean([mine[row].late_beats for row in own.tolist()]))
+            assert told.mean_ms is not None, "half of them are usual"
+            assert told.sd_ms is not None, "half of them are usual"
+            leans.append(HandLean(hand, told.mean_ms, told.sd_ms, told.ci_ms, beats, len(own)))
     return tuple(leans)
+
+
+def _is_usual(late_ms: Array) -> NDArray[np.bool_]:
+    """Which strokes (n,) belong to their places; the others, of a slip or of a phase that was wrong, lie far off."""
+    off_ms = np.abs(late_ms - np.median(late_ms))
+    return np.asarray(off_ms <= max(FAR_SD * SD_OF_MEDIAN * float(np.median(off_ms)), LEAST_REACH_MS))

@@ -32,19 +32,22 @@ from station.app.first_start import FirstAnswers
 from station.app.room_state import Stage
 from station.app.sessions.session_control import LIVELY_NS, Launch
 from station.app.settings_store import SettingsStore
-from station.core.events import DeviceFound, Hit
-from station.core.pieces import Piece, Zone
+from station.core.events import DeviceFound, Hit, StickPose
+from station.core.pieces import Limb, Piece, Zone
 from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import NS_PER_MS, NS_PER_S
+from station.devices.capture.replay import LoggedText
 from station.drills.library import find_lesson
-from station.engine.messages import Bus, KeyHit, Play, RecordCapture, SetBacking, SetLevel, Started
+from station.engine.messages import Bus, KeyHit, Play, RecordCapture, SetBacking, SetLevel, Started, TrackPhase
 from station.motion.sticking.hand_notes import Hands
 from station.practice.demonstration.compare_by_ear import Whose
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.records.memory import LevelMemory
 from station.practice.records.session_files import CAPTURE_NAME, session_folder
 from station.practice.session.backing_track import BackingRequest
+from station.practice.session.event_log import Tracked, said_in
 from station.practice.session.plan import PlanOptions, plan_practice
+from station.scenes.session_part import AHEAD
 from station.scoring.matching.hit_windows import Level
 from station.simulation.student_spec import parse_spec
 from tests.fakes.stations import Line, choose, just_play, room, shown, station_on, store_with
@@ -74,6 +77,24 @@ def test_hits_on_their_way_when_the_session_is_stopped_are_judged(tmp_path: Path
     counts = report.document["counts"]
     assert isinstance(counts, dict)
     assert counts["hits"] == 1
+
+
+def test_sticks_that_move_are_tracked_for_the_report_though_nobody_asks_to_be_followed(tmp_path: Path) -> None:
+    line = Line()
+    station = station_at([line], tmp_path)
+    station.dispatch(Begin())
+    line.says += [Started(NS_PER_S), StickPose(1, "right", Limb.RIGHT_HAND, (1.0, 0.0, 0.0, 0.0))]
+    station.update(NS_PER_S + 1)
+    AHEAD.submit(lambda: None).result()
+    station.update(NS_PER_S + 2)
+    (track,) = [command for command in line.heard if isinstance(command, TrackPhase)]
+    assert track.model is not None
+    assert not track.triggers
+    tracked = said_in(LoggedText(0, track.note))
+    assert isinstance(tracked, Tracked)
+    assert tracked.section.notes.tobytes() == PLAN.section.notes.tobytes()
+    station.dispatch(EndSession())
+    assert line.heard[-1] == TrackPhase(None)
 
 
 def test_a_second_update_in_a_frame_says_whether_there_is_something_new_and_shows_it(tmp_path: Path) -> None:

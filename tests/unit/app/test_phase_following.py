@@ -13,8 +13,9 @@ from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import TrackPhase
 from station.music.score import Score
+from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
-from station.scenes.demonstrator import Demonstrator
+from station.practice.session.runner import SessionRunner
 from station.scenes.session_part import AHEAD
 from tests.fakes.stations import Line
 
@@ -24,7 +25,7 @@ PLAN = plan_practice(find_lesson("rock-1"), PlanOptions(loops=2, demonstrations=
 def following(plan: Plan = PLAN, sounds: bool = False) -> tuple[Line, PhaseFollowing, list[str]]:
     """One whose model is made: the thread that makes drummers works in order."""
     line, notes = Line(), list[str]()
-    followed = PhaseFollowing(EngineClient(lambda: line, 48_000), plan, Demonstrator(), notes.append, sounds)
+    followed = PhaseFollowing(EngineClient(lambda: line, 48_000), SessionRunner(plan, Latency()), notes.append, sounds)
     assert followed.advance(0, plan.section, 0.0) is None
     AHEAD.submit(lambda: None).result()
     return line, followed, notes

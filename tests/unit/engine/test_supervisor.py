@@ -28,6 +28,7 @@ from station.engine.messages import (
     Started,
     Status,
     Stop,
+    TrackPhase,
 )
 from station.engine.supervisor import MOST_RESTARTS, RESTARTS_WITHIN_NS, EngineSupervisor
 from tests.fakes.cues import clicks
@@ -119,6 +120,7 @@ def test_the_session_goes_on_in_the_spare() -> None:
         SetPiece(Piece.CRASH_1, 0.5),
         SetPiece(Piece.CRASH_1, 0.6),
         SetMidiOut("module"),
+        TrackPhase(None, note="from here on"),
         RecordCapture(Path("take")),
         play,
     ):
@@ -130,8 +132,10 @@ def test_the_session_goes_on_in_the_spare() -> None:
     assert second is not first
     assert second.config == first.config
     *before, resume = second.told
-    held = [SetLevel(Bus.CLICK, 0.7), SetPiece(Piece.CRASH_1, 0.6), SetMidiOut("module"), RecordCapture(Path("take"))]
-    assert before == held
+    *held, record, track = before
+    assert held == [SetLevel(Bus.CLICK, 0.7), SetPiece(Piece.CRASH_1, 0.6), SetMidiOut("module")]
+    assert record == RecordCapture(Path("take"))
+    assert track == TrackPhase(None, note="from here on"), "its note belongs into the capture"
     assert isinstance(resume, Resume)
     assert resume.cues is play.cues
     assert resume.zero_ns == 500
