@@ -8,6 +8,7 @@ from station.core.events import PhaseEstimate, SensorStatus, StickPose, StickStr
 from station.core.imu import Mounting, Quaternion
 from station.core.pieces import Limb
 from station.core.units import NS_PER_S
+from station.devices.imu.imu_protocols import PROTOCOLS
 from station.sync.air.air_zones import AirZone
 
 HEADING_S = 4.0
@@ -99,7 +100,7 @@ def _facts(seen: SeenStick) -> list[str]:
     facts, status = [], seen.status
     if status is not None and status.protocol:
         rate = "" if status.rate_hz is None else f", {status.rate_hz:.0f} Hz"
-        facts.append(f"{status.protocol}{rate}")
+        facts.append(f"{PROTOCOLS[status.protocol].title}{rate}")
         if status.battery is not None:
             facts.append(f"battery {status.battery:.0%}")
         facts.append(f"{_lost(status):.1%} lost" if status.lost else "none lost")

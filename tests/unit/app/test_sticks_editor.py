@@ -104,7 +104,7 @@ def test_a_sensor_is_shown_with_what_it_says_of_itself(page: Page) -> None:
     page.editor.handle(StickStroke(0, RIGHT, Limb.RIGHT_HAND, 4.21, 0.31))
     (stick,) = page.editor.view().sticks
     assert (stick.device, stick.limb, stick.is_learnt) == (RIGHT, Limb.RIGHT_HAND, True)
-    assert stick.facts == ("x-imu3, 200 Hz", "battery 83%", "1.0% lost", "last stroke 4.2 m/s from 31 cm")
+    assert stick.facts == ("x-IMU3, 200 Hz", "battery 83%", "1.0% lost", "last stroke 4.2 m/s from 31 cm")
     assert stick.troubles == ()
 
 
