@@ -48,7 +48,8 @@ class SeenStick:
 class StickView:
     """One stick: its sensor `device`, the hand that holds it, and what there is to say of both.
 
-    `turn` is earth from stick, with the heading such that 0 is ahead; None before its pose is known. `facts` are in
+    `turn` is earth from stick, with the heading such that 0 is ahead; None before its pose is known. Whether it
+    `moves` is None then, and while its sensor is silent. `facts` are in
     order of use, `troubles` what the player should mend.
     """
 
@@ -56,7 +57,7 @@ class StickView:
     limb: Limb
     is_learnt: bool
     turn: Quaternion | None
-    is_resting: bool
+    moves: bool | None
     facts: tuple[str, ...]
     troubles: tuple[str, ...]
 
@@ -90,7 +91,7 @@ def view_of(device: str, seen: SeenStick, now_ns: int) -> StickView:
         seen.mounting.limb,
         seen.mounting.learnt,
         None if seen.pose is None else _ahead(seen.pose.turn, seen.ahead_rad),
-        seen.pose is not None and seen.pose.resting,
+        None if seen.pose is None or _is_silent(seen, now_ns) else not seen.pose.resting,
         tuple(_facts(seen)),
         tuple(_troubles(seen, now_ns)),
     )
@@ -119,7 +120,7 @@ def _troubles(seen: SeenStick, now_ns: int) -> list[str]:
     said, status, pose = list[str](), seen.status, seen.pose
     if status is None or seen.heard_ns is None:
         return ["nothing has come from it yet"]
-    if now_ns - seen.heard_ns > SILENT_NS:
+    if _is_silent(seen, now_ns):
         return ["it has fallen silent"]
     if not status.protocol:
         return [status.note or "nothing readable comes: does it speak at another rate (PORT@BAUD)?"]
@@ -135,6 +136,10 @@ def _troubles(seen: SeenStick, now_ns: int) -> list[str]:
     if pose is not None and pose.drift_rad is not None and degrees(pose.drift_rad) > _SHOWN_DRIFT_DEG:
         said.append(f"its heading may be {degrees(pose.drift_rad):.0f}° off: strike the first piece once")
     return said
+
+
+def _is_silent(seen: SeenStick, now_ns: int) -> bool:
+    return seen.heard_ns is None or now_ns - seen.heard_ns > SILENT_NS
 
 
 def _lost(status: SensorStatus) -> float:

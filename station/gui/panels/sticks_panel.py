@@ -91,7 +91,7 @@ class SticksPanel:
             imgui.same_line()
         imgui.end_disabled()
         imgui.align_text_to_frame_padding()
-        theme.soft("lies still" if stick.is_resting else "moves" if stick.turn is not None else "")
+        theme.soft({True: "moves", False: "lies still", None: ""}[stick.moves])
         theme.soft(", ".join(stick.facts))
         for trouble in stick.troubles:
             imgui.text_wrapped(trouble)

@@ -136,6 +136,16 @@ def test_a_sensor_that_says_nothing_any_more_is_told(page: Page) -> None:
     assert page.editor.view().sticks == ()
 
 
+def test_whether_a_stick_moves_is_said_while_its_sensor_is_heard(page: Page) -> None:
+    page.here(RIGHT)
+    page.status(at_s=1.0)
+    assert page.editor.view().sticks[0].moves is None
+    page.editor.handle(StickPose(ns_from_s(1.0), RIGHT, Limb.RIGHT_HAND, (1.0, 0.0, 0.0, 0.0)))
+    assert page.editor.view().sticks[0].moves is True
+    page.editor.advance(ns_from_s(3.1))
+    assert page.editor.view().sticks[0].moves is None
+
+
 def test_strokes_beyond_the_gyro_and_a_heading_in_doubt_are_told(page: Page) -> None:
     page.here(RIGHT)
     page.status()
