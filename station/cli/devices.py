@@ -79,7 +79,11 @@ def _list(options: PortsOptions) -> int:
 
 def _sensor_line(sensor: Mapping[str, object]) -> str:
     rate = "" if sensor["rate_hz"] is None else f", {sensor['rate_hz']:.1f} Hz"
-    return f"{sensor['device']}  [{sensor['protocol'] or 'nothing readable: another baud?'}{rate}]"
+    from station.devices.imu.imu_protocols import PROTOCOLS
+
+    protocol = str(sensor["protocol"])
+    speaks = PROTOCOLS[protocol].title if protocol else "nothing readable: another baud?"
+    return f"{sensor['device']}  [{speaks}{rate}]"
 
 
 def _ports() -> tuple[list[dict[str, str]], list[str]]:

@@ -118,7 +118,7 @@ class TrackOptions:
         "--lambda L", "how much steady cadence counts beside the signal (100)", _at_least_0(1e9), None
     )
     cadence: float | None = option("RAD", "phase expected from sample to sample (the model's)", _above_0, None)
-    feedback: float | None = option("PART", "of each surprise that changes the cadence (0.05)", _at_least_0(1), None)
+    feedback: float | None = option("PART", "of each surprise that changes the cadence (0.02)", _at_least_0(1), None)
     ages: tuple[int, ...] = option("N,N", "compare samples of these ages together (0)", _ages, (0,))
     zero_mean: str = choice(
         {each: each for each in (_OWN, _MODEL, _HIGH_PASS)}, f"what is taken from every channel ({_OWN}'s mean)", _OWN

@@ -31,6 +31,11 @@ from station.sync.drill.drummed_model import shipped_model
 KIT_WAIT_S = 5.0
 """How long to look for a kit before giving up: a USB kit announces itself within two seconds; our choice."""
 
+_LACKING_SENSORS = (
+    "{count} of {asked} sensors on the sticks cannot be heard yet, and may still come;"
+    " station devices monitor --sticks PORT shows why"
+)
+
 
 def practise_in_terminal(
     asked: Plan | Adaptation,
@@ -53,13 +58,15 @@ def practise_in_terminal(
     config = EngineConfig.from_settings(settings)
     telling.attempt(say, "looking for a kit and a sound output …")
     with EngineSupervisor(config) as engine:
-        wait_for_kits(engine, runner, clock, KIT_WAIT_S, len(config.kits))
+        wait_for_kits(engine, runner, clock, KIT_WAIT_S, len(config.kits), len(config.sticks))
         if not runner.heard.devices:
             raise DeviceError(f"{no_device(config.kits)}; station practice --virtual-student intermediate needs none")
         try:
             if len(runner.heard.devices) < len(config.kits):
                 here = ", ".join(runner.heard.devices)
                 telling.attempt(say, f"\nof {len(config.kits)} kits there is {here}; the others may come", end="")
+            if (lacking := len(config.sticks) - len(runner.heard.sensors)) > 0:
+                telling.attempt(say, f"\n{_LACKING_SENSORS.format(count=lacking, asked=len(config.sticks))}", end="")
             telling.attempt(say, f"\n{level_words(runner.session.plan.level)}\n{LEGEND}")
             runner.session.waits = settings.auto_pause and bool(ways_on) and is_attended()
             if request is not None:

@@ -114,7 +114,7 @@ def test_views_and_score_in_one_window(environment: dict[str, str], tmp_path: Pa
 
 
 def a_stick_is_seen_and_put_in_a_hand(seen: dict[str, Any]) -> None:
-    assert seen["facts"][:2] == ["x-imu3, 200 Hz", "none lost"]
+    assert seen["facts"][:2] == ["x-IMU3, 200 Hz", "none lost"]
     assert "last stroke" in seen["facts"][2]
     assert seen["drawn"]
     assert [seen["hand"], seen["shown"]] == ["LEFT_HAND", "LEFT_HAND"], "the file, and the engine that read it"

@@ -8,6 +8,7 @@ from station.core.events import PhaseEstimate, SensorStatus, StickPose, StickStr
 from station.core.imu import Mounting, Quaternion
 from station.core.pieces import Limb
 from station.core.units import NS_PER_S
+from station.devices.imu.imu_protocols import PROTOCOLS
 from station.sync.air.air_zones import AirZone
 
 HEADING_S = 4.0
@@ -47,7 +48,8 @@ class SeenStick:
 class StickView:
     """One stick: its sensor `device`, the hand that holds it, and what there is to say of both.
 
-    `turn` is earth from stick, with the heading such that 0 is ahead; None before its pose is known. `facts` are in
+    `turn` is earth from stick, with the heading such that 0 is ahead; None before its pose is known. Whether it
+    `moves` is None then, and while its sensor is silent. `facts` are in
     order of use, `troubles` what the player should mend.
     """
 
@@ -55,7 +57,7 @@ class StickView:
     limb: Limb
     is_learnt: bool
     turn: Quaternion | None
-    is_resting: bool
+    moves: bool | None
     facts: tuple[str, ...]
     troubles: tuple[str, ...]
 
@@ -89,7 +91,7 @@ def view_of(device: str, seen: SeenStick, now_ns: int) -> StickView:
         seen.mounting.limb,
         seen.mounting.learnt,
         None if seen.pose is None else _ahead(seen.pose.turn, seen.ahead_rad),
-        seen.pose is not None and seen.pose.resting,
+        None if seen.pose is None or _is_silent(seen, now_ns) else not seen.pose.resting,
         tuple(_facts(seen)),
         tuple(_troubles(seen, now_ns)),
     )
@@ -99,7 +101,7 @@ def _facts(seen: SeenStick) -> list[str]:
     facts, status = [], seen.status
     if status is not None and status.protocol:
         rate = "" if status.rate_hz is None else f", {status.rate_hz:.0f} Hz"
-        facts.append(f"{status.protocol}{rate}")
+        facts.append(f"{PROTOCOLS[status.protocol].title}{rate}")
         if status.battery is not None:
             facts.append(f"battery {status.battery:.0%}")
         facts.append(f"{_lost(status):.1%} lost" if status.lost else "none lost")
@@ -118,7 +120,7 @@ def _troubles(seen: SeenStick, now_ns: int) -> list[str]:
     said, status, pose = list[str](), seen.status, seen.pose
     if status is None or seen.heard_ns is None:
         return ["nothing has come from it yet"]
-    if now_ns - seen.heard_ns > SILENT_NS:
+    if _is_silent(seen, now_ns):
         return ["it has fallen silent"]
     if not status.protocol:
         return [status.note or "nothing readable comes: does it speak at another rate (PORT@BAUD)?"]
@@ -135,6 +137,10 @@ def _troubles(seen: SeenStick, now_ns: int) -> list[str]:
     if pose is not None and pose.drift_rad is not None and degrees(pose.drift_rad) > _SHOWN_DRIFT_DEG:
         said.append(f"its heading may be {degrees(pose.drift_rad):.0f}° off: strike the first piece once")
     return said
+
+
+def _is_silent(seen: SeenStick, now_ns: int) -> bool:
+    return seen.heard_ns is None or now_ns - seen.heard_ns > SILENT_NS
 
 
 def _lost(status: SensorStatus) -> float:

@@ -33,6 +33,8 @@ _QUALITY_SHARE = 0.36
 _PHASES = ([0.0, 0.5, 1.0], ["−π", "0", "π"])
 _QUALITIES, _NAME = ([-1.0, 0.0, 1.0], ["−1", "E max", "1"]), ([0.0], ["E max"])
 """The lower axis, and where it has no room for numbers."""
+_QUALITY_AXIS = (QUALITY_RANGE[0] - 0.3, QUALITY_RANGE[1] + 0.3)
+"""Beyond the range: a good match lies along its end, where half of the line, or all of it, would be cut off."""
 _TIP = "Drag the orange line to go there. Wheel: nearer"
 
 
@@ -107,7 +109,7 @@ class PhasePanel:
                 implot.end_plot()
             theme.tooltip(_TIP)
             if implot.begin_plot(QUALITY_PLOT, imgui.ImVec2(-1, low), plots.FIXED):
-                _axes(trace, QUALITY_RANGE, bare=False)
+                _axes(trace, _QUALITY_AXIS, bare=False)
                 implot.setup_axis_ticks(implot.ImAxis_.y1, *(_QUALITIES if low > theme.points(_LEAST) / 2 else _NAME))
                 self._quality(trace)
                 self._line(view)

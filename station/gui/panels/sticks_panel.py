@@ -91,11 +91,13 @@ class SticksPanel:
             imgui.same_line()
         imgui.end_disabled()
         imgui.align_text_to_frame_padding()
-        theme.soft("lies still" if stick.is_resting else "moves" if stick.turn is not None else "")
+        theme.soft({True: "moves", False: "lies still", None: ""}[stick.moves])
         theme.soft(", ".join(stick.facts))
         for trouble in stick.troubles:
             imgui.text_wrapped(trouble)
-        if not stick.is_learnt:
+        if stick.limb is Limb.UNKNOWN:
+            theme.soft("Which hand holds it is not known: make the mounting gesture, or choose left or right.")
+        elif not stick.is_learnt:
             theme.soft("How it sits on the stick is assumed: make the mounting gesture.")
 
     def _gesture(self, view: SticksView, may_learn: bool) -> None:

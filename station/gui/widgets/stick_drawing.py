@@ -13,6 +13,8 @@ from station.render.text.draw_list import Colour
 
 _WOOD, _WOOD_DARK = (0.91, 0.74, 0.50, 1.0), (0.36, 0.24, 0.13, 1.0)
 """Hickory in light and in shade (our choice)."""
+_SHADOW = (0.02, 0.02, 0.03, 1.0)
+"""None of the palette's: a theme turns those, and a shadow is dark in all of them (our choice)."""
 _HEAD_AT, _HEAD_M = (0.0, 0.24, -0.06), 0.13
 """A 10-inch head ahead of the hands, just under where a tip at rest lies."""
 _FULCRUM = (-0.16, 0.20)
@@ -53,7 +55,7 @@ def _head(brush: imgui.ImDrawList, middle: Points, unit: float) -> None:
 
 
 def _stick(brush: imgui.ImDrawList, shape: StickShape, middle: Points, unit: float) -> None:
-    shade = _ink(palette.with_opacity(palette.NIGHT, 0.35))
+    shade = _ink(palette.with_opacity(_SHADOW, 0.35))
     for before, after in zip(shape.shadow[:-1], shape.shadow[1:], strict=True):
         _quad(brush, np.array([before[0], before[1], after[1], after[0]]), middle, unit, shade)
     for strip, lightness in enumerate(shape.shades):

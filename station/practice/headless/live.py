@@ -158,10 +158,19 @@ def _hear_out(engine: EngineLink, listener: Listener) -> None:
             break
 
 
-def wait_for_kits(engine: EngineLink, listener: Listener, clock: Clock, wait_s: float, kits: int = 1) -> None:
-    """Let the engine wake and find so many `kits`, for at most `wait_s` after it is ready; `listener` hears of it."""
+def wait_for_kits(
+    engine: EngineLink, listener: Listener, clock: Clock, wait_s: float, kits: int = 1, sensors: int = 0
+) -> None:
+    """Let the engine wake and find so many `kits` and `sensors`, for at most `wait_s` after it is ready.
+
+    `listener` hears of it.
+    """
+
+    def lacks() -> bool:
+        return len(listener.heard.devices) < kits or len(listener.heard.sensors) < sensors
+
     until_ns: int | None = None
-    while len(listener.heard.devices) < kits and (until_ns is None or clock.now_ns() < until_ns):
+    while lacks() and (until_ns is None or clock.now_ns() < until_ns):
         for event in engine.events(POLL_S):
             listener.handle(event)
             if isinstance(event, Ready):

@@ -1,8 +1,10 @@
 """A session as a terminal shows it while it is played: a line a segment, a mark a judgement, notices between."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import assert_never
 
+from station.core.labels import limb_name
+from station.core.pieces import Limb
 from station.core.units import NS_PER_MS
 from station.music.judgement import Judgement, Label
 from station.practice.session.plan import Segment
@@ -53,6 +55,7 @@ class LiveText:
         self._session: Session | None = None
         self._segment: Segment | None = None
         self._shown = 0
+        self._sensors: set[str] = set()
 
     def show(self, session: Session, judged: tuple[Judgement, ...]) -> None:
         """Show what is new in `session`."""
@@ -62,6 +65,7 @@ class LiveText:
         self._shown += len(notices)
         for notice in notices:
             self._write(f"\n{notice}")
+        self._show_sensors(session.heard.sensors)
         self._show_segment(session)
         marks = "".join(mark_of(verdict, session.plan.level.windows) for verdict in session.shown(judged))
         if marks:
@@ -69,6 +73,13 @@ class LiveText:
         if session.paused and not self._paused:
             self._write(f"\n{self._paused_words}\n")
         self._paused = session.paused
+
+    def _show_sensors(self, sensors: Mapping[str, Limb]) -> None:
+        """Say which sensors on sticks are here: nothing else in a terminal tells that one is heard."""
+        for device in [device for device in sensors if device not in self._sensors]:
+            hand = f", on the stick in the {limb_name(sensors[device])}" if sensors[device].is_hand else ""
+            self._write(f"\n{device} is here{hand}")
+        self._sensors = set(sensors)
 
     def _show_segment(self, session: Session) -> None:
         state = session.state()

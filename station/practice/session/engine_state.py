@@ -7,19 +7,26 @@ latency (`session.device_latency`). The transport may start several times; its l
 from collections import deque
 from dataclasses import dataclass, field
 
-from station.core.events import Choke, DeviceFound, DeviceLost, Hit
+from station.core.events import Choke, DeviceFound, DeviceLost, Hit, SensorLost, SensorMounted
+from station.core.pieces import Limb
 from station.engine.messages import CaptureSaved, EngineEvent, Notice, Ready, Sounding, Started
 from station.practice.session.device_latency import Latency
 
 RECENT_HITS = 32
 """How many hits a window may look back on to show what was struck just now; our choice."""
 
+_UNKNOWN_HAND = (
+    "no hand is known to hold this stick, so its strokes tell none; the mounting gesture on the window's page Sticks"
+    " teaches it (docs/sensors.md)"
+)
+
 
 @dataclass(eq=False)
 class EngineState:
     """Hand `handle` every event of the engine.
 
-    `devices` are the kits that are connected, the newest last; `output` is what the click is heard on, or was last;
+    `devices` are the kits that are connected, the newest last; `sensors` those on the sticks, each with the hand that
+    holds its stick; `output` is what the click is heard on, or was last;
     `capture_fault` why the capture lacks what came after, if it does; `rate_hz` the sound card's, None where there is
     none; `notices` what a user should read once, in order; `recent` the last hits, the newest last; `zero_ns` when cue
     time 0 was heard, None while the transport has not started; `strokes` counts the strokes and the grabbed cymbals
@@ -28,6 +35,7 @@ class EngineState:
 
     latency: Latency = field(default_factory=Latency)
     devices: list[str] = field(default_factory=list)
+    sensors: dict[str, Limb] = field(default_factory=dict)
     output: str | None = None
     capture_fault: str | None = None
     rate_hz: int | None = None
@@ -52,6 +60,11 @@ class EngineState:
             case DeviceFound(_, device):
                 self.devices = [*(other for other in self.devices if other != device), device]
                 self.notices.append(f"{device} is here")
+            case SensorMounted(_, device, mounting):
+                self._sensor_is_here(device, mounting.limb)
+            case SensorLost(_, device):
+                self.sensors.pop(device, None)
+                self.notices.append(f"{device} is gone: its stick's strokes are not told until it is back")
             case CaptureSaved(_, fault) if fault is not None:
                 self.capture_fault = fault
                 self.notices.append(f"nothing more is recorded: {fault}")
@@ -65,8 +78,15 @@ class EngineState:
             case _:
                 pass
 
+    def _sensor_is_here(self, device: str, limb: Limb) -> None:
+        """A sensor is mounted anew whenever a capture begins; what its player lacks is told once."""
+        if limb is Limb.UNKNOWN and self.sensors.get(device) is not limb:
+            self.notices.append(f"{device}: {_UNKNOWN_HAND}")
+        self.sensors[device] = limb
+
     def go_on_from(self, before: "EngineState") -> None:
         """Know what a session knew that ran before on the same engine."""
+        self.sensors = dict(before.sensors)
         self.devices, self.capture_fault, self.rate_hz = before.devices, before.capture_fault, before.rate_hz
         self.strokes = before.strokes
 

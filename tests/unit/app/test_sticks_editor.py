@@ -104,7 +104,7 @@ def test_a_sensor_is_shown_with_what_it_says_of_itself(page: Page) -> None:
     page.editor.handle(StickStroke(0, RIGHT, Limb.RIGHT_HAND, 4.21, 0.31))
     (stick,) = page.editor.view().sticks
     assert (stick.device, stick.limb, stick.is_learnt) == (RIGHT, Limb.RIGHT_HAND, True)
-    assert stick.facts == ("x-imu3, 200 Hz", "battery 83%", "1.0% lost", "last stroke 4.2 m/s from 31 cm")
+    assert stick.facts == ("x-IMU3, 200 Hz", "battery 83%", "1.0% lost", "last stroke 4.2 m/s from 31 cm")
     assert stick.troubles == ()
 
 
@@ -134,6 +134,16 @@ def test_a_sensor_that_says_nothing_any_more_is_told(page: Page) -> None:
     assert page.editor.view().sticks[0].troubles == ("it has fallen silent",)
     page.editor.handle(SensorLost(ns_from_s(4.0), RIGHT))
     assert page.editor.view().sticks == ()
+
+
+def test_whether_a_stick_moves_is_said_while_its_sensor_is_heard(page: Page) -> None:
+    page.here(RIGHT)
+    page.status(at_s=1.0)
+    assert page.editor.view().sticks[0].moves is None
+    page.editor.handle(StickPose(ns_from_s(1.0), RIGHT, Limb.RIGHT_HAND, (1.0, 0.0, 0.0, 0.0)))
+    assert page.editor.view().sticks[0].moves is True
+    page.editor.advance(ns_from_s(3.1))
+    assert page.editor.view().sticks[0].moves is None
 
 
 def test_strokes_beyond_the_gyro_and_a_heading_in_doubt_are_told(page: Page) -> None:

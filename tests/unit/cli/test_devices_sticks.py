@@ -123,3 +123,7 @@ def test_the_list_says_what_a_sensor_speaks(tmp_path: Path, capsys: pytest.Captu
         assert main(["devices", "list", "--json", "--sticks", sensor.device]) == 0
     (found,) = json.loads(capsys.readouterr().out)["sticks"]
     assert (found["device"], found["protocol"]) == (sensor.device, "x-imu3")
+
+    with SerialKit(tmp_path / "ttyUSB0") as sensor, playing(sensor):
+        assert main(["devices", "list", "--sticks", sensor.device]) == 0
+    assert f"{sensor.device}  [x-IMU3, " in capsys.readouterr().out

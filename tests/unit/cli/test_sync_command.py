@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from station.cli.command_line import main
+from station.sync.phase.phase_tracker import ADAPTIVE
 
 RATE_HZ, PERIOD_S = 100, 1.25
 
@@ -125,3 +126,9 @@ def test_a_signal_that_is_too_slow_for_the_model(model: Path, capsys: pytest.Cap
     capsys.readouterr()
     assert main(["sync", "track", str(model), str(slow)]) == 2
     assert "has fewer than 2 samples in the model's period of 1.25 s" in capsys.readouterr().err
+
+
+def test_help_says_the_feedback_that_is_taken(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["sync", "track", "--help"])
+    assert f"changes the cadence ({ADAPTIVE.feedback})" in " ".join(capsys.readouterr().out.split())

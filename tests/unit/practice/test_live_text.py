@@ -5,7 +5,9 @@ Students skip a bar, begin anew, come in at the middle or stop; the strokes are 
 
 import pytest
 
-from station.core.events import Hit
+from station.core.events import Hit, SensorLost, SensorMounted
+from station.core.imu import Mounting
+from station.core.pieces import Limb
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import Started
@@ -72,3 +74,22 @@ def test_every_label_has_its_mark_and_the_legend_has_every_mark(label: Label) ->
 @pytest.mark.parametrize(("late_ms", "mark"), [(-60, "<"), (0, "|"), (60, ">")])
 def test_a_right_note_leans(late_ms: int, mark: str) -> None:
     assert mark_of(Judgement(Label.MATCH, 0, 0, late_ms * NS_PER_MS), DEFAULT_LEVEL) == mark
+
+
+def test_sensors_on_the_sticks_are_named_as_they_come() -> None:
+    session, written = Session(PLAN), list[str]()
+    text = LiveText(written.append, ["two kicks"])
+
+    for device, limb in (("x-IMU3 1", Limb.RIGHT_HAND), ("x-IMU3 2", Limb.UNKNOWN)):
+        session.handle(SensorMounted(0, device, Mounting(limb)))
+        text.show(session, ())
+        text.show(session, ())
+    session.handle(SensorLost(0, "x-IMU3 1"))
+    text.show(session, ())
+    session.handle(SensorMounted(0, "x-IMU3 1", Mounting(Limb.RIGHT_HAND)))
+    text.show(session, ())
+
+    words = "".join(written)
+    assert words.count("x-IMU3 1 is here, on the stick in the right hand") == 2
+    assert words.count("x-IMU3 2 is here") == 1
+    assert words.endswith("back\nx-IMU3 1 is here, on the stick in the right hand")
