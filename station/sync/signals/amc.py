@@ -7,7 +7,7 @@ import numpy as np
 from station.core.errors import BadInput
 from station.sync.signals.asf import AsfSkeleton, read_asf
 from station.sync.signals.signal import Signal
-from station.sync.signals.signal_text import numbered_lines, numbers
+from station.sync.signals.signal_text import is_count, numbered_lines, numbers
 
 RATE_HZ = 120.0
 """The file does not say it; Boyd and Godbout 2012, § 4.1, of the CMU database."""
@@ -46,7 +46,7 @@ def _frames(path: Path, skeleton: AsfSkeleton) -> list[list[float]]:
         name, *words = text.split()
         if name.startswith(":"):
             _check_keyword(name, path, line)
-        elif not words and name.isdecimal():
+        elif not words and is_count(name):
             if number is not None and int(name) != number + 1:
                 raise BadInput(path, f"line {line}", f"expected frame {number + 1}, found {name}")
             if at is not None:

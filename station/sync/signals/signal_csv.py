@@ -7,9 +7,11 @@ import numpy as np
 
 from station.core.errors import BadInput
 from station.sync.signals.signal import Signal
-from station.sync.signals.signal_text import numbered_lines, numbers
+from station.sync.signals.signal_text import SHORTEST_S, numbered_lines, numbers
 
 TIME = "time_s"
+_FURTHEST_S = 4e9
+"""From 0 (our choice): beyond all dates that are counted from 1970, and few enough to be counted in nanoseconds."""
 
 
 def read_signal_csv(path: Path) -> Signal:
@@ -17,7 +19,7 @@ def read_signal_csv(path: Path) -> Signal:
     lines = list(numbered_lines(path, "a table"))
     if not lines:
         raise BadInput(path, "line 1", f"expected a header such as {TIME},left,right")
-    header = [word.strip() for word in next(csv.reader([lines[0][1]]))]
+    header = _header(*lines[0], path)
     _check_header(header, path, lines[0][0])
     rows = [_row(line, words, len(header), path) for line, words in lines[1:]]
     values = np.array(rows, dtype=np.float64).reshape(len(rows), len(header))
@@ -26,6 +28,13 @@ def read_signal_csv(path: Path) -> Signal:
     return Signal(
         values[:, at].copy(), tuple(name for name in header if name != TIME), np.delete(values, at, axis=1), str(path)
     )
+
+
+def _header(line: int, text: str, path: Path) -> list[str]:
+    try:
+        return [word.strip() for word in next(csv.reader([text]))]
+    except csv.Error as fault:
+        raise BadInput(path, f"line {line}", str(fault)) from fault
 
 
 def _check_header(header: list[str], path: Path, line: int) -> None:
@@ -49,7 +58,13 @@ def _row(line: int, text: str, columns: int, path: Path) -> list[float]:
 
 
 def _check_times(times: list[float], lines: list[int], path: Path) -> None:
+    far = next((at for at, time_s in enumerate(times) if abs(time_s) > _FURTHEST_S), None)
+    if far is not None:
+        raise BadInput(path, f"line {lines[far]}", f"{TIME} is not within {_FURTHEST_S:g} s: {times[far]:g}")
     for at in range(1, len(times)):
         if times[at] <= times[at - 1]:
             fault = f"{TIME} does not increase: {times[at]:g} after {times[at - 1]:g}"
+            raise BadInput(path, f"line {lines[at]}", fault)
+        if times[at] - times[at - 1] < SHORTEST_S:
+            fault = f"{TIME} increases by less than a microsecond: {times[at]:g} after {times[at - 1]:g}"
             raise BadInput(path, f"line {lines[at]}", fault)
