@@ -5,6 +5,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from station.cli.console import Progress, print_json, say
 from station.cli.options.option_fields import (
     Command,
@@ -36,6 +38,8 @@ SCHEMA = "drum-station/sonify/1"
 RATE_HZ = 48_000
 FPS, SIZE = 60, (1280, 720)
 """Half the trials' rate, so that every picture is a sample of its own (our choice)."""
+_LONGEST_S = 1_800.0
+"""Of a recording that becomes sound (our choice): the whole of it is in memory, a gigabyte for a quarter of an hour."""
 _USUAL_PRESET = "walk"
 
 
@@ -71,6 +75,8 @@ def run(options: SonifyOptions) -> int:
         raise BadInput("--level", "", f"expected with a file that ends in {MIDI}")
     triggers = _triggers(options)
     model, signal = load_model(options.model), read_signal(options.signal)
+    if ending in (SOUND, FILM):
+        _check_length(signal)
     told = sonified(model, signal, triggers, PAPER if options.paper else None)
     _write(options, ending, triggers, told)
     if options.json:
@@ -81,6 +87,14 @@ def run(options: SonifyOptions) -> int:
         say(f"{len(told.hits)} sounds in {length_s:.1f} s, locked in {locked:.0f} % of it")
         say(f"{'film' if ending == FILM else ending[1:]}  {options.out}")
     return 0
+
+
+def _check_length(signal: Signal) -> None:
+    """Raises `BadInput` for a recording that is too long for sound."""
+    length_s = float(np.ptp(signal.time_s)) if len(signal) else 0.0
+    if length_s > _LONGEST_S:
+        fault = f"lasts {length_s:g} s: expected at most {_LONGEST_S:g} for sound or a film"
+        raise BadInput(signal.name, "", fault)
 
 
 def _triggers(options: SonifyOptions) -> tuple[Trigger, ...]:

@@ -19,6 +19,7 @@ Other letters are read over. There is no checksum: what cannot be a measurement 
 line the first is heard.
 """
 
+import math
 import struct
 from collections.abc import Sequence
 
@@ -42,6 +43,8 @@ _NUMBERS = {"I": 6, "Q": 4, "A": 3, "T": 1, "B": 3, "M": 3, "H": 3, "R": 9}
 _FLOATS = {count: struct.Struct(f"<{count}f") for count in {*_NUMBERS.values()}}
 _BINARY_INERTIAL = 0x80 | ord("I")
 _INERTIAL = struct.Struct("<BQ6f")
+_CLOCK_ENDS = 2**64
+"""Where the µs of a binary message end; a text holds no more."""
 _FULL = 100.0
 
 
@@ -118,9 +121,12 @@ class XImu3Decoder:
         count = _NUMBERS.get(letter)
         if count is None:
             return ()
-        return self._numbers(letter, micros, numbers, at_ns) if len(numbers) == count and micros >= 0 else None
+        is_whole = len(numbers) == count and 0 <= micros < _CLOCK_ENDS
+        return self._numbers(letter, micros, numbers, at_ns) if is_whole else None
 
     def _numbers(self, letter: str, micros: int, numbers: Sequence[float], at_ns: int) -> Sequence[Heard] | None:
+        if not all(map(math.isfinite, numbers)):
+            return None
         match letter:
             case "I":
                 return self._inertial(micros, numbers, at_ns)

@@ -21,6 +21,8 @@ FEWEST_SAMPLES = 4
 
 def rising_crossings_s(time_s: FloatArray, values: FloatArray) -> FloatArray:
     """When a channel (n,) passes its mean upwards, between samples by the straight line."""
+    if not len(values):
+        return np.empty(0)
     level = values - values.mean()
     depth = -_ARMED_SD * level.std()
     found, is_armed = [], False

@@ -24,6 +24,8 @@ CENTRES = 16
 """n_m of the paper's figure 2, for walking and running."""
 _TURNS = 1
 """Turns of the wrapped Gaussian that are summed to each side: even with three centres the next adds less than 1e-17."""
+_ALONE = 39
+"""From so many centres on every other turn's part, at most exp(−n_m²/2), is nothing at all: less than any number."""
 _RIDGE = 1e-10
 """Of the mean square of the basis: keeps weights finite where no sample lies near a centre (our choice)."""
 
@@ -44,8 +46,9 @@ def gaussians(phase_rad: FloatArray, count: int) -> FloatArray:
     """g(φ; μ_j, σ) of every phase and centre, (n, count)."""
     sigma = pi / count
     apart = wrapped(np.asarray(phase_rad)[:, None] - centres(count)[None, :])
-    turns = apart[:, :, None] + TURN * np.arange(-_TURNS, _TURNS + 1)
-    summed: FloatArray = np.exp(-0.5 * (turns / sigma) ** 2).sum(axis=2)
+    summed = np.zeros_like(apart)
+    for turn in range(-_TURNS, _TURNS + 1) if count < _ALONE else (0,):
+        summed += np.exp(-0.5 * ((apart + TURN * turn) / sigma) ** 2)
     density: FloatArray = summed / (sqrt(TURN) * sigma)
     return density
 

@@ -153,11 +153,15 @@ def _hung_together(bones: dict[str, Bone], parents: dict[str, tuple[int, str]], 
         missing = next((name for name in (child, parent) if name not in bones), None)
         if missing is not None or child == ROOT:
             raise BadInput(path, f"line {line}", f"no such bone: {missing or child}")
-    hung = {ROOT: bones[ROOT]}
-    while len(hung) < len(bones):
-        ready = [name for name in bones if name not in hung and parents.get(name, (0, ""))[1] in hung]
-        if not ready:
-            loose = next(name for name in bones if name not in hung)
-            raise BadInput(path, ":hierarchy", f"{loose} does not hang on the {ROOT}")
+    place = {name: at for at, name in enumerate(bones)}
+    children: dict[str, list[str]] = {}
+    for child, (_, parent) in parents.items():
+        children.setdefault(parent, []).append(child)
+    hung, ready = {ROOT: bones[ROOT]}, [ROOT]
+    while ready:
+        ready = sorted((child for name in ready for child in children.get(name, ())), key=place.__getitem__)
         hung |= {name: replace(bones[name], parent=parents[name][1]) for name in ready}
+    loose = next((name for name in bones if name not in hung), None)
+    if loose is not None:
+        raise BadInput(path, ":hierarchy", f"{loose} does not hang on the {ROOT}")
     return hung

@@ -11,11 +11,13 @@ import numpy as np
 
 from station.core.errors import BadInput
 from station.sync.signals.signal import FloatArray, Signal
-from station.sync.signals.signal_text import is_count, numbered_lines, numbers
+from station.sync.signals.signal_text import SHORTEST_S, is_count, numbered_lines, numbers
 
 Vector = tuple[float, float, float]
 Lines = Iterator[tuple[int, str]]
 END_SITE = "End Site"
+_LONGEST_S = 100.0
+"""From frame to frame (our choice): in no file that can be read do times then grow too large for nanoseconds."""
 BONES = {"RightUpLeg": "rfemur", "LeftUpLeg": "lfemur", "RightLeg": "rtibia", "LeftLeg": "ltibia"}
 """Joints of the CMU database's BVH edition that are bones of its AMC edition; their angles differ by constants."""
 _KINDS = {
@@ -76,6 +78,7 @@ def _rest_frames(values: FloatArray, names: tuple[str, ...]) -> int:
 def _joints(lines: Lines, path: Path) -> tuple[Joint, ...]:
     joints: list[Joint] = []
     open_joints: list[str] = []
+    names: set[str] = set()
     for line, text in lines:
         kind, *words = text.split()
         if kind == "}" and open_joints:
@@ -85,8 +88,9 @@ def _joints(lines: Lines, path: Path) -> tuple[Joint, ...]:
             continue
         parent = open_joints[-1] if open_joints else None
         name = _joint_name(kind, words, parent, path, line)
-        if any(joint.name == name for joint in joints):
+        if name in names:
             raise BadInput(path, f"line {line}", f"{name} is here twice")
+        names.add(name)
         _expect(lines, "{", path)
         offset = _offset(lines, path)
         channels = () if kind == "End" else _channels(lines, path)
@@ -135,8 +139,10 @@ def _frames(lines: Lines, width: int, path: Path) -> tuple[FloatArray, float]:
         raise BadInput(path, f"line {line}", "expected the number of frames")
     count = int(words[0])
     line, words = _entry(lines, "Frame", path)
-    if len(words) != 2 or words[0] != "Time:" or (interval_s := numbers(words[1:], path, line)[0]) <= 0:
-        raise BadInput(path, f"line {line}", "expected Frame Time: and seconds above 0")
+    interval_s = numbers(words[1:], path, line)[0] if len(words) == 2 and words[0] == "Time:" else 0.0
+    if not SHORTEST_S <= interval_s <= _LONGEST_S:
+        fault = f"expected Frame Time: and seconds from {SHORTEST_S:g} to {_LONGEST_S:g}"
+        raise BadInput(path, f"line {line}", fault)
     rows = [_row(text.split(), width, path, at) for at, text in lines]
     if len(rows) != count:
         raise BadInput(path, f"line {line - 1}", f"{count} frames announced, {len(rows)} found")

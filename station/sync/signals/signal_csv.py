@@ -6,9 +6,11 @@ import numpy as np
 
 from station.core.errors import BadInput
 from station.sync.signals.signal import Signal
-from station.sync.signals.signal_text import numbered_lines, numbers
+from station.sync.signals.signal_text import SHORTEST_S, numbered_lines, numbers
 
 TIME = "time_s"
+_FURTHEST_S = 4e9
+"""From 0 (our choice): beyond all dates that are counted from 1970, and few enough to be counted in nanoseconds."""
 
 
 def read_signal_csv(path: Path) -> Signal:
@@ -48,7 +50,13 @@ def _row(line: int, text: str, columns: int, path: Path) -> list[float]:
 
 
 def _check_times(times: list[float], lines: list[int], path: Path) -> None:
+    far = next((at for at, time_s in enumerate(times) if abs(time_s) > _FURTHEST_S), None)
+    if far is not None:
+        raise BadInput(path, f"line {lines[far]}", f"{TIME} is not within {_FURTHEST_S:g} s: {times[far]:g}")
     for at in range(1, len(times)):
         if times[at] <= times[at - 1]:
             fault = f"{TIME} does not increase: {times[at]:g} after {times[at - 1]:g}"
+            raise BadInput(path, f"line {lines[at]}", fault)
+        if times[at] - times[at - 1] < SHORTEST_S:
+            fault = f"{TIME} increases by less than a microsecond: {times[at]:g} after {times[at - 1]:g}"
             raise BadInput(path, f"line {lines[at]}", fault)

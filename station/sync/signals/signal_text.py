@@ -12,7 +12,10 @@ from station.core.utf8 import utf8_text
 MOST_BYTES = 64_000_000
 """Our choice: the longest trial of the CMU database has 6 MB, ten minutes of its 62 channels about 55."""
 
-
+LARGEST = 1e12
+"""A greater number is no measurement, and no model holds one (`phase.model_file`); its square would be none at all."""
+SHORTEST_S = 1e-6
+"""Between two samples: nothing that moves is measured more often (our choice)."""
 _MOST_DIGITS = 11
 """Our choice: a year of frames at 240 a second has ten."""
 
@@ -32,14 +35,18 @@ def is_count(word: str) -> bool:
 
 
 def numbers(words: Sequence[str], path: Path, line: int) -> list[float]:
-    """Each word as a finite number; raises `BadInput` that names the line and the first word that is none."""
+    """Each word as a number, at most `LARGEST` from 0; raises `BadInput` naming the line and the first other word."""
     try:
         values = [float(word) for word in words]
     except ValueError:
         raise _no_number(words, path, line) from None
-    if not all(map(math.isfinite, values)):
+    if not _are_usable(values):
         raise _no_number(words, path, line)
     return values
+
+
+def _are_usable(values: Sequence[float]) -> bool:
+    return all(map(math.isfinite, values)) and max(map(abs, values), default=0.0) <= LARGEST
 
 
 def _no_number(words: Sequence[str], path: Path, line: int) -> BadInput:
@@ -49,6 +56,6 @@ def _no_number(words: Sequence[str], path: Path, line: int) -> BadInput:
 
 def _is_number(word: str) -> bool:
     try:
-        return math.isfinite(float(word))
+        return _are_usable([float(word)])
     except ValueError:
         return False

@@ -92,3 +92,13 @@ def test_what_it_refuses_leaves_nothing(folder: Path, words: tuple[str, ...], fa
     with pytest.raises(BadInput, match=fault):
         sonify(folder, *(str(folder / word) if word.startswith("a.") else word for word in words))
     assert sorted(folder.iterdir()) == before
+
+
+@pytest.mark.parametrize("name", ["a.wav", "a.mp4"])
+def test_a_recording_with_a_leap_in_time_is_too_long_for_sound(folder: Path, name: str) -> None:
+    signal = folder / "walk.csv"
+    *rows, last = signal.read_text().splitlines()
+    signal.write_text("\n".join([*rows, "1e9," + last.split(",", 1)[1]]) + "\n")
+    with pytest.raises(BadInput, match=r"lasts 1e\+09 s: expected at most 1800 for sound or a film"):
+        sonify(folder, "--out", str(folder / name))
+    assert not (folder / name).exists()

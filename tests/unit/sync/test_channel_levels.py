@@ -50,6 +50,7 @@ def test_a_level_has_the_channels_own_range() -> None:
     [
         ("knee", "--level: knee: expected CHANNEL=CONTROLLER"),
         ("knee=128", "0 to 127"),
+        ("knee=" + "9" * 5_000, "0 to 127"),
         ("hip=1", "no such channel: hip"),
         ("rest=1", "never moves"),
     ],

@@ -1,5 +1,7 @@
 """Periodic models: their basis beside scipy's normal density, fits of known curves, and their files."""
 
+import tracemalloc
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -7,9 +9,9 @@ import pytest
 from scipy.stats import norm
 
 from station.core.errors import BadInput
-from station.sync.phase.exemplars import cycles
+from station.sync.phase.exemplars import cycles, rising_crossings_s
 from station.sync.phase.model_file import load_model, model_text, save_model
-from station.sync.phase.periodic_model import Exemplar, PeriodicModel, centres, fitted, gaussians, wrapped
+from station.sync.phase.periodic_model import MOST_CENTRES, Exemplar, PeriodicModel, centres, fitted, gaussians, wrapped
 from station.sync.signals.signal import FloatArray, Signal
 
 PHASE = np.linspace(0, 2 * np.pi, 200, endpoint=False)
@@ -34,7 +36,7 @@ def test_a_rounding_error_beyond_pi_does_not_become_minus_pi() -> None:
     assert wrapped(np.array([beyond, -np.pi, 3 * np.pi])).min() > -np.pi
 
 
-@pytest.mark.parametrize("count", [3, 4, 16])
+@pytest.mark.parametrize("count", [3, 4, 16, 38, 39])
 def test_gaussians_are_the_normal_density_wrapped(count: int) -> None:
     apart = PHASE[:, None] - centres(count)[None, :]
     expected = sum(norm.pdf(apart + 2 * np.pi * turn, scale=np.pi / count) for turn in range(-6, 7))
@@ -127,3 +129,19 @@ def test_a_file_without_channels(tmp_path: Path) -> None:
     path.write_text('format = "drum-station/phase-model/1"\n')
     with pytest.raises(BadInput, match="channel is missing"):
         load_model(path)
+
+
+def test_the_greatest_model_needs_no_gigabyte() -> None:
+    tracemalloc.start()
+    try:
+        gaussians(centres(MOST_CENTRES), MOST_CENTRES)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most < 6 * 8 * MOST_CENTRES**2
+
+
+def test_a_signal_without_samples_has_no_crossings() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert not len(rising_crossings_s(np.empty(0), np.empty(0)))

@@ -148,12 +148,12 @@ def test_csv(tmp_path: Path) -> None:
         ("left", "right", "line 1: right is here twice"),
         ("left", "", "line 1: column 2 has no name"),
         ("3,4", "3,nan", "line 3: expected a number at place 3, found"),
+        ("3,4", "3,1e300", "line 3: expected a number at place 3, found"),
         ("3,4", "3", "line 3: expected 3 numbers, found 2"),
+        ("0.5", "1e-300", "line 3: time_s increases by less than a microsecond: 1e-300 after 0"),
+        ("0.5", "5e9", "line 3: time_s is not within 4e.09 s: 5e.09"),
         ("0.5", "0", "line 3: time_s does not increase: 0 after 0"),
         (CSV, "", "line 1: expected a header"),
-        pytest.param(
-            "left,right\n0,1,2", "l" * 200_000 + ",right\n0,1", "line 2: expected 3 numbers, found 2", id="a long name"
-        ),
     ],
 )
 def test_csv_faults(tmp_path: Path, old: str, new: str, fault: str) -> None:
@@ -174,11 +174,9 @@ def test_csv_faults(tmp_path: Path, old: str, new: str, fault: str) -> None:
         ("leg 7", "foot 1 2", "line 7: foot is in this frame twice"),
         ("11\n", "12\n", "line 8: expected frame 11, found 12"),
         ("10\n", "", "line 4: expected the number of a frame, found root"),
+        ("10\n", "9" * 5_000 + "\n", "line 4: expected the number of a frame"),
         (":DEGREES", ":RADIANS", "line 3: expected :FULLY-SPECIFIED or :DEGREES, found :RADIANS"),
         (AMC, ":DEGREES", "holds no frame"),
-        pytest.param(
-            "10\n", "1" * 5000 + "\n", "line 4: expected the number of a frame", id="a long number of a frame"
-        ),
     ],
 )
 def test_amc_faults(amc: Path, old: str, new: str, fault: str) -> None:
@@ -207,6 +205,16 @@ def test_asf_faults(amc: Path, old: str, new: str, fault: str) -> None:
         read_signal(amc)
 
 
+@pytest.mark.timeout(20)
+def test_a_chain_of_very_many_bones_takes_no_quadratic_time(amc: Path) -> None:
+    count = 20_000
+    bones = "".join(f"begin\nname b{at}\nend\n" for at in range(count))
+    chain = "".join(f"b{at} b{at + 1}\n" for at in range(count - 1))
+    asf = amc.with_name("07.asf")
+    asf.write_text(f":root\norder RX\n:bonedata\n{bones}:hierarchy\nroot b0\n{chain}")
+    assert len(read_asf(asf).bones) == count + 1
+
+
 def test_amc_without_its_skeleton(amc: Path) -> None:
     amc.with_name("07.asf").unlink()
     with pytest.raises(BadInput, match=r"expected its skeleton beside it, such as 07\.asf"):
@@ -223,10 +231,10 @@ def test_amc_without_its_skeleton(amc: Path) -> None:
         ("CHANNELS 3 Zrotation", "CHANNELS 3 Wrotation", "line 9: no such channel: Wrotation"),
         ("OFFSET 1.5", "OFFSET", "line 8: expected 3 numbers, found 2"),
         ("Frames: 3", "Frames: 4", "4 frames announced, 3 found"),
-        pytest.param(
-            "Frames: 3", "Frames: " + "3" * 5000, "line 17: expected the number of frames", id="a long number of frames"
-        ),
-        ("Time: .01", "Time: 0", "line 18: expected Frame Time: and seconds above 0"),
+        ("Frames: 3", "Frames: " + "9" * 5_000, "line 17: expected the number of frames"),
+        ("Time: .01", "Time: 0", "line 18: expected Frame Time: and seconds from 1e-06 to 100"),
+        ("Time: .01", "Time: 1e-300", "line 18: expected Frame Time: and seconds from 1e-06 to 100"),
+        ("Time: .01", "Time: 1e9", "line 18: expected Frame Time: and seconds from 1e-06 to 100"),
         ("9.25", "", "line 21: expected 9 numbers, found 8"),
         ("9.5", "inf", "line 20: expected a number at place 9"),
         (BVH[BVH.index("MOTION") :], "", "the end: expected MOTION, found nothing"),

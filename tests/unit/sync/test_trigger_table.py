@@ -36,6 +36,8 @@ def test_a_note_of_general_midi_by_its_number() -> None:
         ("0.5=snair", "did you mean snare"),
         ("0.5=", "no such piece"),
         ("0.5=128", "0 to 127"),
+        ("0.5=" + "9" * 5_000, "--trigger: 0.5=9"),
+        ("0.5=kick@" + "9" * 5_000, "--trigger: 0.5=kick@9"),
         ("0.5=kick@0", "1 to 127"),
         ("0.5=kick@loud", "1 to 127"),
     ],

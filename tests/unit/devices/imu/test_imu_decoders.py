@@ -99,6 +99,29 @@ def test_json_is_read_over_and_of_several_channels_the_first_is_heard() -> None:
     assert decoder.bad_bytes == 0
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"A,1,inf,0,0\n",
+        b"A,1,0,nan,0\n",
+        b"Q,1,inf,0,0,0\n",
+        b"T,1,nan\n",
+        b"B,1,nan,4,0\n",
+        x_imu3_binary("A", 1, [math.inf, 0, 0]),
+    ],
+)
+def test_what_is_no_number_is_damage_in_every_message(line: bytes) -> None:
+    decoder = XImu3Decoder()
+    assert decoder.feed(line, 0) == []
+    assert decoder.bad_bytes == len(line)
+
+
+def test_a_clock_of_more_than_64_bits_is_damage() -> None:
+    decoder = XImu3Decoder()
+    assert decoder.feed(b"I,%d,0,0,0,0,0,1\n" % 2**64, 0) == []
+    assert only(decoder.feed(b"I,%d,0,0,0,0,0,1\n" % (2**64 - 1), 0)).ticks == 2**64 - 1
+
+
 @pytest.mark.parametrize("number", ["nan", "inf", "-inf", "1e30", "x", ""])
 def test_a_number_that_nobody_measures_is_damage(number: str) -> None:
     decoder = XImu3Decoder()
