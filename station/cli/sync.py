@@ -103,7 +103,7 @@ class FitOptions:
     all_cycles: bool = flag("take every cycle, and not the first alone")
     mixed_units: bool = flag("the channels have no common unit: each counts by its SD")
     zero_mean: str = choice(
-        {_OWN: _OWN, _HIGH_PASS: _HIGH_PASS}, f"what is taken from every channel ({_OWN}'s mean)", _OWN
+        {_OWN: _OWN, _HIGH_PASS: _HIGH_PASS}, f"what is taken from every channel ({_OWN}: each cycle's mean)", _OWN
     )
 
 
@@ -145,9 +145,10 @@ def _fit(options: FitOptions) -> int:
     exemplars = [each for signal in signals for each in _cycles(options, signal, names)]
     model = fitted(names, exemplars, options.centres, one_unit=not options.mixed_units)
     save_model(model, options.out)
+    channels = "1 channel" if len(names) == 1 else f"{len(names)} channels"
     cycles = "1 cycle" if len(exemplars) == 1 else f"{len(exemplars)} cycles"
     period = "" if model.period_s is None else f", period {model.period_s:.3f} s"
-    say(f"model    {options.out}: {len(names)} channels, {options.centres} centres, {cycles}{period}")
+    say(f"model    {options.out}: {channels}, {options.centres} centres, {cycles}{period}")
     return 0
 
 
@@ -157,7 +158,10 @@ def _channels(said: str | None, signal: Signal) -> tuple[str, ...]:
     if said is None:
         walk = CHANNEL_SETS["walk"]
         return walk if set(walk) <= set(signal.names) else signal.names
-    return CHANNEL_SETS.get(said) or tuple(name.strip() for name in said.split(","))
+    names = CHANNEL_SETS.get(said) or tuple(name.strip() for name in said.split(","))
+    if len(set(names)) < len(names):
+        raise BadInput("--channels", "", f"expected each channel once, found {said}")
+    return names
 
 
 def _cycles(options: FitOptions, signal: Signal, names: tuple[str, ...]) -> list[Exemplar]:

@@ -26,6 +26,8 @@ CMU trials (docs/phase.md): walks have E1 0.85 to 0.99 with a model of another p
 LOCKED, LOST = 0.6, 0.3
 """Confidence that locks, and below which the lock is lost (our choice: a doubtful step does not flicker)."""
 _FULL_ENERGY = (SIZE[1] ** 2, LARGEST_SIZE[1] ** 2)
+MOST_ENERGY = LARGEST_SIZE[0] ** 2
+"""A sample counts as so many times the energy that is expected of it at most: a single wild one does not unlock."""
 
 
 def weight_of_newest(cadence_rad: float) -> float:
@@ -47,6 +49,7 @@ class Confidence:
     def step(self, likeness: float, speed: float, energy: float, expected: float) -> float:
         """The confidence after one more sample."""
         weight = self.weight
+        energy = min(energy, MOST_ENERGY * expected)
         self.likeness = alike = self.likeness + weight * (likeness - self.likeness)
         self.speed = fast = self.speed + weight * (speed - self.speed)
         self.energy += weight * (energy - self.energy)

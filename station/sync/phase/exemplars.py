@@ -36,11 +36,22 @@ def rising_crossings_s(time_s: FloatArray, values: FloatArray) -> FloatArray:
 
 
 def cycle(signal: Signal, start_s: float, end_s: float) -> Exemplar:
-    """The samples from `start_s` up to `end_s`, phase from 0 to 2π; raises `BadInput` where they are too few."""
+    """The samples from `start_s` up to `end_s`, phase from 0 to 2π.
+
+    Raises `BadInput` where they are too few, are not the whole cycle, or all alike. The last sample lasts as long as
+    the others.
+    """
     inside = (signal.time_s >= start_s) & (signal.time_s < end_s)
+    place = f"{start_s:g} to {end_s:g} s"
     if inside.sum() < FEWEST_SAMPLES:
         fault = f"expected at least {FEWEST_SAMPLES} samples in a cycle, found {inside.sum()}"
-        raise BadInput(signal.name, f"{start_s:g} to {end_s:g} s", fault)
+        raise BadInput(signal.name, place, fault)
+    step_s = 1 / signal.rate_hz
+    first_s, last_s = float(signal.time_s[0]), float(signal.time_s[-1]) + step_s
+    if start_s < first_s - step_s or end_s > last_s + step_s:
+        raise BadInput(signal.name, place, f"expected a cycle within {first_s:g} to {last_s:g} s")
+    if not np.ptp(signal.values[inside], axis=0).any():
+        raise BadInput(signal.name, place, "expected a motion, found every channel still")
     phase_rad = (signal.time_s[inside] - start_s) * (TURN / (end_s - start_s))
     return Exemplar(signal.values[inside], phase_rad, end_s - start_s)
 

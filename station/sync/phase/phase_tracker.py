@@ -23,7 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from station.sync.phase.cadence import DOUBTFUL, CadenceRule, doubt_weight
-from station.sync.phase.confidence import Confidence, confidences, locks, weight_of_newest
+from station.sync.phase.confidence import MOST_ENERGY, Confidence, confidences, locks, weight_of_newest
 from station.sync.phase.lanes import Lanes
 from station.sync.phase.objective import Objective
 from station.sync.phase.periodic_model import TURN, PeriodicModel, wrapped
@@ -189,7 +189,8 @@ def _in_lanes(parts: _Parts, lanes: Lanes, seen: Seen) -> PhaseTrack:
     means = np.zeros((4, 1))
     rows = []
     for way in lanes.ways(seen, start, parts.usual):
-        asked = np.array([way.likeness, way.speed / parts.usual, way.energy, way.expected])
+        energy = np.minimum(way.energy, MOST_ENERGY * way.expected)
+        asked = np.array([way.likeness, way.speed / parts.usual, energy, way.expected])
         means = running_means(asked, parts.newest, means[:, -1])
         phase_rad = wrapped((way.place + 1) * parts.step_rad - pi)
         rows.append(np.array([phase_rad, way.quality, confidences(means), way.pace * parts.step_rad]))

@@ -82,10 +82,13 @@ def test_track_prints_a_table(model: Path, capsys: pytest.CaptureFixture[str]) -
     assert lines[-1].endswith(" yes")
 
 
-def test_the_period_can_be_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["sync", "fit", str(walker(tmp_path / "a.csv")), "--out", str(tmp_path / "a.toml"), "--period", "0.5:1.75"]
-    assert main(words) == 0
-    assert "1 cycle, period 1.250 s" in capsys.readouterr().err
+@pytest.mark.parametrize(("period", "length_s"), [("0.5:1.75", 1.25), ("4.75:6", 1.25), ("0:6", 6)])
+def test_the_period_can_be_said(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], period: str, length_s: float
+) -> None:
+    words = ["sync", "fit", str(walker(tmp_path / "a.csv")), "--out", str(tmp_path / "a.toml"), "--channels", "right"]
+    assert main([*words, "--period", period]) == 0
+    assert f"1 channel, 16 centres, 1 cycle, period {length_s:.3f} s" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -95,6 +98,10 @@ def test_the_period_can_be_said(tmp_path: Path, capsys: pytest.CaptureFixture[st
         (("fit", "{csv}", "--out", "{toml}", "--channels", "rihgt"), "no such channel: rihgt; did you mean right"),
         (("fit", "{csv}", "--out", "{toml}", "--reference", "leg"), "no such channel: leg"),
         (("fit", "{csv}", "--out", "{toml}", "--period", "9:10"), "9 to 10 s: expected at least 4 samples in a cycle"),
+        (("fit", "{csv}", "--out", "{toml}", "--period", "5:7"), "5 to 7 s: expected a cycle within 0 to 6 s"),
+        (("fit", "{csv}", "--out", "{toml}", "--period=-1:1"), "-1 to 1 s: expected a cycle within 0 to 6 s"),
+        (("fit", "{csv}", "--out", "{toml}", "--channels", "right,right"), "expected each channel once"),
+        (("fit", "{still}", "--out", "{toml}", "--period", "0:1"), "expected a motion, found every channel still"),
         (("fit", "{csv}", "--out", "{toml}", "--period", "2:1"), "expected a period that ends after it begins"),
         (("fit", "{csv}", "{csv}", "--out", "{toml}", "--period", "1:2"), "--period: expected one EXEMPLAR"),
         (("fit", "{csv}", "--out", "{toml}", "--period", "1:2", "--reference", "right"), "not allowed with"),
@@ -111,6 +118,8 @@ def test_wrong_input_is_named(
     model: Path, capsys: pytest.CaptureFixture[str], words: tuple[str, ...], fault: str
 ) -> None:
     places = {"csv": model.with_name("walk.csv"), "model": model, "toml": model.with_name("out.toml")}
+    places["still"] = model.with_name("still.csv")
+    places["still"].write_text("time_s,left\n" + "".join(f"{at / 100},5.1\n" for at in range(200)))
     capsys.readouterr()
     assert main(["sync", *(word.format(**places) for word in words)]) == 2
     told = capsys.readouterr()

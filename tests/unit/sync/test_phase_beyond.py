@@ -72,6 +72,18 @@ def test_a_sensor_that_only_trembles_has_no_phase(model: PeriodicModel) -> None:
     assert not track.locked.any()
 
 
+def test_single_wild_samples_do_not_unlock(model: PeriodicModel) -> None:
+    wild = noisy(walk(ramp(0.05)))
+    wild[300::60] *= 40
+    track = tracked(model, wild, ADAPTIVE)
+    assert track.locked[300:].all()
+
+
+def test_a_motion_that_is_far_too_large_is_not_locked(model: PeriodicModel) -> None:
+    large = (walk(ramp(0.05)) - model.mean) * 6 + model.mean
+    assert not tracked(model, large, ADAPTIVE).locked.any()
+
+
 def test_backwards_is_not_locked(model: PeriodicModel) -> None:
     track = tracked(model, noisy(walk(-ramp(0.05))), ADAPTIVE)
     assert track.locked[100:].mean() < 0.05
@@ -134,6 +146,7 @@ def test_lanes_are_the_tracker(model: PeriodicModel, settings: TrackerSettings) 
     speeds = np.repeat(rng.choice([0.05, 0.0, -0.05, 0.09, 0.03], 53), 400)
     values = noisy(walk(np.cumsum(speeds)), 2.0)
     values[3000:3600] = 20 * rng.standard_normal((600, 4))
+    values[5000:5600:50] *= 40
     values[9000:9500] = model.mean
     tracker = PhaseTracker(model, settings)
     steps = np.array([tracker.step(sample) for sample in values], dtype=np.float64)
