@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece
+from station.core.pieces import Limb, Piece
 from station.core.units import NS_PER_MS
 from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Score
@@ -53,7 +53,7 @@ def take(score: Score, hands: Hands, seed: int) -> Take:
     order = np.argsort(at_ms, kind="stable")
     hits = np.zeros(len(order), HIT_DTYPE)
     hits["at_ns"], hits["piece"] = np.rint(at_ms[order] * NS_PER_MS), piece[order]
-    hits["velocity"], hits["openness"] = 80, np.nan
+    hits["velocity"], hits["openness"], hits["limb"] = 80, np.nan, Limb.UNKNOWN
     return Take(Performance.from_array(hits), meant[order])
 
 

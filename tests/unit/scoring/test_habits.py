@@ -45,6 +45,7 @@ def performed(
 ) -> Summary:
     rng = np.random.default_rng(1000 + seed)
     hits = np.zeros(len(score), HIT_DTYPE)
+    hits["limb"] = Limb.UNKNOWN
     hits["at_ns"] = score.onset_ns + np.rint((noise_ms(score, seed) + shift_ms) * NS_PER_MS).astype(np.int64)
     hits["piece"] = score.notes["piece"]
     loud = score.notes["velocity"] * 10 ** (np.asarray(level_db) / 40) * (1 + 0.06 * rng.normal(size=len(score)))
@@ -196,6 +197,7 @@ def test_missing_strokes_are_told_when_they_are_many() -> None:
     rng = np.random.default_rng(1)
     kept = (score.notes["piece"] != Piece.SNARE) | (rng.random(len(score)) < 0.5)
     hits = np.zeros(int(kept.sum()), HIT_DTYPE)
+    hits["limb"] = Limb.UNKNOWN
     hits["at_ns"], hits["piece"], hits["velocity"] = score.onset_ns[kept], score.notes["piece"][kept], 80
     performance = Performance.from_array(hits)
     said = advise(summarise(score, performance, align(score, performance, clocked=True)))
