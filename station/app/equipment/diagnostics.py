@@ -38,6 +38,7 @@ def _all_checks() -> tuple[Callable[[], Check], ...]:
         check_serial,
         check_hid,
         check_own_kits,
+        check_sticks,
         check_sound,
         check_real_time,
         check_calibration,
@@ -123,6 +124,29 @@ def check_own_kits() -> Check:
     if not files:
         return Check("own kits", True, f"none in {kits_folder()}; station devices learn makes them")
     return Check("own kits", True, f"{', '.join(path.stem for path in files)} in {kits_folder()}")
+
+
+def check_sticks() -> Check:
+    """The motion sensors that the settings name, and what the sticks' files know; opens no port."""
+    from station.core.labels import limb_name
+    from station.devices.imu.ble_ports import BLE, load_bleak
+    from station.devices.mapping.stick_file import parse_stick, sticks_folder
+    from station.devices.stick_ports import parse_sticks
+
+    known = list[str]()
+    try:
+        said = load_settings().sticks
+        if not said.strip():
+            return Check("sticks", True, "no motion sensors: the settings name none (sticks)")
+        if any(request.part.startswith(BLE) for request in parse_sticks(said)):
+            load_bleak()
+        for path in sorted(sticks_folder().glob("*.toml")):
+            mounting = parse_stick(path.read_text(encoding="utf-8"), str(path))
+            known.append(f"{path.stem} ({limb_name(mounting.limb)})")
+    except (StationError, OSError, UnicodeDecodeError) as fault:
+        return Check("sticks", False, str(fault), "docs/sensors.md has what is understood")
+    files = f"known: {', '.join(known)}" if known else "no stick has a file: the mounting gesture makes it"
+    return Check("sticks", True, f"{said}; {files}")
 
 
 def check_serial() -> Check:

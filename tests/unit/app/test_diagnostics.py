@@ -8,7 +8,11 @@ from pathlib import Path
 import pytest
 import rtmidi
 
-from station.app.equipment.diagnostics import check_midi_library, check_settings
+from station.app.equipment.diagnostics import check_midi_library, check_settings, check_sticks
+from station.core.imu import Mounting
+from station.core.pieces import Limb
+from station.core.settings import settings_path
+from station.devices.mapping.stick_file import save_stick, stick_path
 
 
 @pytest.mark.parametrize(
@@ -53,3 +57,26 @@ def test_the_doctor_examines_a_computer_on_which_the_midi_library_cannot_be_load
     assert "rtmidi cannot be loaded" in checks["MIDI library"]["finding"]
     assert checks["Python"]["works"]
     assert "pictures" in checks
+
+
+def test_sensors_on_the_sticks_are_looked_at_by_settings_and_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    assert check_sticks().works
+    assert "none" in check_sticks().finding
+
+    settings = settings_path()
+    settings.parent.mkdir(parents=True)
+    settings.write_text('sticks = "serial:/dev/ttyUSB0"\n')
+    assert check_sticks().finding == "serial:/dev/ttyUSB0; no stick has a file: the mounting gesture makes it"
+
+    save_stick(Mounting(Limb.LEFT_HAND), "serial:/dev/ttyUSB0")
+    assert check_sticks().finding == "serial:/dev/ttyUSB0; known: serial-dev-ttyUSB0 (left hand)"
+
+    stick_path("serial:/dev/ttyUSB0").write_text('limb = "nose"\n')
+    assert not check_sticks().works
+    assert "serial-dev-ttyUSB0.toml" in check_sticks().finding
+
+    settings.write_text("kti = 1\n")
+    assert "did you mean kit?" in check_sticks().finding
