@@ -16,7 +16,6 @@ LARGEST = 1e12
 """A greater number is no measurement, and no model holds one (`phase.model_file`); its square would be none at all."""
 SHORTEST_S = 1e-6
 """Between two samples: nothing that moves is measured more often (our choice)."""
-_COUNT_DIGITS = 18
 
 
 def numbered_lines(path: Path, expected: str, comment: str = "") -> Iterator[tuple[int, str]]:
@@ -37,11 +36,6 @@ def numbers(words: Sequence[str], path: Path, line: int) -> list[float]:
     if not _are_usable(values):
         raise _no_number(words, path, line)
     return values
-
-
-def is_count(word: str) -> bool:
-    """Whether `word` is a whole number from 0 on, of so few digits that it may count something."""
-    return word.isdecimal() and len(word) <= _COUNT_DIGITS
 
 
 def _are_usable(values: Sequence[float]) -> bool:
