@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import degrees, isfinite, radians
 
+from station.core.counts import is_count
 from station.core.errors import BadInput
 from station.core.settings import LARGEST_PANELS, SMALLEST_PANELS, Settings, settings_path
 from station.render.camera import Camera, NamedView
@@ -118,7 +119,7 @@ def _viewpoints(text: str) -> Viewpoints:
     for entry in text.split():
         slot, _, numbers = entry.partition("=")
         camera = _camera(numbers)
-        if not slot.isdecimal() or not 1 <= int(slot) <= SLOTS or camera is None:
+        if not is_count(slot) or not 1 <= int(slot) <= SLOTS or camera is None:
             expected = f"expected 1…{SLOTS}=x,y,z,azimuth,height,distance,angle"
             raise BadInput(settings_path(), "viewpoints", f"{expected}, found {entry!r}")
         found[int(slot) - 1] = camera

@@ -13,6 +13,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from station.core.clock import monotonic_ns
+from station.core.counts import is_count
 from station.core.errors import BadInput, DeviceError
 from station.devices.hid.hid_names import HID
 from station.devices.hid.hid_ports import HidDirectory
@@ -51,9 +52,9 @@ def parse_device(text: str, baud: int = MIDI_BAUD) -> DeviceRequest:
         if request.startswith(SERIAL) and "@" in request:
             raise BadInput(f"kit {request}", "", "expected serial:PATH@BAUD, such as serial:/dev/ttyUSB0@115200")
         return DeviceRequest(request, baud)
-    baud = int(rated[2])
+    baud = int(rated[2]) if is_count(rated[2]) else 0
     if not SLOWEST_BAUD <= baud <= FASTEST_BAUD:
-        raise BadInput(f"kit {request}", "", f"{baud} baud: expected {SLOWEST_BAUD} to {FASTEST_BAUD}")
+        raise BadInput(f"kit {request}", "", f"{rated[2]} baud: expected {SLOWEST_BAUD} to {FASTEST_BAUD}")
     return DeviceRequest(rated[1], baud)
 
 

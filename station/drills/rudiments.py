@@ -9,6 +9,7 @@ student should begin.
 from dataclasses import dataclass
 from functools import cache
 
+from station.core.counts import is_count
 from station.core.did_you_mean import nearest
 from station.core.errors import BadInput
 from station.drills.lesson import Lesson
@@ -116,7 +117,7 @@ def _by_name() -> dict[str, Rudiment]:
 
 def find_rudiment(name_or_number: str) -> Rudiment:
     """The rudiment of that name (`flam-tap`) or PAS number; raises `BadInput` with the nearest name."""
-    if name_or_number.isdecimal() and 1 <= int(name_or_number) <= len(RUDIMENTS):
+    if is_count(name_or_number) and 1 <= int(name_or_number) <= len(RUDIMENTS):
         return RUDIMENTS[int(name_or_number) - 1]
     name = _name_of(name_or_number)
     if name not in _by_name():

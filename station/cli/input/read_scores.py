@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from station.cli.input.read_captures import begins_as_capture, is_capture, performance_of_capture
 from station.cli.options.option_fields import unread
+from station.core.counts import is_count
 from station.core.errors import BadInput
 from station.music.performance import Performance
 from station.music.score import Score
@@ -102,6 +103,6 @@ def bars_of_gap(text: str) -> Gap:
     from station.practice.session.click_pattern import Gap
 
     sounding, _, quiet = text.partition("/")
-    if not (sounding.isdecimal() and quiet.isdecimal() and int(sounding) and int(quiet)):
+    if not (is_count(sounding) and is_count(quiet) and int(sounding) and int(quiet)):
         raise unread("bars with and without a click such as 2/1", text)
     return Gap(int(sounding), int(quiet))

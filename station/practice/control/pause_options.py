@@ -7,6 +7,7 @@ goes on; without a word there is the window alone.
 
 from dataclasses import dataclass
 
+from station.core.counts import is_count
 from station.core.errors import BadInput
 from station.core.pieces import Piece, word
 
@@ -30,7 +31,7 @@ def parse_pause(text: str, source: str = "pause") -> PauseOptions:
     for entry in text.split():
         kind, _, number = entry.partition("=")
         names = entry.split("+")
-        if kind in _SWITCHES and number.isdecimal() and int(number) <= _SWITCHES[kind]:
+        if kind in _SWITCHES and is_count(number) and int(number) <= _SWITCHES[kind]:
             switches.add(f"{kind}={int(number)}")
         elif len(set(names)) == len(names) == 2 and all(name in _PIECES for name in names):
             pairs.append(frozenset(_PIECES[name] for name in names))

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
+from station.core.counts import is_count
 from station.core.errors import BadInput
 from station.drills.grid.swing import MAX_RATIO, MIN_RATIO, Swing
 from station.practice.session.click_pattern import (
@@ -97,7 +98,7 @@ def _count(pattern: ClickPattern, value: str) -> ClickPattern | None:
 
 def _number(text: str, most: int) -> int | None:
     """A whole number from 0 to `most`, None for anything else."""
-    return int(text) if text.isascii() and text.isdecimal() and int(text) <= most else None
+    return int(text) if text.isascii() and is_count(text) and int(text) <= most else None
 
 
 _KEYS: Mapping[str, Change] = MappingProxyType(

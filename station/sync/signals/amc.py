@@ -4,10 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
+from station.core.counts import is_count
 from station.core.errors import BadInput
 from station.sync.signals.asf import AsfSkeleton, read_asf
 from station.sync.signals.signal import Signal
-from station.sync.signals.signal_text import is_count, numbered_lines, numbers
+from station.sync.signals.signal_text import numbered_lines, numbers
 
 RATE_HZ = 120.0
 """The file does not say it; Boyd and Godbout 2012, § 4.1, of the CMU database."""

@@ -9,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from station.core.counts import is_count
 from station.core.errors import BadInput
 from station.sync.signals.signal import FloatArray, Signal
-from station.sync.signals.signal_text import SHORTEST_S, is_count, numbered_lines, numbers
+from station.sync.signals.signal_text import SHORTEST_S, numbered_lines, numbers
 
 Vector = tuple[float, float, float]
 Lines = Iterator[tuple[int, str]]

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.counts import is_count
 from station.core.errors import BadInput
 from station.music.formats.smf.track_writer import ControlMove
 from station.sync.signals.signal import Signal
 
 GREATEST = 127
-_DIGITS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,8 +52,7 @@ def parse_level(text: str, signal: Signal, source: str) -> ChannelLevel:
     Raises `BadInput` that names `source`, or the signal where it has no such channel or the channel never moves.
     """
     channel, _, controller = text.rpartition("=")
-    is_number = controller.isdecimal() and len(controller) <= _DIGITS
-    if not channel or not is_number or int(controller) > GREATEST:
+    if not channel or not is_count(controller) or int(controller) > GREATEST:
         raise BadInput(source, text, f"expected CHANNEL=CONTROLLER, the controller from 0 to {GREATEST}")
     samples = signal.only([channel]).values
     if not len(samples) or np.ptp(samples) == 0:

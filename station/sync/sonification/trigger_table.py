@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from math import isfinite
 
+from station.core.counts import is_count
 from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
 from station.core.note_map import GENERAL_MIDI, NoteMeaning, general_midi_note, strike_of
@@ -32,7 +33,6 @@ PRESETS: Mapping[str, tuple[Trigger, ...]] = {
 a runner's foot falls shortly before the thigh passes its middle; .25 and .75 would sound a fifth of a cycle early.
 """
 _GREATEST_NOTE = _GREATEST_VELOCITY = 127
-_DIGITS = 3
 _BY_NAME = {word(piece): piece for piece in Piece}
 _ZONES = {meaning.piece: meaning for _, meaning in sorted(GENERAL_MIDI.items(), reverse=True)}
 """How General MIDI strikes a piece, where it has several numbers by the lowest."""
@@ -80,7 +80,7 @@ def parse_trigger(text: str, source: str) -> Trigger:
 
 def _struck(name: str, text: str, source: str) -> Trigger:
     if name.isdecimal():
-        if len(name) > _DIGITS or int(name) > _GREATEST_NOTE:
+        if not is_count(name) or int(name) > _GREATEST_NOTE:
             raise BadInput(source, text, f"expected a MIDI note from 0 to {_GREATEST_NOTE}, found {name}")
         return Trigger(0.0, strike_of(int(name), GENERAL_MIDI), midi_note=int(name))
     if name not in _BY_NAME:
@@ -92,6 +92,6 @@ def _struck(name: str, text: str, source: str) -> Trigger:
 def _velocity(word_: str, text: str, source: str) -> int:
     if not word_:
         return USUAL_VELOCITY
-    if not word_.isdecimal() or len(word_) > _DIGITS or not 1 <= int(word_) <= _GREATEST_VELOCITY:
+    if not is_count(word_) or not 1 <= int(word_) <= _GREATEST_VELOCITY:
         raise BadInput(source, text, f"expected a velocity from 1 to {_GREATEST_VELOCITY}, found {word_}")
     return int(word_)
