@@ -26,7 +26,7 @@ from station.practice.session.runner import SessionRunner
 from station.practice.session.session import Session
 from station.sound.track import PreparedTrack
 from station.sync.drill.drill_model import DrillModel
-from station.sync.drill.drummed_model import shipped_model
+from station.sync.drill.drummed_model import is_soon_made, shipped_model
 
 KIT_WAIT_S = 5.0
 """How long to look for a kit before giving up: a USB kit announces itself within two seconds; our choice."""
@@ -72,7 +72,8 @@ def practise_in_terminal(
             if request is not None:
                 telling.attempt(say, "\nmaking the track ready …")
                 runner.session.backing = _track(request, runner.session, settings)
-            drill = _drill(runner.session.plan.section, telling) if config.sticks else None
+            section = runner.session.plan.section
+            drill = _drill(section, telling) if config.sticks and is_soon_made(section) else None
             setup = LiveSetup(engine, clock, text.show, telling, until_saved.enter_context(end_asked()))
             return practise_live(setup, runner, capture, drill)
         finally:

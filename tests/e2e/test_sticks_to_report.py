@@ -14,12 +14,15 @@ import numpy as np
 import pytest
 
 from station.core.pieces import Limb
+from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.devices.capture.capture import read_capture
 from station.devices.mapping.stick_file import save_stick
 from station.drills.library import find_lesson
+from station.practice.records.recovery import recovered
 from station.practice.records.rejudge import judge_again
 from station.practice.records.session_files import CAPTURE_NAME
+from station.practice.records.session_report import practice_document
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.simulation.sticks.stick_swing import StickPair, play
 from station.simulation.sticks.swing_score import PlayerSpec, spec_from_score
@@ -85,6 +88,7 @@ def test_the_report_names_the_hands_that_struck(tmp_path: Path) -> None:
     assert document["sticking"]["wrong"] == len(WRONG_ROWS)
     assert document["phase"]["locked_share"] > 0.3  # one sensor is away for a while, four strokes are the other hand's
     assert set(document["phase"]["hands"]) == {"right_hand", "left_hand"}
+    assert practice_document(recovered(report / CAPTURE_NAME), Settings())["phase"] == document["phase"]
     assert document["sticking"]["right"] == np.sum(named) - len(WRONG_ROWS)
 
 

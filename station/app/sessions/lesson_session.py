@@ -35,6 +35,7 @@ from station.scenes.result_tables import session_facts
 from station.scenes.session_scene import SessionView
 from station.scenes.wrong_pads import wrong_pads
 from station.sound.track import PreparedTrack
+from station.sync.drill.drummed_model import is_soon_made
 
 PAUSED = "Paused: two kicks, or Go on"
 
@@ -104,7 +105,7 @@ class LessonSession:
 
     def handle(self, event: EngineEvent, now_ns: int) -> None:
         """Handle one event of the engine."""
-        if self._following is None and self._folder is not None and isinstance(event, StickPose):
+        if self._may_track(event):
             self._following = PhaseFollowing(self._engine, self._runner, _say_nothing)  # for the report
         if self._following is not None:
             self._following.handle(event)
@@ -113,6 +114,11 @@ class LessonSession:
         self._follow(self._runner.handle(event), now_ns)
         for notice in notices[known:]:
             self._notify(notice)
+
+    def _may_track(self, event: EngineEvent) -> bool:
+        """Whether sticks are there, and tracked neither yet nor in vain."""
+        is_stick = self._following is None and self._folder is not None and isinstance(event, StickPose)
+        return is_stick and is_soon_made(self.plan.section)
 
     def advance(self, now_ns: int) -> bool:
         """Move on, or wait for a student who has stopped; returns whether the session is over."""

@@ -39,8 +39,8 @@ COARSEST_S = 0.025
 """Centres are at least so near: a slow drill's strokes are as quick as others (our choice)."""
 MOST_CENTRES = 1024
 """64 strokes of one hand that do not repeat: beyond, a step would take too much of a core (our choice)."""
-LONGEST_S = 40.0
-"""A longer section takes many seconds to make, to be refused at last unless it repeats (our choice)."""
+LONGEST_S = MOST_CENTRES * COARSEST_S
+"""The model of a longer section takes many seconds, to be refused at last unless it repeats."""
 SMOOTHING_S = (0.005, 0.012)
 """The low-pass is never narrower than the contact, nor so wide that its delay, three of it, is seen (our choice)."""
 FLOOR = np.tile([3.0, 3.0, 3.0, 1.0, 1.0, 1.0], 2)
@@ -101,11 +101,14 @@ def drill_model(section: Score, played: Demonstrated, mountings: Sequence[Mounti
 def shipped_model(section: Score) -> DrillModel:
     """The model of a section as the shipped drummer plays it on the shipped kit: it depends on the section alone.
 
-    Raises `BadInput` as `drill_model` does, and for a section that would take too long.
+    Raises `BadInput` as `drill_model` does.
     """
-    if section.length_ns > LONGEST_S * NS_PER_S:
-        raise BadInput("the section", "", "is too long for its phase to be followed; choose fewer bars")
     return drill_model(section, Demonstrated(load_kit(DEFAULT_KIT), figure_of(), Style()))
+
+
+def is_soon_made(section: Score) -> bool:
+    """Whether the model of a section may be made unasked: in some seconds, on a computer with nothing else to do."""
+    return section.length_ns <= LONGEST_S * NS_PER_S
 
 
 def _scale(loops: Sequence[Array]) -> Array:
