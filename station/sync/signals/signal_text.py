@@ -16,8 +16,6 @@ LARGEST = 1e12
 """A greater number is no measurement, and no model holds one (`phase.model_file`); its square would be none at all."""
 SHORTEST_S = 1e-6
 """Between two samples: nothing that moves is measured more often (our choice)."""
-_MOST_DIGITS = 11
-"""Our choice: a year of frames at 240 a second has ten."""
 
 
 def numbered_lines(path: Path, expected: str, comment: str = "") -> Iterator[tuple[int, str]]:
@@ -27,11 +25,6 @@ def numbered_lines(path: Path, expected: str, comment: str = "") -> Iterator[tup
         words = (line.split(comment, 1)[0] if comment else line).strip()
         if words:
             yield number, words
-
-
-def is_count(word: str) -> bool:
-    """Whether a word is a whole number from 0 that a file can count to."""
-    return word.isascii() and word.isdecimal() and len(word) < _MOST_DIGITS
 
 
 def numbers(words: Sequence[str], path: Path, line: int) -> list[float]:
