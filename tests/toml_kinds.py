@@ -9,6 +9,7 @@ from station.core.schema import read
 from station.core.settings import load_settings
 from station.core.toml_source import read_source
 from station.devices.mapping.device_file import read_kit
+from station.devices.mapping.stick_file import STICK
 from station.drills.course import read_course
 from station.drills.library import lessons_for, read_lesson
 from station.motion.kinematics.figure import load_figure
@@ -16,6 +17,7 @@ from station.motion.kit.kit import load_kit
 from station.motion.style.style_file import Slots, load_style
 from station.sound.samples.kit_folder import KIT_TABLE
 from station.sync.air.air_file import read_air
+from station.sync.phase.model_file import load_model
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +78,15 @@ GOOD = {
         "latency_ms = -3",
         needs="on",
     ),
+    "stick": Good(
+        'limb = "left_hand"\nturn = [0.8, 0.0, 0.6, 0.0]\ntip_m = 0.3\nbutt_m = 0.1\nlearnt = true\n', "tip_m = 0.3"
+    ),
+    "periodic model": Good(
+        'format = "drum-station/phase-model/1"\nperiod_s = 1.2\n[[channel]]\nname = "hip"\nmean = 0.5\n'
+        "weights = [0.1, 0.2, 0.3, 0.4]\n",
+        "period_s = 1.2",
+        needs="name",
+    ),
     "air kit": Good(
         'normal_speed_m_s = 3\n[[zones]]\nlimb = "left_hand"\npiece = "snare"\nheading_deg = 12\nelevation_deg = -8\n'
         'heading_sd_deg = 6\nelevation_sd_deg = 8\n[[zones]]\nlimb = "left_hand"\npiece = "tom_1"\nzone = "rim"\n'
@@ -96,6 +107,8 @@ _READERS: dict[str, Callable[[Path], object]] = {
     "sounds": lambda path: read(read_source(path), KIT_TABLE),
     "settings": load_settings,
     "calibration": load_calibration,
+    "stick": lambda path: read(read_source(path), STICK),
+    "periodic model": load_model,
     "air kit": read_air,
 }
 

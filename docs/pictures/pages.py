@@ -21,7 +21,7 @@ from imgui_bundle import imgui
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
-from station.app.actions import EditStyle, SetView  # noqa: E402
+from station.app.actions import EditStyle, OpenMotion, SeekMotion, SetView  # noqa: E402  # noqa: E402
 from station.app.room_state import Stage  # noqa: E402
 from station.core.imu import Mounting  # noqa: E402
 from station.core.pieces import Limb, Piece, Zone  # noqa: E402
@@ -38,6 +38,7 @@ from station.gui.panels.export_panel import EXPORT  # noqa: E402
 from station.gui.panels.hits_panel import HITS  # noqa: E402
 from station.gui.panels.lessons_panel import FREE_LABEL  # noqa: E402
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL  # noqa: E402
+from station.gui.panels.phase_panel import PHASE  # noqa: E402
 from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
 from station.gui.panels.sticks_panel import GESTURE_LABEL, STICKS  # noqa: E402
@@ -49,6 +50,7 @@ from station.render.gpu.moving_parts import DoublePlace  # noqa: E402
 from station.sync.air.air_file import air_path, save_air  # noqa: E402
 from station.sync.air.air_zones import AirKit, AirZone  # noqa: E402
 from tests.fakes.stick_physics import Sensor, Stroke, measured, strokes_by_angle  # noqa: E402
+from tests.fakes.walker_files import write_walker  # noqa: E402
 from tests.gui.drive import NEWCOMER, Drive, Scenario, open_panel, press_view  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402
 
@@ -177,6 +179,17 @@ def _gesture(drive: Drive, ctx: Context) -> None:
     ctx.yield_(75)
 
 
+def _phase(drive: Drive, ctx: Context) -> None:
+    """A body that nobody was: what the database has may not be passed on."""
+    walker = write_walker(Path())
+    open_panel(ctx, PHASE)
+    drive.station.dispatch(OpenMotion(walker, walker))
+    while drive.state.phase.scene is None:
+        ctx.yield_(2)
+    drive.station.dispatch(SeekMotion(4.0))
+    ctx.yield_(8)
+
+
 def _which_pad(drive: Drive, ctx: Context) -> None:
     _devices(drive, ctx)
     drive.engine.play_bytes("99 0e 40")
@@ -233,6 +246,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "which-pad": _which_pad,
     "sticks": _sticks,
     "gesture": _gesture,
+    "phase": _phase,
     "calibration": _calibration,
     "figure-bars": _lanes,
     "courses": _courses,

@@ -9,7 +9,7 @@ from station.core.errors import BadInput
 from station.core.schema import Reader, reading
 from station.core.toml_faults import Fault
 from station.core.toml_source import Source
-from station.devices.mapping import device_file
+from station.devices.mapping import device_file, stick_file
 from station.drills import course, lesson_file
 from station.drills.library import lessons_for
 from station.motion.kinematics import figure
@@ -17,6 +17,7 @@ from station.motion.kit import kit
 from station.motion.style import style_file
 from station.sound.samples import kit_folder
 from station.sync.air import air_file
+from station.sync.phase import model_file
 
 _ENDING = "*.toml"
 
@@ -50,6 +51,8 @@ KINDS = (
     TomlKind(
         "calibration", measured_latency.FIELDS, lambda _: measured_latency.CALIBRATION, (measured_latency.FILE_NAME,)
     ),
+    TomlKind("stick", stick_file.FIELDS, lambda _: stick_file.STICK, ("sticks/*.toml",)),
+    TomlKind("periodic model", model_file.FIELDS, lambda _: model_file.MODEL),
     TomlKind("air kit", air_file.FIELDS, lambda _: air_file.AIR_KIT, (air_file.FILE_NAME,)),
 )
 

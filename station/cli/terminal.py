@@ -1,6 +1,7 @@
 """A live session in the terminal: the engine's process plays and hears, every stroke is shown as it is judged."""
 
 from contextlib import ExitStack, suppress
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -58,11 +59,12 @@ def practise_in_terminal(
     config = EngineConfig.from_settings(settings)
     telling.attempt(say, "looking for a kit and a sound output …")
     with EngineSupervisor(config) as engine:
+        setup = LiveSetup(engine, clock, text.show, telling, in_air=config.air is not None and bool(config.air.zones))
         wait_for_kits(engine, runner, clock, KIT_WAIT_S, len(config.kits), len(config.sticks))
-        if not runner.heard.devices:
+        if not setup.is_played(runner.heard):
             raise DeviceError(f"{no_device(config.kits)}; station practice --virtual-student intermediate needs none")
         try:
-            if len(runner.heard.devices) < len(config.kits):
+            if 0 < len(runner.heard.devices) < len(config.kits):
                 here = ", ".join(runner.heard.devices)
                 telling.attempt(say, f"\nof {len(config.kits)} kits there is {here}; the others may come", end="")
             if (lacking := len(config.sticks) - len(runner.heard.sensors)) > 0:
@@ -74,7 +76,7 @@ def practise_in_terminal(
                 runner.session.backing = _track(request, runner.session, settings)
             section = runner.session.plan.section
             drill = _drill(section, telling) if config.sticks and is_soon_made(section) else None
-            setup = LiveSetup(engine, clock, text.show, telling, until_saved.enter_context(end_asked()))
+            setup = replace(setup, asked=until_saved.enter_context(end_asked()))
             return practise_live(setup, runner, capture, drill)
         finally:
             telling.attempt(text.last_words, runner.session)

@@ -55,12 +55,12 @@ def own_stick(device: str, folder: Path | None = None) -> Mounting:
         is_there = path.exists()
     except OSError as fault:  # the folder may not be looked into
         raise BadInput(path, "", fault.strerror or str(fault)) from fault
-    return read(read_source(path), _STICK) if is_there else ASSUMED
+    return read(read_source(path), STICK) if is_there else ASSUMED
 
 
 def parse_stick(text: str, name: str) -> Mounting:
     """The mounting in a text that `stick_text` wrote; raises `BadInput`, which names it `name`."""
-    return read(text_source(text, name), _STICK)
+    return read(text_source(text, name), STICK)
 
 
 def save_stick(mounting: Mounting, device: str, folder: Path | None = None) -> Path:
@@ -95,11 +95,11 @@ def _turn(value: object) -> Quaternion:
 
 
 _HANDS = {word(limb): limb for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND, Limb.UNKNOWN)}
-_FIELDS: Fields = {
+FIELDS: Fields = {
     "limb": Field(choice(_HANDS, "hand"), ASSUMED.limb),
     "turn": Field(_turn, ASSUMED.turn),
     "tip_m": Field(number(0.0, _LONGEST_M), ASSUMED.tip_m),
     "butt_m": Field(number(0.0, _LONGEST_M), ASSUMED.butt_m),
     "learnt": Field(flag, ASSUMED.learnt),
 }
-_STICK: Reader[Mounting] = record(Mounting, _FIELDS)
+STICK: Reader[Mounting] = record(Mounting, FIELDS)

@@ -78,7 +78,8 @@ class LiveOutcome:
 class LiveSetup:
     """Where a session is played: its `engine` and `clock`, who hears every round of judgements, who may end it.
 
-    A `show` that fails costs no session: `telling` remembers it.
+    A `show` that fails costs no session: `telling` remembers it. Where a kit hangs `in_air`, sticks with sensors are
+    enough.
     """
 
     engine: EngineLink
@@ -86,6 +87,11 @@ class LiveSetup:
     show: Show
     telling: GuardedOutput = field(default_factory=GuardedOutput)
     asked: EndAsked = field(default_factory=EndAsked)
+    in_air: bool = False
+
+    def is_played(self, heard: EngineState) -> bool:
+        """Whether there is something to play on."""
+        return bool(heard.devices) or (self.in_air and bool(heard.sensors))
 
     def step(self, runner: SessionRunner) -> None:
         """Take in what the engine has heard, move on to the present, show it and do what it asks for."""
@@ -97,7 +103,7 @@ class LiveSetup:
 
     def fault(self, heard: EngineState) -> StationError | None:
         """What the user must know at the end that nobody has raised."""
-        if not heard.devices:
+        if not self.is_played(heard):
             return DeviceError("the kit was unplugged and did not come back; what was played until then is kept")
         return self.telling.fault("not all could be shown while you played, the session is kept")
 

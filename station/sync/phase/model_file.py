@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from station.core.files import write_whole
-from station.core.schema import Field, list_of, needed, number, one_of, optional, read, record, title
+from station.core.schema import Field, Fields, list_of, needed, number, one_of, optional, read, record, title
 from station.core.toml_faults import wrong
 from station.core.toml_source import read_source
 from station.core.toml_write import toml_text
@@ -23,7 +23,7 @@ def save_model(model: PeriodicModel, path: Path) -> None:
 
 def load_model(path: Path) -> PeriodicModel:
     """Read a model; raises `BadInput` with line and column of what is wrong."""
-    return read(read_source(path), _read_model)
+    return read(read_source(path), MODEL)
 
 
 def model_text(model: PeriodicModel) -> str:
@@ -73,11 +73,10 @@ _read_channel = record(
         "weights": needed(list_of(_NUMBER, "a list of numbers"), "[0.1, 0.2, 0.3]"),
     },
 )
-_read_model = record(
-    _model,
-    {
-        "format": Field(one_of([FORMAT], "format"), None, f'"{FORMAT}"', "kind"),
-        "period_s": optional(number(_SMALLEST, _LARGEST)),
-        "channel": Field(list_of(_read_channel, "tables [[channel]]"), None, "[[channel]]", "rows"),
-    },
-)
+FIELDS: Fields = {
+    "format": Field(one_of([FORMAT], "format"), None, f'"{FORMAT}"', "kind"),
+    "period_s": optional(number(_SMALLEST, _LARGEST)),
+    "channel": Field(list_of(_read_channel, "tables [[channel]]"), None, "[[channel]]", "rows"),
+}
+MODEL = record(_model, FIELDS)
+"""How a model's file is read."""
