@@ -70,6 +70,7 @@ class DeviceClock:
         self.lost = 0
         self._tick_ns = tick_ns
         self._base_ns = 0
+        self._late_ns = 0.0
         self._steps: list[int] = []
         self._period_ns = 0
 
@@ -88,12 +89,21 @@ class DeviceClock:
         round_ns = _WRAP * self._tick_ns
         wrapped_ns = round_ns if position - self.position < -round_ns // 2 else 0
         step = position + wrapped_ns - self.position
-        if step <= 0 or abs(line.at(position + wrapped_ns) - reading.at_ns) > _APART_NS:
+        late_ns = reading.at_ns - line.at(position + wrapped_ns)
+        if step <= 0 or (abs(late_ns) > _APART_NS and not self._waited(step, late_ns)):
             return None
+        self._late_ns = late_ns
         self._base_ns += wrapped_ns
         self.position += step
         self._count(step)
         return step
+
+    def _waited(self, step: int, late_ns: float) -> bool:
+        """Whether a sample so late follows the one before and was held up with it: lateness that begins, or goes down.
+
+        Were the clock wrong it would grow from sample to sample.
+        """
+        return step <= _LONGEST_NS and late_ns > 0 and (self._late_ns <= _APART_NS or late_ns <= self._late_ns)
 
     def _count(self, step: int) -> None:
         self._steps.append(step)
