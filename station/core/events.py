@@ -118,7 +118,8 @@ class SensorStatus:
     """How a sensor does, about once a second: what it sends and what was lost since it was found.
 
     `battery` 0 … 1 and `temperature_c` are None where it tells none; `note` is what it said last of itself, such as an
-    error. An empty `protocol` means that nothing readable comes.
+    error. An empty `protocol` means that nothing readable comes. `air` is what its player should know who plays an air
+    kit.
     """
 
     at_ns: int
@@ -131,6 +132,7 @@ class SensorStatus:
     battery: float | None = None
     temperature_c: float | None = None
     note: str = ""
+    air: tuple[str, ...] = ()
 
 
 SensorEvent = SensorMounted | SensorLost | SensorSamples | SensorStatus
@@ -163,7 +165,7 @@ class StickStroke:
 class StickPose:
     """How a stick is held, a few dozen times a second, for a picture; `turn` earth from stick.
 
-    `resting` whether it lies still; `drift_rad` how far its heading may be wrong by now, None where nobody knows.
+    `resting` whether it lies still.
     """
 
     at_ns: int
@@ -171,7 +173,6 @@ class StickPose:
     limb: Limb
     turn: Quaternion
     resting: bool = False
-    drift_rad: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

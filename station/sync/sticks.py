@@ -92,7 +92,7 @@ class Sticks:
                     self._air.lost(event.device)
                 return [event]
             case SensorStatus():
-                return [event]
+                return [event if self._air is None else replace(event, air=self._air.words(event.device))]
             case SensorSamples():
                 return self._moved(event)
 
@@ -125,7 +125,5 @@ class Sticks:
             told += self._air.moved(device, motion)
         if motion.at_ns >= self._next_pose_ns.get(device, motion.at_ns):
             self._next_pose_ns[device] = motion.at_ns + POSE_EVERY_NS
-            air = None if self._air is None else self._air.status(device)
-            doubt_rad = None if air is None else air.doubt_rad
-            told.append(StickPose(motion.at_ns, device, detector.mounting.limb, motion.turn, motion.resting, doubt_rad))
+            told.append(StickPose(motion.at_ns, device, detector.mounting.limb, motion.turn, motion.resting))
         return told

@@ -2,7 +2,7 @@
 
 from collections import deque
 from dataclasses import dataclass, field
-from math import atan2, cos, degrees, remainder, sin, tau
+from math import atan2, cos, remainder, sin, tau
 
 from station.core.events import PhaseEstimate, SensorStatus, StickPose, StickStroke
 from station.core.imu import Mounting, Quaternion
@@ -16,9 +16,8 @@ HEADING_S = 4.0
 it, and a heading that drifts by degrees a minute is never seen)."""
 SILENT_NS = 2 * NS_PER_S
 """A sensor of which so long nothing was heard says nothing: it tells its status every second (our choice: one lost)."""
-_SHOWN_LOST, _SHOWN_DRIFT_DEG = 0.01, 20.0
-"""From a lost sample in a hundred on, and a heading so far off, it is said (our choice: half of the way between two
-pieces, as seen from the seat, is 15°)."""
+_SHOWN_LOST = 0.01
+"""From a lost sample in a hundred on it is said (our choice)."""
 _STROKES_KEPT = 16
 
 
@@ -117,7 +116,7 @@ def _stroke_in_words(stroke: StickStroke) -> str:
 
 
 def _troubles(seen: SeenStick, now_ns: int) -> list[str]:
-    said, status, pose = list[str](), seen.status, seen.pose
+    said, status = list[str](), seen.status
     if status is None or seen.heard_ns is None:
         return ["nothing has come from it yet"]
     if _is_silent(seen, now_ns):
@@ -134,9 +133,7 @@ def _troubles(seen: SeenStick, now_ns: int) -> list[str]:
             f"{clipped} of the last {len(seen.strokes)} strokes were beyond its gyro, so faster than shown: "
             "set it to a wider range, if it has one"
         )
-    if pose is not None and pose.drift_rad is not None and degrees(pose.drift_rad) > _SHOWN_DRIFT_DEG:
-        said.append(f"its heading may be {degrees(pose.drift_rad):.0f}° off: strike the first piece once")
-    return said
+    return [*said, *status.air]
 
 
 def _is_silent(seen: SeenStick, now_ns: int) -> bool:

@@ -4,10 +4,10 @@
     drums.mount("stick-r", mounting)
     hits = drums.moved("stick-r", motion)
 
-Each hand finds itself by its first stroke, which counts as one at its first zone; so again after `align`, and where its
-sensor was away. A stroke whose zone is unclear makes no hit: it is counted. The feet have no sensors: a foot switch, a
-pedal or a key plays the kick. A piece whose pad has been struck sounds by its pad alone from then on, and each such
-hit tells exactly where the stick points.
+Each hand finds itself by its first stroke, which counts as one at its first zone; so again where its sensor was away. A
+stroke whose zone is unclear makes no hit: it is counted. The feet have no sensors: a foot switch, a pedal or a key
+plays the kick. A piece whose pad has been struck sounds by its pad alone from then on, and each such hit tells exactly
+where the stick points.
 
 A hit's time is the beat that was meant. It is told when that is certain, or up to `ahead_ns` before the beat where it
 is foretold (`air_latency`): its time may then lie in the future, and it should sound at once. It is told once. Without
@@ -53,11 +53,6 @@ class AirDrums:
         """The sensor is gone."""
         self._hands.pop(device, None)
 
-    def align(self, limb: Limb) -> None:
-        """The hand's next stroke counts as one at its first zone."""
-        for hand in self._of(limb):
-            hand.tracker.lose()
-
     def phase(self, estimate: PhaseEstimate) -> None:
         """Where the loop is that is being played."""
         for hand in self._hands.values():
@@ -67,6 +62,11 @@ class AirDrums:
         """How the hand with that sensor does, None where there is none of that name."""
         hand = self._hands.get(device)
         return None if hand is None else hand.status()
+
+    def words(self, device: str) -> tuple[str, ...]:
+        """What the player of the hand with that sensor should know; nothing of one without zones."""
+        hand = self._hands.get(device)
+        return () if hand is None or not hand.tracker.zones else hand.status().sentences()
 
     def pad(self, hit: Hit) -> None:
         """A pad was struck; where the limb is known, its stick pointed there, whatever its heading has become."""

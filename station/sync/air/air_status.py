@@ -68,7 +68,8 @@ class AirStatus:
         if self.doubt_rad is None:
             return "Strike this hand's first piece once, so that the stick's direction is known."
         if self.doubt_rad > _DOUBT_RAD:
-            return f"The stick may point {degrees(self.doubt_rad):.0f}° beside: align it by striking its first piece."
+            beside = f"{degrees(self.doubt_rad):.0f}°"
+            return f"The stick may point {beside} beside: begin to play in the air anew, with its first piece."
         return ""
 
     def _rolls(self) -> str:

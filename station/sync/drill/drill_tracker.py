@@ -18,7 +18,6 @@ from station.core.units import NS_PER_S
 from station.sync.drill.drill_model import CENTRES_A_STROKE, DrillModel
 from station.sync.drill.phase_paths import PhasePaths
 from station.sync.drill.stick_grid import STEP_NS, StickGrid, StickStep
-from station.sync.drill.taken_motion import TakenMotion
 
 Array = NDArray[np.float64]
 
@@ -119,8 +118,6 @@ class DrillTracker:
         self._paths = PhasePaths(model.table(), _STEP_S)
         self._lock = _Lock(CENTRES_A_STROKE / 2 / model.centre_count)
         self._trust = _Trust()
-        self.taken = TakenMotion(model)
-        """How the student's own sticks moved while it was locked."""
         self._locked = False
 
     def handle(self, event: SensorEvent) -> list[PhaseEstimate]:
@@ -141,8 +138,6 @@ class DrillTracker:
         model = np.where(step.present, self._paths.model_at(self._lock.turn, end.speed), 0.0)
         confidence = self._trust.step(values, model, end.lead, self._lock.per_s)
         self._locked = near and confidence > (LETS_GO if self._locked else LOCKS)
-        if self._locked:
-            self.taken.add(self._lock.turn, step.values, step.present)
         return PhaseEstimate(
             at_ns=step.at_ns,
             phase_rad=pi - (pi - 2 * pi * self._lock.turn) % (2 * pi),

@@ -87,12 +87,6 @@ class PeriodicModel:
         centred = values - self.mean
         return centred / self.scale if (self.scale != 1).any() else centred
 
-    def rotated(self, by_rad: float) -> "PeriodicModel":
-        """The same motion with its phases `by_rad` larger; exact where that is a whole number of centres' steps."""
-        phase = centres(self.centre_count)
-        weights = _solved(gaussians(phase, self.centre_count), self.at(phase - by_rad)).T
-        return PeriodicModel(self.channels, weights, self.mean, self.scale, self.period_s)
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Exemplar:

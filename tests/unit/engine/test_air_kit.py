@@ -3,9 +3,8 @@
 from math import degrees, radians
 
 import numpy as np
-import pytest
 
-from station.core.events import Hit, SensorMounted, SensorSamples, StickPose
+from station.core.events import Hit, SensorMounted, SensorSamples, SensorStatus
 from station.core.imu import STANDARD_GRAVITY_M_S2, Mounting
 from station.core.pieces import Limb, Piece, Zone
 from station.engine.engine import Engine
@@ -80,12 +79,15 @@ def test_an_unknown_hand_plays_no_air_kit() -> None:
     assert struck(Engine(impulse_mixer()), [Piece.SNARE]) == ([], 0)
 
 
-def test_a_pose_tells_how_far_its_heading_may_be_wrong() -> None:
-    sticks = Sticks()
+def test_the_status_of_a_sensor_says_what_an_air_drummer_should_know() -> None:
+    sticks, status = Sticks(), SensorStatus(0, STICK, "csv")
+    assert sticks.handle(status) == [status], "who plays no air kit need know nothing of it"
     sticks.play_air(KIT)
     sticks.handle(SensorMounted(0, STICK, RIGHT))
     samples = play(strokes([Piece.SNARE]), 200.0, 1.6).samples()
-    told = [event for sample in samples for event in sticks.handle(SensorSamples(sample.at_ns, STICK, (sample,)))]
-    poses = [event for event in told if isinstance(event, StickPose)]
-    assert poses[0].drift_rad is None
-    assert poses[-1].drift_rad == pytest.approx(radians(7.0), abs=radians(3.0))  # a zone's scatter and a player's own
+    (before,) = sticks.handle(status)
+    assert isinstance(before, SensorStatus)
+    assert "first piece once" in before.air[0]
+    for sample in samples:
+        sticks.handle(SensorSamples(sample.at_ns, STICK, (sample,)))
+    assert sticks.handle(status) == [status]

@@ -69,12 +69,6 @@ def test_few_samples_leave_weights_finite() -> None:
     assert np.abs(model.weights).max() < 100
 
 
-def test_rotated_shifts_the_phase() -> None:
-    model = fitted(("a", "b"), [Exemplar(curves(PHASE), PHASE)])
-    step = 2 * np.pi / 16
-    np.testing.assert_allclose(model.rotated(3 * step).values(PHASE), model.values(PHASE - 3 * step), atol=1e-9)
-
-
 def test_cycles_are_cut_at_rising_crossings() -> None:
     time_s = np.arange(0, 4, 0.01)
     values = np.stack([np.sin(2 * np.pi * (time_s - 0.205) / 1.25), np.cos(time_s)], axis=1)

@@ -1,19 +1,14 @@
-"""How hands lean against the phase, and how a take of the motion compares with another."""
+"""How hands lean against the phase."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from station.core.events import PhaseEstimate, StickStroke
 from station.core.pieces import Limb
-from station.sync.drill.drill_tracker import DrillTracker
 from station.sync.drill.phase_feedback import hand_leans, stroke_offsets
-from station.sync.drill.taken_motion import TakenMotion, likeness
-from station.sync.phase.model_file import load_model, save_model
-from station.sync.phase.periodic_model import PeriodicModel
-from tests.unit.sync.drummed_sticks import Take, events, model_of, take
+from tests.unit.sync.drummed_sticks import model_of
 
 RIGHT, LEFT = Limb.RIGHT_HAND, Limb.LEFT_HAND
 LESSON = "single-paradiddle"
@@ -66,51 +61,3 @@ def test_of_three_strokes_nothing_is_said() -> None:
     offsets = stroke_offsets(model_of(LESSON), clocked(1.0), strokes, 0.5)
     assert len(offsets) == 5
     assert hand_leans(offsets[:3]) == ()
-
-
-def taken(played: Take) -> PeriodicModel:
-    tracker = DrillTracker(model_of(LESSON))
-    for event in events(played):
-        tracker.handle(event)
-    found = tracker.taken.take()
-    assert found is not None
-    return found
-
-
-def test_a_take_is_like_itself_and_half_the_height_is_half_the_turning(tmp_path: Path) -> None:
-    played = take(LESSON, loops=2.5)
-    reference = taken(played)
-    save_model(reference, tmp_path / "best.toml")
-    kept = load_model(tmp_path / "best.toml")
-    for hand in likeness(reference, kept):
-        assert hand.shape == pytest.approx(1.0, abs=1e-6)
-        assert hand.height == pytest.approx(1.0, abs=1e-6)
-    lower = taken(Take(played.time_s, played.force, 0.5 * played.rate, played.loop_s))
-    for hand in likeness(lower, reference):
-        assert hand.shape > 0.98
-        assert hand.height == pytest.approx(0.5, abs=0.03)
-
-
-def test_a_hand_that_moves_otherwise_is_told_from_one_that_does_not() -> None:
-    """The left stick turns as the mirror image of what it did: right as before, left wholly unlike."""
-    model = model_of(LESSON)
-    chance, turns = np.random.default_rng(2), np.arange(model.centre_count) / model.centre_count
-    first, second = TakenMotion(model), TakenMotion(model)
-    for turn, values in zip(turns.tolist(), chance.normal(0, 2, (model.centre_count, 12)), strict=True):
-        every = np.ones(12, bool)
-        first.add(turn, values, every)
-        second.add(turn, values * np.repeat([1.0, -1.0], 6), every)
-    one, other = first.take(), second.take()
-    assert one is not None
-    assert other is not None
-    right, left = likeness(other, one)
-    assert right.shape == pytest.approx(1.0, abs=1e-6)
-    assert left.shape == pytest.approx(-1.0, abs=1e-6)
-    assert left.height == pytest.approx(1.0, abs=1e-6)
-
-
-def test_half_a_loop_is_no_take() -> None:
-    motion = TakenMotion(model_of(LESSON))
-    for turn in np.arange(0, 0.5, 0.01).tolist():
-        motion.add(turn, np.ones(12), np.ones(12, bool))
-    assert motion.take() is None

@@ -208,15 +208,6 @@ class TestSticks:
         drums.lost("right")
         assert played_by(drums, performance(3, 2.2)[0].motions()) == []
 
-    def test_aligning_takes_the_next_stroke_for_the_first_piece(self) -> None:
-        strokes = tuple(Stroke(0.6 + 0.4 * n, heading_deg=heading) for n, heading in enumerate((0.0, 35.0, 70.0)))
-        motions = play(strokes, 400.0, 2.0).motions()
-        drums = mounted()
-        told = played_by(drums, [motion for motion in motions if motion.at_ns < 800_000_000])
-        drums.align(Limb.RIGHT_HAND)
-        told += played_by(drums, [motion for motion in motions if motion.at_ns >= 800_000_000])
-        assert [hit.piece for hit, _ in told] == [Piece.SNARE, Piece.SNARE, Piece.HIHAT]
-
 
 class TestTeaching:
     def test_a_kit_is_learnt_by_playing_and_then_played(self) -> None:
@@ -255,6 +246,8 @@ class TestStatus:
         lost = drums.status("right")
         assert lost is not None
         assert "first piece once" in lost.sentences()[0]
+        assert drums.words("right") == lost.sentences()
+        assert drums.words("none") == ()
         slow = play(groove(3)[0], 50.0, 2.2).motions()
         played_by(drums, slow)
         status = drums.status("right")
