@@ -8,11 +8,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Limb
 from station.core.units import PPQ
 from station.drills.grid.cell_strokes import Velocities
 from station.drills.grid.swing import STRAIGHT, Swing
 from station.drills.level_range import OF_DIFFICULTY, LevelRange
-from station.music.score import Score
+from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoChange
 from station.scoring.analysis.fault_table import Asked
 from station.scoring.matching.hit_windows import Level
@@ -28,14 +32,40 @@ DEFAULT_DEMONSTRATIONS = 2
 
 
 @dataclass(frozen=True, slots=True)
+class PartGoals:
+    """What is asked of one limb, or of some bars; None asks nothing beyond the lesson's own goals.
+
+    `min_accuracy` share of the notes right, 0–1; `max_sd_ms` spread of the asynchronies about each piece's lean;
+    `max_lean_ms` how far their mean may lie from the written time; `max_loudness_error_db` the mean distance from the
+    written loudness; `max_tempo_error_pct` how far the tempo played may lie from the click's.
+    """
+
+    min_accuracy: float | None = None
+    max_sd_ms: float | None = None
+    max_lean_ms: float | None = None
+    max_loudness_error_db: float | None = None
+    max_tempo_error_pct: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class BarGoals:
+    """What is asked of bars `first_bar` to `last_bar`, from 0, inclusive."""
+
+    first_bar: int
+    last_bar: int
+    goals: PartGoals
+
+
+@dataclass(frozen=True, slots=True)
 class Goals:
     """When the lesson is mastered; None leaves a goal to the level and the station's own policy.
 
     `min_accuracy` share of the notes right, 0–1; `max_sd_ms` spread of the asynchronies; `max_lean_ms` how far their
-    mean may lie from the written time (feel is free unless this asks); `max_swing_error` how far the swing ratio may
-    lie from the lesson's; `target_tempo_bpm` quarter notes a minute, the written tempo if None; `min_score` 0–100.
-    `level` how strictly a student is judged who begins, `strictest_level` how strictly anybody is; `faults` the sizes
-    from which the teacher minds faults, where they are not the usual ones.
+    mean may lie from the written time (feel is free unless this asks); `max_loudness_error_db` the mean distance from
+    the written loudness; `max_swing_error` how far the swing ratio may lie from the lesson's; `target_tempo_bpm`
+    quarter notes a minute, the written tempo if None; `min_score` 0–100. `level` how strictly a student is judged who
+    begins, `strictest_level` how strictly anybody is; `faults` the sizes from which the teacher minds faults, where
+    they are not the usual ones; `limbs` and `bars` what is asked of them besides.
     """
 
     min_accuracy: float | None = None
@@ -47,15 +77,40 @@ class Goals:
     level: Level | None = None
     strictest_level: Level = Level.STUDIO
     faults: Asked = field(default_factory=Asked)
+    limbs: Mapping[Limb, PartGoals] = field(default_factory=lambda: MappingProxyType({}))
+    bars: tuple[BarGoals, ...] = ()
+    max_loudness_error_db: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A named part of the lesson, such as "groove" or "fill": bars `first_bar` to `last_bar` inclusive, from 0."""
+    """A stretch as it is played, such as "groove" or "fill": bars `first_bar` to `last_bar` inclusive, from 0.
+
+    A section that the form plays twice stands here twice; `name` may be empty.
+    """
 
     name: str
     first_bar: int
     last_bar: int
+    swing: Swing = field(default_factory=Swing)
+
+
+@dataclass(frozen=True, slots=True)
+class BarCue:
+    """What happens from the start of `bar` (from 0, as played) on: words of the teacher, a camera, a style.
+
+    `say` stands until the next words, or as long as `SAY_BARS`; `camera` names a view and `style` a style of the
+    drummer, each until another cue changes it; empty changes nothing.
+    """
+
+    bar: int
+    say: str = ""
+    camera: str = ""
+    style: str = ""
+
+
+SAY_BARS = 2
+"""Bars for which a teacher's words stand unless others follow: time to read a sentence at any tempo (our choice)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -64,7 +119,10 @@ class Lesson:
 
     `name` is the file's stem; `level` 1–5 (`LEVELS`) how hard it is; `loop` the first and last bar that are practised,
     from 0, inclusive; `passes` how often the loop is played; `demonstrations` how often the drummer plays it first;
-    `kit` a kit file's name, empty for the player's own; `sections` cover all bars in order.
+    `kit` a kit file's name, empty for the player's own; `sections` cover all bars in order, as the form plays them.
+    `swing` is the first section's. `cues` are in the order of their bars. `prerequisites` name the lessons that come
+    before; `hints` say by a fault's word what helps against it; `landing` (n,) of `NOTE_DTYPE`, its ticks 0, is struck
+    where the last loop ends, empty where nothing is.
     """
 
     name: str
@@ -84,6 +142,10 @@ class Lesson:
     beat_ticks: int = PPQ
     sections: tuple[Section, ...] = ()
     velocities: Velocities = field(default_factory=Velocities)
+    cues: tuple[BarCue, ...] = ()
+    prerequisites: tuple[str, ...] = ()
+    hints: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    landing: NDArray[np.void] = field(default_factory=lambda: np.zeros(0, NOTE_DTYPE))
 
     @property
     def tempo_bpm(self) -> float:
@@ -123,8 +185,11 @@ class Lesson:
     @property
     def meter(self) -> str:
         """Meter of the first bar, such as 4/4."""
-        meter = self.score.tempo_map.meter_at(0)
-        return f"{meter.beats}/{meter.unit}"
+        return str(self.score.tempo_map.meter_at(0))
+
+    def swing_of_bar(self, bar: int) -> Swing:
+        """How `bar`, from 0, swings."""
+        return next((s.swing for s in self.sections if s.first_bar <= bar <= s.last_bar), self.swing)
 
 
 _MOST_DECIMALS = 9

@@ -7,8 +7,9 @@ longer than a nanosecond at any legal tempo, ticks -> ns -> ticks is the identit
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import accumulate
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -38,11 +39,18 @@ class TempoChange:
 
 @dataclass(frozen=True, slots=True)
 class MeterChange:
-    """From `tick` on, bars have `beats` beats of 1/`unit` note. A change in mid-bar starts a new bar there."""
+    """From `tick` on, bars have `beats` beats of 1/`unit` note. A change in mid-bar starts a new bar there.
+
+    `groups` says how the beats are felt, (3, 2, 2) in a 7/8 that is counted so; empty where the meter says it alone.
+    """
 
     tick: int
     beats: int
     unit: int
+    groups: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        assert not self.groups or sum(self.groups) == self.beats, "groups fill the bar"
 
     @property
     def beat_ticks(self) -> int:
@@ -54,10 +62,25 @@ class MeterChange:
         """Length of one whole bar."""
         return self.beats * self.beat_ticks
 
+    @property
+    def group_starts(self) -> tuple[int, ...]:
+        """The beats, from 0, on which a group begins; those of compound meters (6/8, 9/8, 12/8) are threes."""
+        return tuple(accumulate(self.felt_groups[:-1], initial=0))
+
+    @property
+    def felt_groups(self) -> tuple[int, ...]:
+        """How many beats each pulse of the bar has: the written groups, threes in a compound meter, else ones."""
+        is_compound = self.unit >= 8 and self.beats > 3 and self.beats % 3 == 0
+        return self.groups or ((3,) * (self.beats // 3) if is_compound else (1,) * self.beats)
+
+    def __str__(self) -> str:
+        beats = "+".join(map(str, self.groups)) or str(self.beats)
+        return f"{beats}/{self.unit}"
+
     def continues(self, before: "MeterChange") -> bool:
         """Whether nothing changes here: the same meter on a bar's start."""
         on_a_bar = (self.tick - before.tick) % before.bar_ticks == 0
-        return on_a_bar and (self.beats, self.unit) == (before.beats, before.unit)
+        return on_a_bar and replace(self, tick=0) == replace(before, tick=0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -219,8 +242,8 @@ class TempoMap:
             TempoChange(t.tick - start, t.us_per_quarter) for t in self.tempos if start < t.tick < end
         ]
         at_start = self.meter_at(start)
-        meters = [MeterChange(0, at_start.beats, at_start.unit)] + [
-            MeterChange(m.tick - start, m.beats, m.unit) for m in self.meters if start < m.tick < end
+        meters = [replace(at_start, tick=0)] + [
+            replace(m, tick=m.tick - start) for m in self.meters if start < m.tick < end
         ]
         return TempoMap.build(tempos, meters)
 

@@ -6,7 +6,7 @@ swing included; then the letters are put in their places. All lines of a bar sha
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 from station.core.errors import BadInput
@@ -250,4 +250,4 @@ def _tupled(points: Sequence[_Point], setting: GridSetting, cells: int, most: in
 
 def frame_of(meter: MeterChange, beat_ticks: int) -> GridFrame:
     """The frame of a bar of `meter`, its tick left out."""
-    return GridFrame(MeterChange(0, meter.beats, meter.unit), beat_ticks)
+    return GridFrame(replace(meter, tick=0), beat_ticks)

@@ -3,7 +3,7 @@
 Loops are unrolled, as everywhere: so many passes as fill `SOUNDED_NS`; whoever plays on longer asks again.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_S
 from station.engine.messages import CUE_DTYPE
 from station.music.score import Score
-from station.music.tempo import MeterChange, TempoMap
+from station.music.tempo import TempoMap
 from station.practice.demonstration.song_player import SongPlayer
 from station.practice.session.click_pattern import ClickPattern, click_cues, counting, leads_ns
 from station.practice.session.plan import demonstration_cues
@@ -74,7 +74,7 @@ def count_in_of(player: SongPlayer, click: ClickPattern) -> CountIn:
     start = written.bar_start(int(written.bars_at(tick)))
     meter = written.meter_at(tick)
     plain = TempoMap.constant(written.bpm_at(tick) * player.speed_percent / 100)
-    tempo_map = TempoMap.build(plain.tempos, [MeterChange(0, meter.beats, meter.unit)])
+    tempo_map = TempoMap.build(plain.tempos, [replace(meter, tick=0)])
     end_tick = meter.bar_ticks + tick - start
     cues = click_cues(tempo_map, end_tick, counting(click))
     lead_ns = max(-int(cues["at_ns"].min(initial=0)), 0)  # a word begins before its beat

@@ -8,7 +8,7 @@ itself knows no bars.
 A counted word sounds `SPOKEN_LEAD_NS` before its beat, so that its vowel falls on the beat.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum, IntEnum
 from functools import lru_cache
 from typing import NamedTuple
@@ -200,7 +200,7 @@ def count_in(section: TempoMap, bars: int, pickup_ticks: int = 0) -> tuple[Tempo
     "one two three four, one two three" and the pickup falls on four.
     """
     meter = section.meter_at(pickup_ticks)
-    before = TempoMap.build([section.tempos[0]], [MeterChange(0, meter.beats, meter.unit)])
+    before = TempoMap.build([section.tempos[0]], [replace(meter, tick=0)])
     return before, bars * meter.bar_ticks - pickup_ticks
 
 

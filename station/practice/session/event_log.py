@@ -136,7 +136,7 @@ def _section_fields(section: Score) -> dict[str, object]:
     return {
         "notes": [_without_nan(row) for row in section.notes.tolist()],
         "tempos": [[change.tick, change.us_per_quarter] for change in tempo_map.tempos],
-        "meters": [[change.tick, change.beats, change.unit] for change in tempo_map.meters],
+        "meters": [[change.tick, change.beats, change.unit, *change.groups] for change in tempo_map.meters],
         "end_tick": section.end_tick,
     }
 
@@ -219,7 +219,7 @@ def _section(fields: dict[str, object]) -> Score:
     rows, tempos, meters = (_list(fields[key]) for key in ("notes", "tempos", "meters"))
     tempo_map = TempoMap.build(
         [TempoChange(*map(_whole, _list(change))) for change in tempos],
-        [MeterChange(*map(_whole, _list(change))) for change in meters],
+        [_meter(*map(_whole, _list(change))) for change in meters],
     )
     end_tick, notes = _whole(fields["end_tick"]), [_note(_list(row)) for row in rows]
     if not 0 < end_tick <= _MOST_TICKS or any(not 0 <= note.tick < end_tick for note in notes):
@@ -227,6 +227,12 @@ def _section(fields: dict[str, object]) -> Score:
     if any(meter.beats > _MOST_TICKS for meter in tempo_map.meters):
         raise ValueError
     return Score.from_notes(notes, tempo_map, end_tick)
+
+
+def _meter(tick: int, beats: int, unit: int, *groups: int) -> MeterChange:
+    if groups and sum(groups) != beats:
+        raise ValueError
+    return MeterChange(tick, beats, unit, groups)
 
 
 def _note(row: list[object]) -> Note:
