@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from station.core.errors import BadInput
-from station.drills.grid.cell_strokes import CellPlace
 from station.drills.grid.grid import Bar, GridFrame, parse_line
 from station.drills.grid.swing import Swing
 from station.drills.grid.tab_symbols import CHOKE, HOLD
@@ -135,13 +134,11 @@ class _Slot:
 
 @cache
 def _slots(skeleton: str, setting: GridSetting) -> tuple[_Slot, ...]:
-    length = setting.frame.meter.bar_ticks
+    meter = setting.frame.meter
     slots: list[_Slot] = []
     for cell in _cells(skeleton, setting.frame).cells:
-        here = CellPlace(0, length, cell.tick, cell.swings)
-        at, middle, end = (
-            here.later(ticks).played(setting.swing) for ticks in (0, cell.length_ticks // 2, cell.length_ticks)
-        )
+        ticks = (cell.tick, cell.tick + cell.length_ticks // 2, cell.tick + cell.length_ticks)
+        at, middle, end = (setting.swing.swung(t, meter) if cell.swings else t for t in ticks)
         slots.append(_Slot(at, middle, end, cell.char))
     return tuple(slots)
 
@@ -149,7 +146,7 @@ def _slots(skeleton: str, setting: GridSetting) -> tuple[_Slot, ...]:
 @cache
 def _cells(skeleton: str, frame: GridFrame) -> Bar:
     faults: list[str] = []
-    (bar,) = parse_line(skeleton, frame, lambda _, text: faults.append(text))
+    (bar,) = parse_line(skeleton, [frame], lambda _, text: faults.append(text))
     return bar
 
 
