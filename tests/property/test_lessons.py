@@ -16,7 +16,8 @@ from station.drills.grid.grid import GridFrame, parse_line
 from station.drills.grid.swing import MAX_RATIO, Swing
 from station.drills.grid.tab_symbols import LINE_PIECES, SYMBOLS, family_of
 from station.drills.lesson import Goals, Lesson
-from station.drills.lesson_file import FIELDS, parse_lesson
+from station.drills.lesson_fields import FIELDS
+from station.drills.lesson_file import parse_lesson
 from station.drills.lesson_writer import first_difference, write_lesson
 from station.drills.quantise import lesson_of, quantise_score
 from station.music.score import Note, Score

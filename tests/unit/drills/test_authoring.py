@@ -5,7 +5,8 @@ from pathlib import Path
 
 from station.drills.authoring import NEW_LESSON
 from station.drills.grid.tab_symbols import SYMBOLS, TabFamily
-from station.drills.lesson_file import FIELDS, parse_lesson
+from station.drills.lesson_fields import FIELDS
+from station.drills.lesson_file import parse_lesson
 
 
 def test_the_new_lesson_is_a_lesson() -> None:
