@@ -218,7 +218,8 @@ def played_order(raw: object, grids: Sequence[WrittenGrid], faults: Faults) -> l
     mains = [i for i, grid in enumerate(grids) if not grid.is_ending]
     if raw is None:
         return mains
-    entries = faults.attempt(_entries, raw, (), "form")
+    nothing: tuple[str, ...] = ()
+    entries = faults.attempt(_entries, raw, nothing, "form")
     by_name = {grid.name: i for i, grid in reversed(list(enumerate(grids))) if grid.name}
     order: list[int] = []
     before = len(faults)

@@ -81,9 +81,11 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     """The lesson that these values make; raises `Wrong` for their `faults` and all that is found on the way."""
     timing = timing_of(values, DEFAULT_TIMING, faults)
     written = [] if values["grid"] is None else _written(values["grid"], faults)
-    grids = faults.attempt(lambda _: _read_grids(written, timing, faults), written, [])
+    no_grids: list[ReadGrid] = []
+    grids = faults.attempt(lambda _: _read_grids(written, timing, faults), written, no_grids)
     order = played_order(values["form"], written, faults)
-    stretches = faults.attempt(lambda _: laid_out(order, grids), grids, []) if grids else []
+    nothing: list[Stretch] = []
+    stretches = faults.attempt(lambda _: laid_out(order, grids), grids, nothing) if grids else nothing
     score, origins = _score(stretches, written, faults)
     lesson = Lesson(
         name=name,
