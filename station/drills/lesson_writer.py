@@ -5,6 +5,7 @@ whoever gets a text gets the same lesson back (all strokes but the MIDI numbers 
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 
 import numpy as np
 
@@ -12,8 +13,8 @@ from station.core.errors import BadInput
 from station.core.pieces import word
 from station.core.units import PPQ
 from station.drills.grid.grid_writer import GridSetting, counted, frame_of, with_repeats, write_lines
-from station.drills.grid.lines_from_score import WrittenStroke, lines_of, strokes_by_bar
-from station.drills.grid.touch import Velocities
+from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines_of, strokes_by_bar
+from station.drills.grid.touch import Graces, Velocities
 from station.drills.lesson import Goals, Lesson, Section, tidy_bpm
 from station.drills.lesson_file import parse_lesson
 from station.music.score import NOTE_DTYPE, Score
@@ -28,7 +29,19 @@ def write_lesson(lesson: Lesson) -> str:
     Raises `BadInput` for music that the grid cannot write (times between its cells, velocities beside the lesson's
     dynamics, strokes without a letter): see `quantise.quantise_score`, which brings any score onto the grid.
     """
-    text = "\n".join([*_head(lesson), "", *_dynamics(lesson.velocities), *_goals(lesson), *_grids(lesson)]) + "\n"
+    text = (
+        "\n".join(
+            [
+                *_head(lesson),
+                "",
+                *_dynamics(lesson.velocities),
+                *_graces(lesson.score),
+                *_goals(lesson),
+                *_grids(lesson),
+            ]
+        )
+        + "\n"
+    )
     read = parse_lesson(text, lesson.name, lesson.name)
     if read.lesson is None:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {read.faults[0].text}")
@@ -90,6 +103,13 @@ def _dynamics(velocities: Velocities) -> list[str]:
     return lines
 
 
+def _graces(score: Score) -> list[str]:
+    """The grace strokes where they are not the usual ones."""
+    graces, usual = asdict(graces_of(score)), asdict(Graces())
+    said = [f"{key} = {number(value)}" for key, value in graces.items() if value != usual[key]]
+    return ["[graces]", *said, ""] if said else []
+
+
 def _three(values: tuple[int, int, int], usual: tuple[int, int, int]) -> list[str]:
     return [f"{key} = {v}" for key, v, u in zip(_DYNAMICS, values, usual, strict=True) if v != u]
 
@@ -134,8 +154,7 @@ def _changes(lesson: Lesson, section: Section) -> list[str]:
     tempo_map = lesson.score.tempo_map
     start = tempo_map.bar_start(section.first_bar)
     meter, before = tempo_map.meter_at(start), tempo_map.meter_at(start - 1)
-    changed = (meter.beats, meter.unit) != (before.beats, before.unit)
-    lines = [f'meter = "{meter.beats}/{meter.unit}"'] if changed else []
+    lines = [f"meter = {quoted(str(meter))}"] if str(meter) != str(before) else []
     here = next((t for t in tempo_map.tempos if t.tick == start), None)
     return lines + ([f"tempo_bpm = {number(tidy_bpm(here.us_per_quarter, lesson.beat_ticks))}"] if here else [])
 
