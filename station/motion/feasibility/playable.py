@@ -17,20 +17,8 @@ from numpy.typing import NDArray
 
 from station.core.labels import limb_name
 from station.core.pieces import HALF_OPEN, HAND_PIECES, Articulation, Limb, Ornament, Piece, word
+from station.motion.feasibility.limb_speeds import SPANS_S
 from station.music.score import Score
-
-HAND_SPANS_S: Mapping[int, float] = {2: 0.045, 3: 0.13, 4: 0.20, 9: 0.62}
-"""Strokes of one hand -> the least time from first to last. The second bounce of a double comes after 50–90 ms, a
-champion's single strokes at 10 Hz (HUMANS, Heights); fast double rolls keep each hand at 12.5 Hz. Our choice within."""
-FOOT_SPANS_S: Mapping[int, float] = {2: 0.07, 9: 0.72}
-"""The same for a foot: champions reach 11 Hz (HUMANS, Heights); the doubles of the Groove MIDI Dataset's drummers come
-down to 75 ms, and what is closer there looks like a bouncing beater. Our choice."""
-_SPANS_S: Mapping[Limb, Mapping[int, float]] = {
-    Limb.RIGHT_HAND: HAND_SPANS_S,
-    Limb.LEFT_HAND: HAND_SPANS_S,
-    Limb.RIGHT_FOOT: FOOT_SPANS_S,
-    Limb.LEFT_FOOT: FOOT_SPANS_S,
-}
 
 MAX_HANDS = 2
 _HANDS_STRIKE = np.array(sorted(HAND_PIECES), np.uint8)
@@ -145,12 +133,12 @@ class _Crew:
 
 def _crews(score: Score) -> list[_Crew]:
     """Both hands together, then each limb."""
-    together = {2 * n - 1: span for n, span in HAND_SPANS_S.items()}
+    together = {2 * n - 1: span for n, span in SPANS_S[Limb.RIGHT_HAND].items()}
     return [
         _Crew("the hands", "need", _is_hand(score.notes), together),
         *(
             _Crew(f"the {limb_name(limb)}", "needs", score.notes["limb"] == limb, spans)
-            for limb, spans in _SPANS_S.items()
+            for limb, spans in SPANS_S.items()
         ),
     ]
 

@@ -104,11 +104,11 @@ def test_a_flam_beside_another_hand_loses_its_grace_stroke() -> None:
 
 
 def test_strokes_faster_than_two_hands_are_thinned_out() -> None:
-    """Sixty-four strokes 31.25 ms apart. People need 620 ms for seventeen, which is twenty cells: at most 16 in 20."""
+    """Sixty-four strokes 31.25 ms apart. People need 476 ms for eleven, which is sixteen cells: at most 10 in 16."""
     found = fitted(*(snare(i * QUARTER // 16) for i in range(64)))
-    assert 64 * 16 // 20 - 4 <= len(found) <= 64 * 16 // 20
+    assert 64 * 10 // 16 - 4 <= len(found) <= 64 * 10 // 16
     again = [n.tick for n in found] + [n.tick + WHOLE for n in found]
-    for strokes, least_ms in ((3, 45), (5, 130), (7, 200), (17, 620)):
+    for strokes, least_ms in ((3, 45), (5, 160), (11, 476)):
         lasts = [b - a for a, b in zip(again, again[strokes - 1 :], strict=False)]
         assert min(lasts) >= least_ms * MS
 
