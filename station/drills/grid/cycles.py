@@ -25,6 +25,8 @@ class Cycle:
     meter: MeterChange
     lines: Sequence[RawLine]
     sticking: RawLine | None
+    is_whole: bool
+    """Whether all its lines could be read."""
 
 
 def read_cycles(raw: object, path: KeyPath, faults: Faults) -> list[Cycle]:
@@ -45,7 +47,7 @@ def _read_cycle(raw: object, path: KeyPath, faults: Faults) -> list[Cycle]:
     faults.merge(found, *path)
     if not lines or values["meter"] is None:
         return []
-    return [Cycle(values["meter"], lines, plain_line(values, STICKING, path))]
+    return [Cycle(values["meter"], lines, plain_line(values, STICKING, path), not found)]
 
 
 def cycle_strokes(cycle: Cycle, beat_ticks: int, clock: BarClock, end_tick: int, faults: Faults) -> list[WrittenCell]:
@@ -60,7 +62,7 @@ def cycle_strokes(cycle: Cycle, beat_ticks: int, clock: BarClock, end_tick: int,
     strokes: list[WrittenCell] = []
     for number in range(rounds):
         starts = [(number * bars + bar) * length for bar in range(bars)]
-        strokes += voice_strokes(lines, under, starts, clock, faults)
+        strokes += voice_strokes(lines, under, starts, clock, faults, cycle.is_whole)
     return [_cut(stroke, end_tick) for stroke in strokes if stroke.place.straight < end_tick]
 
 

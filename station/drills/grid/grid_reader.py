@@ -88,7 +88,8 @@ def read_grid(raw: object, path: KeyPath, before: GridTiming, faults: Faults) ->
         found.add((), 'no line to play; expected one such as snare = "----o-------o---"', at_key=True)
     faults.merge(found, *path)
     cycles = read_cycles(values["cycle"], (*path, "cycle"), faults)
-    return _Builder(values, path, timing, lines, cycles, faults).section()
+    heard = faults if timing.is_known else Faults()
+    return _Builder(values, path, timing, lines, cycles, heard, is_whole=not found).section()
 
 
 @dataclass(slots=True)
@@ -101,6 +102,8 @@ class _Builder:
     lines: Sequence[RawLine]
     cycles: Sequence[Cycle]
     faults: Faults
+    is_whole: bool
+    """Whether all its lines could be read."""
 
     def section(self) -> GridSection:
         times: int = self.values["times"]
@@ -113,7 +116,7 @@ class _Builder:
         length = bars[-1].tick + bars[-1].bar_ticks
         clock = BarClock(bars, self.timing.swing)
         self._must_not_cross(lines, bars)
-        own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults)
+        own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults, self.is_whole)
         level = self._loudness(loudness, bars)
         parts = [self._struck([*own, *more], level) for more in self._cycled(bars, length, times)]
         return GridSection(self.values["name"], self.timing, bars, tuple(parts))

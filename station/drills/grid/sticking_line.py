@@ -62,7 +62,7 @@ def apply_sticking(
             lacking, fault = _lacking(cell.letter, here), _fault(cell.letter, here)
             if fault or (lacking and number not in unsure_bars):
                 report(cell.char, fault or lacking)
-            elif not lacking:
+            elif not lacking and len(here) <= len(HANDS):
                 by_tick[start + cell.tick] = _with_hands(cell.letter, here)
     return [*others, *(s for here in by_tick.values() for s in here)]
 
@@ -81,7 +81,7 @@ def _fault(letter: str, here: Sequence[WrittenCell]) -> str:
     if letter not in HANDS and letter != BOTH:
         return f"{letter!r} is no sticking; expected R, L, B (both hands) or -"
     if len(here) > len(HANDS):
-        return f"{len(here)} strokes for two hands here ({_names(here)}); expected two at most"
+        return ""  # more than hands can play: motion/feasibility says so
     if letter in HANDS and len(here) > 1:
         return f"two strokes here ({_names(here)}); expected B, or write right_hand.… and left_hand.… lines"
     if letter == BOTH and len(here) == 1:
