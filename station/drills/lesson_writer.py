@@ -9,9 +9,9 @@ from collections.abc import Mapping, Sequence
 from station.core.errors import BadInput
 from station.core.pieces import word
 from station.core.units import PPQ
-from station.drills.grid.cell_strokes import Velocities
 from station.drills.grid.grid_writer import GridSetting, frame_of, with_repeats, write_lines
 from station.drills.grid.lines_from_score import WrittenStroke, lines_of, strokes_by_bar
+from station.drills.grid.touch import Velocities
 from station.drills.lesson import Goals, Lesson, Section, tidy_bpm
 from station.drills.lesson_difference import score_difference
 from station.drills.lesson_file import parse_lesson

@@ -132,7 +132,7 @@ def _row(line: Sequence[_Part], columns: Sequence[_Column]) -> list[str]:
 
 
 def _cells(text: str, frame: GridFrame) -> tuple[Cell, ...]:
-    (bar,) = parse_line(text, frame, lambda _char, _words: None)
+    (bar,) = parse_line(text, [frame], lambda _char, _words: None)
     return bar.cells
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from station.core.toml_places import KeyPath
 from station.core.units import PPQ
-from station.drills.grid.grid_reader import meter, note_length
+from station.drills.grid.grid_timing import meters, note_length
 from station.drills.line_layout import Meters
 from station.music.tempo import MeterChange
 
@@ -32,5 +32,5 @@ def written_meters(raw: Mapping[str, object]) -> dict[KeyPath, Meters]:
 def _said(table: Mapping[str, object], before: Meters) -> Meters:
     """Meters and beat as a table says them, and as they were `before` where it does not."""
     said, beat = table.get("meter"), table.get("beat")
-    in_turn = before.in_turn if said is None else tuple(map(meter, said if isinstance(said, list) else [said]))
+    in_turn = before.in_turn if said is None else meters(said)
     return Meters(in_turn, before.beat_ticks if beat is None else note_length(beat))

@@ -38,7 +38,7 @@ def places(lesson: Lesson, piece: Piece, bar: int, cells: int = 8, dynamic: Dyna
     start = lesson.score.tempo_map.bar_start(bar)
     meter = lesson.score.tempo_map.meter_at(start)
     length = meter.bar_ticks // cells
-    straight = {lesson.swing.swung(i * length, meter.bar_ticks): i for i in range(cells)}
+    straight = {lesson.swing.swung(i * length, meter): i for i in range(cells)}
     bars = lesson.score.tempo_map.bars_at([n.tick for n in of(lesson, piece, dynamic)]).tolist()
     struck = [n.tick - start for n, b in zip(of(lesson, piece, dynamic), bars, strict=True) if b == bar]
     return {straight[t] for t in struck}
