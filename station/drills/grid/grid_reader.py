@@ -149,7 +149,7 @@ class _Builder:
         return by_repetition(strokes, length, times)
 
     def _loudness(self, line: ParsedLine | None, bars: Sequence[MeterChange]) -> Loudness:
-        if line is None or not all(bar.sound for bar in line.bars):
+        if line is None or not (line.aligned and all(bar.sound for bar in line.bars)):
             return Loudness()
         starts = [bar.tick for bar in bars]
         return read_loudness(zip(starts, line.bars, strict=False), line.reporter(self.faults))

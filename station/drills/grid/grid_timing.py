@@ -163,5 +163,7 @@ def _rising(before: Sequence[int], changes: Mapping[str, Any], *path: str) -> tu
     """Ghost, normal and accent velocities, as `before` but for the changes of the table at `path`."""
     ghost, normal, accent = (changes.get(key, was) for key, was in zip(_VELOCITIES, before, strict=True))
     if not ghost <= normal <= accent:
-        raise wrong(f"ghost {ghost}, normal {normal}, accent {accent}: expected rising velocities", *path)
+        said_first = next(key for key in changes if key in _VELOCITIES)
+        text = f"ghost {ghost}, normal {normal}, accent {accent}: expected rising velocities"
+        raise wrong(text, *path, said_first)
     return ghost, normal, accent
