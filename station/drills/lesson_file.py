@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.files import read_regular
@@ -24,6 +25,7 @@ from station.drills.form import WrittenGrid, home_of, played_order, told_at_home
 from station.drills.grid.cell_strokes import Origin, WrittenCell, expand
 from station.drills.grid.grid_reader import read_grid
 from station.drills.grid.grid_timing import GridTiming, timing_of
+from station.drills.grid.landing import read_landing
 from station.drills.grid.voice import MAX_CELLS
 from station.drills.lesson import Goals, Lesson
 from station.drills.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
@@ -37,8 +39,8 @@ from station.drills.stretches import (
     sections_of,
     tempos_of,
 )
-from station.drills.unplayable import note_unplayable
-from station.music.score import Score
+from station.drills.unplayable import LANDING, note_unplayable
+from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoMap
 
 _MIDI = b"MThd"
@@ -99,6 +101,7 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
         sections=sections_of(stretches),
         velocities=timing.velocities,
         cues=cues_of(stretches),
+        landing=_landing(values[LANDING], timing, faults),
         **{key: values[key] for key in AS_THEY_ARE},
     )
     lesson = replace(lesson, goals=_goals(values["goals"], lesson, faults))
@@ -185,6 +188,11 @@ class _Beats:
         here = (s for s in reversed(self.stretches) if s.start_tick <= tick)
         found = next(here, None)
         return self.usual if found is None else found.grid.section.timing.beat_ticks
+
+
+def _landing(raw: object, timing: GridTiming, faults: Faults) -> NDArray[np.void]:
+    """The strokes of the landing; none where the file has none."""
+    return np.zeros(0, NOTE_DTYPE) if raw is None else read_landing(raw, timing, faults, (LANDING,))
 
 
 # --- how it is practised ----------------------------------------------------------------------------------------------
