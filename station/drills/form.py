@@ -244,7 +244,7 @@ def _entries(value: object) -> tuple[str, ...]:
         value = value.split(",")
     names = list_of(title, example)(value)
     if not 1 <= len(names) <= MAX_FORM:
-        raise wrong(f"{len(names)} entries; expected 1 to {MAX_FORM}")
+        raise wrong(f"{len(names)} entries; expected 1 to {MAX_FORM}, {example}")
     return names
 
 

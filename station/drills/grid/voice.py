@@ -85,14 +85,24 @@ def check_cells(lines: Sequence[ParsedLine], times: int) -> None:
 
 
 def voice_strokes(
-    lines: Sequence[ParsedLine], under: ParsedLine | None, starts: Sequence[int], clock: BarClock, faults: Faults
+    lines: Sequence[ParsedLine],
+    under: ParsedLine | None,
+    starts: Sequence[int],
+    clock: BarClock,
+    faults: Faults,
+    *,
+    are_all: bool = True,
 ) -> list[WrittenCell]:
-    """The strokes of lines whose bars begin at `starts`, with the hands that the sticking line `under` them says."""
+    """The strokes of lines whose bars begin at `starts`, with the hands that the sticking line `under` them says.
+
+    `are_all` tells whether all lines of the table could be read; if not, a stroke may be missing anywhere.
+    """
     strokes: list[WrittenCell] = []
     for line in lines:
         own = line_strokes(zip(starts, line.bars, strict=False), line.raw.line, clock, line.reporter(faults))
         strokes += own if line.aligned else []
     if under is None or not under.aligned:
         return strokes
-    unsure = frozenset(bar for bar in range(len(starts)) if any(line.is_unsure(bar) for line in lines))
+    bars = range(len(starts))
+    unsure = frozenset(bar for bar in bars if not are_all or any(line.is_unsure(bar) for line in lines))
     return apply_sticking(zip(starts, under.bars, strict=False), strokes, under.reporter(faults), unsure)

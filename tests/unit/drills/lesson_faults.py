@@ -158,12 +158,12 @@ FAULTS = (
     Planted('"rock-1", "single-paradiddle"', '"rock-1", ▶"rich"', "itself"),
     # dynamics, graces, landing, hints
     Planted("normal = 80\naccent", "normal = ▶128\naccent", "from 1 to 127"),
-    Planted("kick = {normal = 90}", "kick = ▶{normal = 20}", "rising"),
+    Planted("kick = {normal = 90}", "kick = {normal = ▶20}", "rising"),
     Planted("flam_ms = 25", "flam_ms = ▶5", "from 10 to 80"),
     Planted("drag_ms = 50", "drag_ms = ▶200", "from 20 to 120"),
     Planted("share = 0.5", "share = ▶2", "from 0.1 to 1"),
     Planted("flam_ms = 25", "▶flam = 25", "did you mean flam_ms"),
-    Planted('crash = "X"', 'crash = ▶"XX"', "one letter"),
+    Planted('crash = "X"', 'crash = "▶XX"', "one letter"),
     Planted('crash = "X"', 'crash = "▶q"', "no letter for a crash"),
     Planted('crash = "X"', '▶crahs = "X"', "did you mean crash"),
     Planted("weak_left =", "▶weak_lefft =", "did you mean weak_left"),
@@ -216,6 +216,8 @@ FAULTS = (
     Planted("xxx|x-x", "▶xx|x-x", "3/4"),
     Planted('meter = "3/4"\nride', 'meter = ▶"0/4"\nride', "1 to 32 beats"),
     Planted('ride = "xxx|x-x"', '▶rdie = "xxx|x-x"', "did you mean ride"),
+    Planted('hihat = "x-x- x-x- x-x- x-x-"', '▶hiahat = "x-x- x-x- x-x- x-x-"', "did you mean hihat"),
+    Planted('meter = "4/4"\nbeat = "1/4"', 'meter = ▶"4/5"\nbeat = "1/4"', "1/32"),
     # what nobody can play
     Planted('kick = "o--- ---- o-o- ----"', 'tom_1 = "---- ▶o--- ---- ----"', "hands"),
 )
