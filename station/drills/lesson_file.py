@@ -142,7 +142,8 @@ class Reading:
 
 def read_lesson(path: Path) -> Lesson:
     """The lesson in the file at `path`; raises `BadInput` with the place of the first fault."""
-    return read(lesson_source(path), lesson_reader(path.stem))
+    source = lesson_source(path)
+    return replace(read(source, lesson_reader(path.stem)), text=source.text)
 
 
 def lesson_source(path: Path) -> Source:
@@ -156,7 +157,9 @@ def lesson_source(path: Path) -> Source:
 
 def parse_lesson(text: str, source: str, name: str) -> Reading:
     """Read a lesson's text; `source` names it in faults, `name` becomes the lesson's."""
-    return Reading(*reading(text_source(text, source), lesson_reader(name)))
+    found = text_source(text, source)
+    lesson, faults = reading(found, lesson_reader(name))
+    return Reading(lesson and replace(lesson, text=found.text), faults)
 
 
 def lesson_reader(name: str) -> Reader[Lesson]:

@@ -22,8 +22,6 @@ TUPLET_CELLS = (3, 6, 5, 7, 2, 4, 9, 10, 12, 8, 14, 15, 16, 20, 21, 24, 28, 30, 
 _RARE_CELLS = (12, 16, 5, 7, 10, 24, 32)
 MOST_SHARED_CELLS = 12
 """Beyond so many cells a beat each line is cut for itself: finer bars are hard to read. Our choice."""
-_COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 6: "·t·a·", 8: "·e·&·a·"}
-"""How drummers count the cells after the beat's number."""
 REST = "-"
 REPEAT = "%"
 
@@ -82,22 +80,6 @@ def with_repeats(bars: Sequence[str], new_bar: Sequence[bool]) -> str:
     """The bars between bar lines; one that is not new is written as a repeat of the one before it."""
     cells = [bar if new else REPEAT.ljust(len(bar)) for bar, new in zip(bars, new_bar, strict=True)]
     return "| " + " | ".join(cells) + " |"
-
-
-def counted(skeleton: str, setting: GridSetting) -> str:
-    """How a drummer counts the cells of this bar, beneath each other: `1e&a 2e&a …`; blank where no count is usual."""
-    cells = _cells(skeleton, setting.frame).cells
-    unit = setting.frame.meter.beat_ticks
-    starts = [c.tick for c in cells]
-    out = [" "] * len(skeleton)
-    for beat in range(setting.frame.meter.beats):
-        inside = [c for c in cells if beat * unit <= c.tick < (beat + 1) * unit]
-        if not inside or beat * unit not in starts:
-            continue
-        names = f"{(beat + 1) % 10}" + _COUNTS.get(len(inside), "·" * (len(inside) - 1))
-        for cell, name in zip(inside, names, strict=True):
-            out[cell.char] = name
-    return "".join(out)
 
 
 _Point = tuple[int, int | None]
