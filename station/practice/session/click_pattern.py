@@ -1,9 +1,9 @@
 """The click as a pattern over beats: what sounds where, as cues over a tempo map.
 
 Pure. A pattern knows bars, beats and their parts; the tempo map says when they are. A beat is one of the meter's unit
-(in 6/8 an eighth), and where beats stand in groups (6/8, 7/8 as 3+2+2) each group's first has a middle accent; where the
-backbeat or one click a bar is asked for, beats are the pulses that a drummer feels. It stands here, above both the music and the engine's cues, for the sound
-itself knows no bars.
+(in 6/8 an eighth). Where beats stand in groups (6/8, 7/8 as 3+2+2) each group's first has a middle accent; where the
+backbeat or one click a bar is asked for, beats are the pulses that a drummer feels. It stands here, above both the
+music and the engine's cues, for the sound itself knows no bars.
 
 A counted word sounds `SPOKEN_LEAD_NS` before its beat, so that its vowel falls on the beat.
 """

@@ -1,7 +1,8 @@
 """Spells rhythm: which note values, rests, beams and tuplets write a bar's onsets in one voice.
 
-A bar falls into beat groups: quarters, or the groups of the meter where they are eighths (6/8, 7/8 as 3+2+2). Each group takes the simplest division that
-its onsets fit; a stroke lasts to the next one or to the group's end, as drum parts are written.
+A bar falls into beat groups: quarters, or the groups of the meter where they are eighths (6/8, 7/8 as 3+2+2). Each
+group takes the simplest division that its onsets fit; a stroke lasts to the next one or to the group's end, as drum
+parts are written.
 """
 
 from collections.abc import Sequence
