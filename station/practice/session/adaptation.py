@@ -180,19 +180,12 @@ class Adaptation:
         swap = self.state.equipment.swap
         performance = rewired(result.performance, swap)
         alignment = result.alignment if swap is None else align(result.score, performance, clocked=True)
-        return measure_pass(result.score, performance, alignment, lesson_bars(result.plan), self.level.windows)
+        return measure_pass(result.score, performance, alignment, result.plan.practised_bars, self.level.windows)
 
 
 def held_words(level: Level, after: Level) -> str:
     """That a student who holds a lesson at `level` is judged at the one `after` it."""
     return f"You hold it at {level}: judged as {after} from next time on."
-
-
-def lesson_bars(plan: Plan) -> tuple[int, ...]:
-    """The lesson's bar (from 0) of each bar of the plan's score."""
-    if plan.rounds is not None:
-        return plan.rounds.bars
-    return tuple(range(plan.first_bar, plan.first_bar + plan.section.bar_count)) * plan.passes
 
 
 # --- all passes in a row ----------------------------------------------------------------------------------------------
@@ -277,7 +270,7 @@ def _whole_plan(plans: list[Plan], row: ScoreRow, bars: tuple[int, int]) -> Plan
     score, last = row.score, plans[-1]
     names = np.full(score.bar_count, bars[0], np.int64)
     for start, plan in zip(row.start_bars, plans, strict=True):
-        played = lesson_bars(plan)
+        played = plan.bar_names
         names[start : start + len(played)] = played
     silences = tuple(
         (start_ns + begin_ns, start_ns + end_ns)
@@ -295,6 +288,7 @@ def _whole_plan(plans: list[Plan], row: ScoreRow, bars: tuple[int, int]) -> Plan
         segments=segments,
         passes_start_ns=0,
         end_ns=score.length_ns,
+        landing=last.landing[:0],
         rounds=Rounds(tuple(names.tolist()), row.start_bars, bars, silences),
     )
 
