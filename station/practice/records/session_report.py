@@ -79,8 +79,8 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "goals_missed": missed_document(plan, measured),
         "next": [*what_next(document, plan, measured)],
     }
-    document["sticks"] = sticks_document(result.felt)
-    document["phase"] = phase_document(result.phase)
+    document["sticks"] = sticks_document(result.felt, plan.lesson.goals.faults)
+    document["phase"] = phase_document(result.phase, plan.lesson.goals.faults)
     return document
 
 
@@ -118,6 +118,7 @@ def session_view(result: SessionResult, settings: Settings) -> SummaryView:
         beat_ticks=plan.lesson.beat_ticks,
         faults=plan.lesson.goals.faults,
         asks_hand=written_hands(result),
+        hints=plan.lesson.hints,
     )
 
 

@@ -66,10 +66,14 @@ def _missed(miss: Miss) -> Json:
 
 
 def advice_of(document: dict[str, Json]) -> tuple[str, ...]:
-    """The sentences of the assessment's advice."""
+    """The sentences of the assessment's advice, each with the hint of the lesson's author."""
     advice = document["advice"]
     assert isinstance(advice, list), "the report is ours"
-    return tuple(str(item["text"]) for item in advice if isinstance(item, dict))
+    return tuple(_with_hint(item) for item in advice if isinstance(item, dict))
+
+
+def _with_hint(advice: dict[str, Json]) -> str:
+    return f"{advice['text']} {advice['hint']}" if advice.get("hint") else str(advice["text"])
 
 
 def _go_on(plan: Plan, measured: PassResult) -> str:

@@ -100,6 +100,13 @@ def test_advice_comes_before_the_goals_of_the_whole(heard: dict[str, Json], said
     assert said in said_of(measured(), lesson(min_score=95.0), 80.0, heard=heard)
 
 
+def test_a_teachers_hint_follows_the_advice() -> None:
+    hinted: Json = [{"fault": "late_kick", "text": "Your kick is late.", "hint": "Heel up, and bury nothing."}]
+    assert said_of(measured(), lesson(), 80.0, heard=document(advice=hinted)) == (
+        "Your kick is late. Heel up, and bury nothing."
+    )
+
+
 def test_what_a_limb_misses_is_said_after_the_advice() -> None:
     goals = Goals(limbs={Limb.LEFT_HAND: PartGoals(max_sd_ms=25.0)})
     plan = plan_practice(replace(find_lesson("rock-1"), goals=goals), PlanOptions(80.0))
