@@ -183,6 +183,15 @@ class Lesson:
         """The bars of the loop, moved to tick 0."""
         return self.score.bars(*self.loop)
 
+    def landing_after(self, bar: int) -> NDArray[np.void]:
+        """What is struck where `bar`, from 0, was the last that was played: the landing where the loop ends with it."""
+        return self.landing if bar == self.loop[1] else self.landing[:0]
+
+    @property
+    def played_once(self) -> Score:
+        """All bars as they are written, and the landing after them where the loop ends with the last one."""
+        return self.score.landing_on(self.landing_after(self.score.bar_count - 1))
+
     @property
     def meter(self) -> str:
         """Meter of the first bar, such as 4/4."""
