@@ -29,8 +29,8 @@ class GridTiming:
 
     `tempo_bpm` in quarter notes a minute; `tempo_to_bpm` the tempo at which this grid arrives, None where it keeps
     its own (the next grid does not inherit it); `meters` are taken in turn, bar by bar, their ticks 0; `beat_ticks`
-    is the beat that `tempo_bpm` counts in the file and that `(…)` fills; `swing_path` is where the swing is written.
-    `is_known` is False where the meter or the beat that was written could not be read: nobody knows what fills a bar.
+    is the beat that `tempo_bpm` counts in the file and that `(…)` fills; `swing_path` is where the swing is
+    written. Where the file's meter or beat is wrong, `is_sure` is False up to the next meter.
     """
 
     tempo_bpm: float
@@ -40,7 +40,7 @@ class GridTiming:
     touch: Touch = field(default_factory=Touch)
     tempo_to_bpm: float | None = None
     swing_path: KeyPath = ("swing_ratio",)
-    is_known: bool = True
+    is_sure: bool = True
 
     @property
     def velocities(self) -> Velocities:
@@ -119,6 +119,7 @@ def timing_of(values: Mapping[str, Any], before: GridTiming, faults: Faults, pat
 
     Faults count from that table.
     """
+    is_wrong = any(fault.path[:1] in (("meter",), ("beat",)) for fault in faults.noted)
     beat_ticks = before.beat_ticks if values["beat"] is None else values["beat"]
     ratio, unit = values["swing_ratio"], values["swing_unit"]
     was, changes = before.velocities, values["dynamics"] or {}
@@ -132,15 +133,8 @@ def timing_of(values: Mapping[str, Any], before: GridTiming, faults: Faults, pat
         touch,
         _tempo(values, "tempo_to_bpm", beat_ticks, faults),
         before.swing_path if ratio is unit is None else (*path, "swing_ratio" if unit is None else "swing_unit"),
-        _is_known(values, before, faults),
+        not is_wrong and (before.is_sure or values["meter"] is not None),
     )
-
-
-def _is_known(values: Mapping[str, Any], before: GridTiming, faults: Faults) -> bool:
-    """Whether meter and beat are: said without a fault, or known before."""
-    if any(fault.path[:1] in (("meter",), ("beat",)) for fault in faults.noted):
-        return False
-    return before.is_known or values["meter"] is not None
 
 
 def _tempo(values: Mapping[str, Any], key: str, beat_ticks: int, faults: Faults) -> float | None:
