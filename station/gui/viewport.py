@@ -64,6 +64,7 @@ class Viewport:
         self._page: tuple[ShownResult, ReportPage, NDArray[np.void]] | None = None
         self.view_settings = view_settings
         self._stage: Stage | None = None
+        self._asked: NamedView | None = None
         self.camera = self._named(None)
         self._seen_from = self.camera
 
@@ -123,6 +124,7 @@ class Viewport:
         if min(area[2:]) < _LEAST_AREA:
             return lambda _: None
         self._follow_stage(stage_of(snapshot))
+        self._follow_teacher(snapshot.view)
         began = perf_counter()
         target = self._target_for(painter, ctx, whole)
         is_rough = self.camera != self._seen_from
@@ -149,6 +151,16 @@ class Viewport:
         is_turned = self.camera != self._named(before)
         if stage != before and not (is_turned and before and stage.kit.left_handed == before.kit.left_handed):
             self._back_to_the_view()
+
+    def _follow_teacher(self, view: NamedView | None) -> None:
+        """Go where the lesson asks to be seen from, and back where it asks no more; between, the user may turn it."""
+        if view is self._asked:
+            return
+        self._asked = view
+        if view is None:
+            self._back_to_the_view()
+        else:
+            self.camera = replace(named(view, self._stage), mirrored=self.view_settings.mirrored)
 
     def draw_report(self, report: ShownResult, area: Area) -> None:
         """Draw a result in place of the room; raises `DeviceError` if OpenGL fails."""

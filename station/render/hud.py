@@ -63,7 +63,7 @@ def hud_lines(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.v
 
 def corners(hud: Hud) -> Hud:
     """What `hud_lines` shows of `hud`, and nothing else."""
-    return replace(hud, count_in=None, cue=TimingCue.NONE, cue_age_s=0.0, message="")
+    return replace(hud, count_in=None, cue=TimingCue.NONE, cue_age_s=0.0, message="", say="")
 
 
 def hud_calls(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
@@ -80,6 +80,9 @@ def scale(height: float) -> float:
     """Pixels a design pixel where the scene is `height` pixels high."""
     return max(height / (_DESIGN_HEIGHT * 0.70), 0.4)
 
+
+_SAID, _SAID_LINES = 36.0, 2
+"""A teacher's words are the largest after the count-in's number: they are read over the drums (our choice)."""
 
 _NAMES = ("Demonstrator", "You")
 
@@ -124,8 +127,12 @@ class _HudPage:
             self._count_in(self._hud.count_in)
         elif self._hud.cue is not TimingCue.NONE:
             self._cue(_CUES[self._hud.cue])
+        y = 132.0
         if self._hud.message:
-            self._message()
+            self._message(y)
+            y += 64.0
+        if self._hud.say:
+            self._say(y)
         return self._draw_list.shapes()
 
     def _title(self, right: float) -> None:
@@ -198,11 +205,29 @@ class _HudPage:
             at = (x + look.way * (text / 2 + 20 * k), y)
             self._draw_list.triangle(at, (9 * k, 13 * k), style.colour, 0.0 if look.way > 0 else np.pi)
 
-    def _message(self) -> None:
+    def _say(self, y: float) -> None:
+        """The teacher's words, large, in as many lines as `_SAID_LINES`, the first at `y`."""
+        k, style = self._k, TypeStyle(_SAID * self._k, INK, Face.BOLD, 0.5)
+        room = self._width - 4 * _EDGE * k
+        lines = self._draw_list.broken(self._hud.say, style, room)
+        if len(lines) > _SAID_LINES:
+            style = replace(style, size=style.size * _SMALLEST)
+            lines = self._draw_list.broken(self._hud.say, style, room)
+        if len(lines) > _SAID_LINES:
+            lines = [*lines[: _SAID_LINES - 1], self._draw_list.fitted(" ".join(lines[_SAID_LINES - 1 :]), style, room)]
+        step, width = 1.25 * style.size, max(self._draw_list.width(line, style) for line in lines) + 48 * k
+        top = y * k - 0.5 * step
+        panel = with_opacity(PANEL, 0.88)
+        height = step * len(lines) + 0.3 * style.size
+        self._draw_list.box((self._width / 2 - width / 2, top), (width, height), panel, None, (12 * k, 0.0, 0.0))
+        for row, line in enumerate(lines):
+            self._draw_list.text(line, (self._width / 2, top + step * (row + 0.87)), style)
+
+    def _message(self, at: float) -> None:
         k = self._k
         message = TypeStyle(21 * k, INK, Face.REGULAR, 0.5)
         text, style = self._shrunk(self._hud.message, message, self._width - 4 * _EDGE * k)
         width = self._draw_list.width(text, style) + 44 * k
-        y = 132 * k
+        y = at * k
         self._draw_list.box((self._width / 2 - width / 2, y - 20 * k), (width, 42 * k), PANEL, None, (12 * k, 0.0, 0.0))
         self._draw_list.text(text, (self._width / 2, y + 8 * k), style)
