@@ -74,7 +74,8 @@ def picture_of(drummer: Drummer, at_s: float) -> Snapshot:
     hud = Hud(title=score.title, bar_count=score.bar_count)
     if 0 <= at_s * NS_PER_S < score.length_ns:
         place = score.tempo_map.position_at(int(score.tempo_map.ticks_at(at_s)))
-        hud = replace(hud, bar=place.bar + 1, beat=place.beat + 1)
+        beats = score.tempo_map.meter_at(score.tempo_map.bar_start(place.bar)).beats
+        hud = replace(hud, bar=place.bar + 1, beat=place.beat + 1, beats=beats)
     pose, limbs = drummer.pose(at_s), drummer.assignment.limbs
     return Snapshot(score, at_s, drummer.kit, drummer.figure, pose, limbs, hud=hud)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from station.core.events import Hit
 from station.core.pieces import Limb
-from station.core.units import NS_PER_MS, NS_PER_S
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.mastery.feedback_fading import Feedback
 from station.engine.engine import KEYBOARD
 from station.motion.drummer import Drummer
@@ -202,7 +202,7 @@ class SessionView:
             beat=beat,
             beats=_beats_of(plan, bar),
             bar_count=max(plan.lesson.score.bar_count, bar or 0),
-            beats_a_minute=plan.beats_a_minute,
+            beats_a_minute=self._beats_a_minute(session),
             count_in=beat if segment.phase is Phase.COUNT_IN else None,
             right=right,
             judged=judged,
@@ -211,6 +211,15 @@ class SessionView:
             cue_age_s=age_ns / NS_PER_S,
             say=direction_of(session).say,
         )
+
+    def _beats_a_minute(self, session: Session) -> float:
+        """The tempo where the music is; before and after it the one that it begins with."""
+        state, plan = session.state(), self.plan
+        if state.transport_ns is None or state.segment.phase not in (Phase.DEMONSTRATION, Phase.PASS):
+            return plan.beats_a_minute
+        tempo_map = plan.section.tempo_map
+        tick = int(tempo_map.ticks_at_ns(max(state.transport_ns - state.segment.start_ns, 0)))
+        return tempo_map.bpm_at(tick) * PPQ / plan.lesson.beat_ticks
 
     def _counts(self, session: Session, pass_index: int) -> tuple[int, int]:
         """Notes right and notes judged of one pass, of those whose marks are shown."""
