@@ -19,10 +19,11 @@ from station.drills.lesson import Lesson
 from station.drills.mastery.equipment_faults import rewired
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.next_pass import begin, fix_tempo, new_item, next_step, veto
-from station.drills.mastery.pass_facts import PassResult, measure_pass
+from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.practice_steps import PassKind, PracticeStep, item_of
 from station.drills.mastery.rules import Rules
 from station.drills.orchestration import reorchestrated
+from station.engine.engine import KEYBOARD
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
@@ -180,7 +181,8 @@ class Adaptation:
         swap = self.state.equipment.swap
         performance = rewired(result.performance, swap)
         alignment = result.alignment if swap is None else align(result.score, performance, clocked=True)
-        return measure_pass(result.score, performance, alignment, result.plan.practised_bars, self.level.windows)
+        view = PassView(self.level.windows, self.rules.asked, result.device != KEYBOARD)
+        return measure_pass(result.score, performance, alignment, result.plan.practised_bars, view)
 
 
 def held_words(level: Level, after: Level) -> str:

@@ -152,7 +152,7 @@ def bar_clicks(meter: MeterChange, pattern: ClickPattern) -> tuple[_Click, ...]:
         if _sounds(index, pattern.beats)
         for click in _beat_clicks(index, beat, pattern)
     ]
-    moved = (click._replace(tick=pattern.swing.swung(click.tick, meter.bar_ticks)) for click in clicks)
+    moved = (click._replace(tick=pattern.swing.swung(click.tick, meter)) for click in clicks)
     return tuple(click for click in moved if click.velocity > 0)
 
 
