@@ -68,10 +68,16 @@ class Viewport:
         self.camera = self._named(None)
         self._seen_from = self.camera
 
-    def follow(self, view_settings: ViewSettings) -> None:
-        """Show the picture so; another named view, or the other side, turns it, and what is so already stays turned."""
+    def follow(self, view_settings: ViewSettings, asked: NamedView | None = None) -> None:
+        """Show the picture so; another named view, or the other side, turns it, and what is so already stays turned.
+
+        A view that the lesson has `asked` for is gone to once, and left where it asks no more; between, users turn it.
+        """
         if view_settings.view is not self.view_settings.view:
             self.camera = named(view_settings.view, self._stage)
+        if asked is not self._asked:
+            self._asked = asked
+            self.camera = named(view_settings.view if asked is None else asked, self._stage)
         self.view_settings = view_settings
         self.camera = replace(self.camera, mirrored=view_settings.mirrored)
 
@@ -124,7 +130,6 @@ class Viewport:
         if min(area[2:]) < _LEAST_AREA:
             return lambda _: None
         self._follow_stage(stage_of(snapshot))
-        self._follow_teacher(snapshot.view)
         began = perf_counter()
         target = self._target_for(painter, ctx, whole)
         is_rough = self.camera != self._seen_from
@@ -151,16 +156,6 @@ class Viewport:
         is_turned = self.camera != self._named(before)
         if stage != before and not (is_turned and before and stage.kit.left_handed == before.kit.left_handed):
             self._back_to_the_view()
-
-    def _follow_teacher(self, view: NamedView | None) -> None:
-        """Go where the lesson asks to be seen from, and back where it asks no more; between, the user may turn it."""
-        if view is self._asked:
-            return
-        self._asked = view
-        if view is None:
-            self._back_to_the_view()
-        else:
-            self.camera = replace(named(view, self._stage), mirrored=self.view_settings.mirrored)
 
     def draw_report(self, report: ShownResult, area: Area) -> None:
         """Draw a result in place of the room; raises `DeviceError` if OpenGL fails."""
