@@ -7,7 +7,7 @@ import pytest
 from station.app.room_state import LessonCard, SessionRequest
 from station.app.selection import MAX_LOOPS, Selection
 from station.core.pieces import HAND_PIECES, Piece, Zone
-from station.drills.course import Course
+from station.drills.course import Course, CoursePart
 from station.gui.keyboard_kit import KEYS
 from station.gui.viewport import quality_for
 from station.practice.records.lesson_progress import LessonProgress
@@ -111,7 +111,7 @@ def test_just_playing_takes_the_place_of_a_lesson_and_counts_quarters() -> None:
 
 
 def test_a_course_lists_its_lessons_in_its_order_and_begins_where_the_student_is() -> None:
-    course = Course("hands", "Hands", "", "", 1, ("paradiddle", "rock-1", "gone"))
+    course = Course("hands", "Hands", "", "", 1, (CoursePart("", ("paradiddle", "rock-1", "gone")),))
     selection = Selection.of([ROCK, PARADIDDLE])
     selection = selection.offer([ROCK, PARADIDDLE], [course])
     assert (selection.course, selection.visible()) == (None, [ROCK, PARADIDDLE])
@@ -128,7 +128,7 @@ def test_a_course_lists_its_lessons_in_its_order_and_begins_where_the_student_is
 
 
 def test_a_course_that_was_followed_is_listed_again_and_one_that_is_gone_is_not() -> None:
-    course = Course("hands", "Hands", "", "", 1, ("paradiddle",))
+    course = Course("hands", "Hands", "", "", 1, (CoursePart("", ("paradiddle",)),))
     selection = Selection.of([ROCK])
     selection = selection.offer([ROCK, PARADIDDLE], [course], "hands")
     assert (selection.course, selection.card) == (course, ROCK)
