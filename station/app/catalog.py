@@ -10,8 +10,9 @@ from station.drills.course import Course
 from station.drills.lesson import Lesson
 from station.drills.lesson_row import row_of
 from station.drills.library import courses_in, find_lesson, lesson_rows, shipped_courses
-from station.practice.records.lesson_progress import LessonProgress, progress_of
+from station.practice.records.lesson_progress import LessonProgress
 from station.practice.records.memory import LevelMemory
+from station.practice.records.student_progress import student_progress
 from station.scoring.matching.hit_windows import Level
 
 
@@ -57,7 +58,7 @@ class Catalog:
         """How far the student is, by the names of lessons, when a session was kept last."""
         settings = self._store.now
         if self._progress is None or self._progress[0] != settings.student:
-            self._progress = settings.student, progress_of(settings.sessions_dir, settings.student)
+            self._progress = settings.student, student_progress(settings.sessions_dir, settings.student)
         return self._progress[1]
 
     def levels(self) -> Mapping[str, Level]:

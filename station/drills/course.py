@@ -101,7 +101,7 @@ def read_course(path: Path, where: Where) -> Course:
     return read(read_source(path), course_reader(path.name.removesuffix(ENDING), where))
 
 
-_LESSONS = Field(list_of(title, f"a list such as {_EXPECTED}"), ())
+_LESSONS: Field[tuple[str, ...]] = Field(list_of(title, f"a list such as {_EXPECTED}"), ())
 _PART: Fields = {
     "title": Field(title, "", 'title = "The backbeat"'),
     "lessons": replace(_LESSONS, must=_EXPECTED),

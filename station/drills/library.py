@@ -143,6 +143,21 @@ def lesson_rows() -> list[LessonRow]:
     return sorted(rows_below(top, kinds), key=lambda row: (_rank(row.folder), row.folder, row.level, row.name))
 
 
+def lesson_prerequisites() -> dict[str, tuple[str, ...]]:
+    """What each shipped lesson names as coming before it; nothing where one of them cannot be read."""
+    try:
+        return {row.name: row.prerequisites for row in lesson_rows()}
+    except BadInput:
+        return dict.fromkeys(lesson_names(), ())
+
+
+def course_prerequisites() -> dict[str, tuple[str, ...]]:
+    """What each shipped course names as coming before it, those that cannot be read nothing."""
+    courses, _ = courses_in(lessons_dir())
+    files = [path.name.removesuffix(ENDING) for path in lessons_dir().rglob(f"*{ENDING}")]
+    return {**dict.fromkeys(files, ()), **{one.name: one.prerequisites for one in courses}}
+
+
 KINDS = (
     *("grooves", "fills", "rudiments", "rolls", "orchestrated"),
     *("hands", "independence", "polyrhythms", "reading", "trading"),
