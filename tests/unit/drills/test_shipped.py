@@ -28,6 +28,99 @@ FILLS = {
 }
 
 
+Hallmark = tuple[str, Piece, Dynamic | None, str]
+HALLMARKS: dict[str, tuple[Hallmark, ...]] = {
+    # Jamaica: rhythmnotes.net, studio.dubroom.org (the four reggae rhythms); ska: hostboard.com, thread 75794
+    "one drop": (("reggae-one-drop", Piece.KICK, None, "....x..."), ("reggae-one-drop", Piece.SNARE, None, "....x...")),
+    "one drop at half the count": (("reggae-one-drop-2", Piece.KICK, None, ".x.x"),),
+    "steppers": (("reggae-steppers", Piece.KICK, None, "xxxx"),),
+    "rockers": (("reggae-rockers-1", Piece.SNARE, None, ".x.x"),),
+    "ska": (("ska-1", Piece.KICK, None, ".x.x"), ("ska-1", Piece.HIHAT, None, ".x.x.x.x")),
+    # Cuba: de.wikipedia.org Cáscara; timbales-style "Basic Patterns" in LilyPond (paila, mambo bell, mozambique, 6/8,
+    # cha-cha-cha); the mozambique's structure also cruiseshipdrummer.com, 2024/03; mambo's kick drummagazine.com
+    "cáscara, 2-3": (
+        ("cascara-1", Piece.FLOOR_TOM_1, None, "x.x.xx.x|x.xx.x.x"),
+        ("cascara-1", Piece.SNARE, None, "..x.x...|x..x..x."),
+        ("cascara-1", Piece.KICK, None, "...x...."),
+    ),
+    "mambo bell, 2-3": (
+        ("mambo-bell-1", Piece.RIDE, None, "x.x.xxxx|.xxxx.xx"),
+        ("mambo-bell-1", Piece.KICK, None, "...x..x."),
+    ),
+    "mozambique, 2-3": (("mozambique-1", Piece.RIDE, None, "x.x.xx.x|.xx.xx.x"),),
+    "cha-cha-chá": (("cha-cha-1", Piece.RIDE, None, "xxxx"), ("cha-cha-1", Piece.TOM_1, None, "......xx")),
+    "tumbao": (("tumbao-1", Piece.KICK, None, "...x..x."), ("tumbao-1", Piece.TOM_1, None, "......xx")),
+    # the bell also en.wikipedia.org Bell pattern
+    "bembé": tuple((name, Piece.RIDE, None, "x.x.xx.x.x.x") for name in ("bembe-1", "bembe-2")),
+    # no kick on a beat, the chick on each (R. Smith, Songo Lesson); the hand between (icanplaydrums.com, Songo)
+    "songo": (
+        ("songo-1", Piece.KICK, None, "...x..x....x..x."),
+        ("songo-1", Piece.HIHAT_PEDAL, None, "xxxx"),
+        ("songo-1", Piece.SNARE, Dynamic.ACCENT, "..x............."),
+    ),
+    # Brazil: thatdrumblog.blogspot.com (Baião Doce); clave of the bossa as in chromatone.center's list, turned round
+    "baião": (("baiao-1", Piece.KICK, None, "x..x...."),),
+    "bossa, turned round": (("bossa-2", Piece.SNARE, None, "..x..x..|x..x..x."),),
+    "samba's caixa": (
+        ("samba-2", Piece.SNARE, Dynamic.ACCENT, "x..x..x.|..x..x.."),
+        ("samba-2", Piece.KICK, Dynamic.ACCENT, "....x..."),
+    ),
+    # joethedrummer.com: 1, 1e, 3, 3e
+    "afrobeat": (("afrobeat-1", Piece.KICK, None, "xx......xx......"),),
+    # en.wikipedia.org Blast beat and its tablature: unison, alternate, double bass
+    "traditional blast": (
+        ("blast-1", Piece.KICK, None, "x.x.x.x.x.x.x.x."),
+        ("blast-1", Piece.SNARE, None, ".x.x.x.x.x.x.x.x"),
+    ),
+    "hammer blast": tuple(("blast-hammer-1", p, None, "xxxxxxxx") for p in (Piece.RIDE, Piece.SNARE, Piece.KICK)),
+    "bomb blast": (("blast-bomb-1", Piece.KICK, None, "x" * 16), ("blast-bomb-1", Piece.SNARE, None, "xxxxxxxx")),
+    "drum and bass": (
+        ("dnb-two-step-1", Piece.KICK, None, "x.........x....."),
+        ("dnb-two-step-1", Piece.SNARE, Dynamic.ACCENT, "....x.......x..."),
+    ),
+    "house": (("house-1", Piece.KICK, None, "xxxx"),),
+    "half-time shuffle": (
+        ("half-time-shuffle-1", Piece.SNARE, Dynamic.ACCENT, "......x....."),
+        ("half-time-shuffle-2", Piece.SNARE, Dynamic.ACCENT, "......x...........x....."),
+    ),
+    "jazz": tuple(
+        (name, Piece.HIHAT_PEDAL, None, ".x.x") for name in ("jazz-uptempo-1", "jazz-comping-2", "jazz-ballad-1")
+    ),
+    "waltz": (("waltz-1", Piece.SNARE, None, ".xx"),),
+    # a stroke for each group
+    "five as three and two": (("five-four-1", Piece.KICK, None, "x..x."),),
+    "seven as three, two, two": (("seven-eight-2", Piece.SNARE, None, "...x.x."),),
+    "nine as two, two, two, three": (
+        ("nine-eight-2", Piece.KICK, None, "x...x...."),
+        ("nine-eight-2", Piece.SNARE, None, "..x...x.."),
+    ),
+    "eleven as three threes and a two": (("eleven-eight-1", Piece.SNARE, None, "...x.....x."),),
+}
+"""Style -> what its books print: lesson, piece, which of its strokes (None: all), and the cells of the bar, or of each
+bar from the first, `|` between them."""
+
+TEMPI = {
+    # reggae 60-90 by DJs' tables (music.mmc.school.nz), twice that where eighths are counted
+    "reggae-one-drop": (120, 160),
+    "reggae-steppers": (120, 160),
+    "reggae-one-drop-2": (60, 80),
+    "reggae-rockers-1": (60, 90),
+    # Rosanna: 167 by guimadrum.com.br, the Purdie shuffle about 125
+    "half-time-shuffle-1": (125, 175),
+    "half-time-shuffle-2": (62, 88),
+    # learningmusic.ableton.com, Tempo and genre
+    "dnb-two-step-1": (160, 180),
+    "dnb-half-1": (160, 180),
+    "house-1": (115, 130),
+    "hip-hop-2": (85, 100),  # boom bap 85-95 (tapbpm.net), to 100 (palsen.wordpress.com)
+    "trap-1": (130, 170),  # palsen.wordpress.com
+    "jazz-ballad-1": (60, 90),  # party.biz, and the next
+    "jazz-uptempo-1": (200, 300),
+    "bossa-2": (100, 160),
+}
+"""Lesson -> the tempi, in its beats a minute, between which its style is played; its target lies there."""
+
+
 def of(lesson: Lesson, piece: Piece, dynamic: Dynamic | None = None) -> list[Note]:
     """Main strokes of a piece, of one dynamic or all."""
     return [n for n in lesson.score if n.piece is piece and not n.lead_ms and dynamic in (None, n.dynamic)]
@@ -42,6 +135,26 @@ def places(lesson: Lesson, piece: Piece, bar: int, cells: int = 8, dynamic: Dyna
     bars = lesson.score.tempo_map.bars_at([n.tick for n in of(lesson, piece, dynamic)]).tolist()
     struck = [n.tick - start for n, b in zip(of(lesson, piece, dynamic), bars, strict=True) if b == bar]
     return {straight[t] for t in struck}
+
+
+def cells(pattern: str) -> list[set[int]]:
+    """Places struck in each bar of `x..x|.x..`."""
+    return [{at for at, cell in enumerate(bar) if cell == "x"} for bar in pattern.split("|")]
+
+
+@pytest.mark.parametrize("style", list(HALLMARKS))
+def test_each_style_has_what_its_books_print(style: str) -> None:
+    for name, piece, dynamic, pattern in HALLMARKS[style]:
+        bars = len(pattern.split("|")[0])
+        found = [places(find_lesson(name), piece, bar, bars, dynamic) for bar in range(pattern.count("|") + 1)]
+        assert found == cells(pattern), (name, piece)
+
+
+@pytest.mark.parametrize("name", list(TEMPI))
+def test_targets_are_the_styles_own_tempi(name: str) -> None:
+    lesson = find_lesson(name)
+    slowest, fastest = TEMPI[name]
+    assert slowest <= lesson.target_tempo_bpm * PPQ / lesson.beat_ticks <= fastest
 
 
 @pytest.mark.parametrize("name", lesson_names())
