@@ -46,7 +46,7 @@ def card(lesson: Lesson) -> LessonCard:
         tempo_bpm=lesson.tempo_bpm,
         bars=lesson.loop[1] - lesson.loop[0] + 1,
         passes=lesson.passes,
-        meter=f"{meter.beats}/{meter.unit}",
+        meter=str(meter),
         tags=lesson.tags,
         beat_quarters=lesson.beat_ticks / PPQ,
         levels=lesson.levels,

@@ -89,10 +89,10 @@ def _list(options: LessonsOptions) -> int:
 
 
 def _show(options: LessonOptions) -> int:
-    from station.drills.lesson_writer import write_lesson
+    from station.drills.lesson_text import show
     from station.drills.library import find_lesson
 
-    write(write_lesson(find_lesson(options.lesson)), end="")
+    write(show(find_lesson(options.lesson).text), end="")
     return 0
 
 
@@ -157,7 +157,11 @@ def _export(options: ExportOptions) -> int:
 COMMAND = Verbs(
     (
         ("list", "the lessons and courses that are shipped", Command(LessonsOptions, _list)),
-        ("show", "a lesson, written out", Command(LessonOptions, _show)),
+        (
+            "show",
+            "a lesson as it was written, its lines aligned below the count",
+            Command(LessonOptions, _show),
+        ),
         (
             "check",
             "every fault of lessons, courses and other TOML files, with line and column",

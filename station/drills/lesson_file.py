@@ -38,19 +38,11 @@ from station.core.toml_faults import Fault, Faults, wrong
 from station.core.toml_places import KeyPath
 from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ
-from station.drills.grid.cell_strokes import Origin, Velocities, WrittenCell, expand
-from station.drills.grid.grid_reader import (
-    MAX_BARS,
-    MAX_CELLS,
-    TIMING,
-    CellTiming,
-    GridSection,
-    note_length,
-    read_grid,
-    timing_of,
-)
-from station.drills.grid.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
-from station.drills.grid.tab_symbols import LINE_PIECES
+from station.drills.grid.cell_strokes import Origin, WrittenCell, expand
+from station.drills.grid.grid_reader import GridSection, read_grid
+from station.drills.grid.grid_timing import TIMING, GridTiming, timing_of
+from station.drills.grid.swing import MAX_RATIO
+from station.drills.grid.voice import MAX_BARS, MAX_CELLS
 from station.drills.lesson import (
     DEFAULT_DEMONSTRATIONS,
     DEFAULT_PASSES,
@@ -73,10 +65,8 @@ MAX_COUNT_IN_BARS = 8
 MAX_DEMONSTRATIONS = 20
 MAX_STROKES = 20_000
 """Half an hour at ten strokes a second; a session with more takes longer to prepare than anyone waits (our choice)."""
-DEFAULT_TIMING = CellTiming(80.0, MeterChange(0, 4, 4), PPQ)
+DEFAULT_TIMING = GridTiming(80.0, (MeterChange(0, 4, 4),), PPQ)
 """Where a file says no tempo: a slow walk, our choice."""
-DEFAULT_SWING_TICKS = PPQ // 2
-"""Eighths swing where a file does not say what."""
 
 
 # --- the schema -------------------------------------------------------------------------------------------------------
@@ -89,25 +79,6 @@ def _tag(value: object) -> str:
     return tag
 
 
-def _dynamics(raw: object) -> Velocities:
-    """The usual velocities, and those of pieces that have some of their own."""
-    said_usual = _DYNAMICS(raw)
-    tables = {key: said_usual.pop(key) for key in LINE_PIECES if key in said_usual}
-    usual = _rising(Velocities().usual, said_usual)
-    own = {LINE_PIECES[key]: _rising(usual, table, key) for key, table in tables.items()}
-    return Velocities(usual, MappingProxyType(own))
-
-
-def _rising(before: tuple[int, int, int], changes: Mapping[str, int], *path: str) -> tuple[int, int, int]:
-    """Ghost, normal and accent velocities, as `before` but for the changes of the table at `path`."""
-    ghost, normal, accent = (changes.get(key, was) for key, was in zip(_VELOCITIES, before, strict=True))
-    if not ghost <= normal <= accent:
-        raise wrong(f"ghost {ghost}, normal {normal}, accent {accent}: expected rising velocities", *path)
-    return ghost, normal, accent
-
-
-_VELOCITIES: Fields = {key: optional(whole(1, 127)) for key in ("ghost", "normal", "accent")}
-_DYNAMICS = said({**_VELOCITIES, **{key: optional(said(_VELOCITIES)) for key in LINE_PIECES}})
 _LEVEL = choice(OUR_LEVELS, "level")
 
 _SMALLEST_FAULT, _LARGEST_FAULT = 0.1, 1000.0
@@ -147,13 +118,10 @@ FIELDS: Fields = {
     "about": Field(prose, ""),
     "kit": Field(prose, ""),
     **TIMING,
-    "swing_ratio": Field(number(MIN_RATIO, MAX_RATIO), STRAIGHT),
-    "swing_unit": optional(note_length),
     "loop": optional(anything),  # read when the bars are known
     "passes": Field(whole(1, MAX_PASSES), DEFAULT_PASSES),
     "count_in_bars": Field(whole(0, MAX_COUNT_IN_BARS), 1),
     "demonstrations": Field(whole(0, MAX_DEMONSTRATIONS), DEFAULT_DEMONSTRATIONS),
-    "dynamics": Field(_dynamics, Velocities()),
     "goals": Field(record(Goals, _GOALS), Goals()),
     "grid": Field(anything, None, "a table [grid] with the lines to play"),
 }
@@ -174,7 +142,8 @@ class Reading:
 
 def read_lesson(path: Path) -> Lesson:
     """The lesson in the file at `path`; raises `BadInput` with the place of the first fault."""
-    return read(lesson_source(path), lesson_reader(path.stem))
+    source = lesson_source(path)
+    return replace(read(source, lesson_reader(path.stem)), text=source.text)
 
 
 def lesson_source(path: Path) -> Source:
@@ -188,7 +157,9 @@ def lesson_source(path: Path) -> Source:
 
 def parse_lesson(text: str, source: str, name: str) -> Reading:
     """Read a lesson's text; `source` names it in faults, `name` becomes the lesson's."""
-    return Reading(*reading(text_source(text, source), lesson_reader(name)))
+    found = text_source(text, source)
+    lesson, faults = reading(found, lesson_reader(name))
+    return Reading(lesson and replace(lesson, text=found.text), faults)
 
 
 def lesson_reader(name: str) -> Reader[Lesson]:
@@ -199,13 +170,9 @@ def lesson_reader(name: str) -> Reader[Lesson]:
 def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     """The lesson that these values make; raises `Wrong` for their `faults` and all that is found on the way."""
     timing = timing_of(values, DEFAULT_TIMING, faults)
-    swing = Swing(values["swing_ratio"], DEFAULT_SWING_TICKS if values["swing_unit"] is None else values["swing_unit"])
     nothing: list[GridSection] = []
     sections = faults.attempt(lambda grids: _sections(grids, timing, faults), values["grid"], nothing)
-    if _crosses(swing, timing, sections):
-        key = "swing_ratio" if values["swing_unit"] is None else "swing_unit"
-        faults.add((key,), "the beat is no whole number of pairs to swing; expected a shorter swing_unit")
-    score, origins = _score(sections, values["dynamics"], swing)
+    score, origins = _score(sections)
     goals: Goals = values["goals"]
     if goals.level is not None and goals.level.rank > goals.strictest_level.rank:
         faults.add(("goals", "level"), f"{goals.level} is stricter than the strictest_level, {goals.strictest_level}")
@@ -215,10 +182,10 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
         score=replace(score, title=values["title"]),
         loop=_loop(values["loop"], score.bar_count, faults),
         goals=replace(goals, target_tempo_bpm=None if target is None else target * timing.beat_ticks / PPQ),
-        swing=swing,
+        swing=sections[0].timing.swing if sections else timing.swing,
         beat_ticks=timing.beat_ticks,
         sections=_spans(sections),
-        velocities=values["dynamics"],
+        velocities=timing.velocities,
         **{key: values[key] for key in _AS_THEY_ARE},
     )
     _note_impossible(lesson, origins, faults)
@@ -226,7 +193,7 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     return lesson
 
 
-def _sections(grids: object, timing: CellTiming, faults: Faults) -> list[GridSection]:
+def _sections(grids: object, timing: GridTiming, faults: Faults) -> list[GridSection]:
     """The grids of the file, one after the other; there may be one `[grid]` or several `[[grid]]`.
 
     Raises `Wrong` where there is more than anyone practises, before much time is spent on it.
@@ -242,13 +209,14 @@ def _sections(grids: object, timing: CellTiming, faults: Faults) -> list[GridSec
     bars = strokes = 0
     for i, raw in enumerate(grids if isinstance(grids, list) else [grids]):
         path: KeyPath = ("grid", i) if several else ("grid",)
-        sections.append(read_grid(raw, path, sections[-1] if sections else timing, faults))
-        bars, strokes = bars + sections[-1].bars, strokes + len(sections[-1].strokes)
+        sections.append(read_grid(raw, path, sections[-1].timing if sections else timing, faults))
+        bars += sections[-1].bar_count * sections[-1].times
+        strokes += sum(map(len, sections[-1].parts))
         if bars > MAX_BARS:
             raise wrong(f"{bars} bars up to here; a lesson has at most {MAX_BARS}", *path)
         if strokes > MAX_STROKES:
             raise wrong(f"{strokes} strokes up to here; a lesson has at most {MAX_STROKES}", *path)
-    if sections and not any(s.strokes for s in sections) and not faults:
+    if sections and not any(any(s.parts) for s in sections) and not faults:
         faults.add(("grid",), "nothing to play: every cell is a rest", at_key=True)
     return sections
 
@@ -259,12 +227,6 @@ def _cell_count(raw: object) -> int:
         return len(raw)
     parts = raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ()
     return sum(map(_cell_count, parts))
-
-
-def _crosses(swing: Swing, timing: CellTiming, sections: Sequence[GridSection]) -> bool:
-    """Whether parentheses and swing would cross: pairs of swung cells must fill every beat that is counted."""
-    beats = {timing.beat_ticks, *(s.timing.beat_ticks for s in sections)}
-    return swing.ratio != STRAIGHT and any(beat % (2 * swing.unit_ticks) for beat in beats)
 
 
 def _loop(raw: object, bar_count: int, faults: Faults) -> tuple[int, int]:
@@ -298,26 +260,28 @@ def _note_impossible(lesson: Lesson, origins: Sequence[Origin], faults: Faults) 
         faults.add(origins[note].path, words, origins[note].char)
 
 
-def _score(sections: Sequence[GridSection], velocities: Velocities, swing: Swing) -> tuple[Score, list[Origin]]:
+def _score(sections: Sequence[GridSection]) -> tuple[Score, list[Origin]]:
     """The score of all sections, and the letter that wrote each of its rows."""
-    strokes: list[WrittenCell] = [stroke for section in sections for stroke in section.strokes]
-    rows, origins = expand(strokes, velocities, swing)
-    order = np.lexsort((rows["piece"], -rows["lead_ms"], rows["tick"]))
+    strokes: list[WrittenCell] = []
     tempos: list[TempoChange] = []
     meters: list[MeterChange] = []
-    for before, section in zip([None, *sections], sections, strict=False):
-        if before is None or before.timing.tempo_bpm != section.timing.tempo_bpm:
-            tempos.append(TempoChange.from_bpm(section.start_tick, section.timing.tempo_bpm))
-        if before is None or before.timing.meter != section.timing.meter:
-            meters.append(replace(section.timing.meter, tick=section.start_tick))
+    tick = 0
+    for section in sections:
+        tempos.append(TempoChange.from_bpm(tick, section.timing.tempo_bpm))
+        strokes += section.at(tick)
+        for _ in range(section.times):
+            meters += section.bars_at(tick)
+            tick += section.length_ticks
+    rows, origins = expand(strokes)
+    order = np.lexsort((rows["piece"], -rows["lead_ms"], rows["tick"]))
     tempo_map = TempoMap.build(tempos, meters)
-    end = sections[-1].end_tick if sections else tempo_map.bar_start(1)
-    return Score.from_array(rows[order], tempo_map, end), [origins[i] for i in order]
+    return Score.from_array(rows[order], tempo_map, tick or tempo_map.bar_start(1)), [origins[i] for i in order]
 
 
 def _spans(sections: Sequence[GridSection]) -> tuple[Section, ...]:
     spans: list[Section] = []
     for section in sections:
         first = spans[-1].last_bar + 1 if spans else 0
-        spans.append(Section(section.name, first, first + section.bars - 1))
+        last = first + section.bar_count * section.times - 1
+        spans.append(Section(section.name, first, last, section.timing.swing))
     return tuple(spans)

@@ -16,8 +16,9 @@ from types import MappingProxyType
 from station.core.errors import BadInput
 from station.core.pieces import HALF_OPEN, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ, ns_from_s
-from station.drills.grid.cell_strokes import GRACE_LEADS_MS, GRACE_SHARE, OTHER_HAND, Velocities
+from station.drills.grid.cell_strokes import OTHER_HAND
 from station.drills.grid.tab_symbols import FOOT_OF, SYMBOLS, TabFamily, TabSymbol, family_of
+from station.drills.grid.touch import Graces, Velocities
 from station.drills.lesson import Lesson, Section
 from station.drills.lesson_writer import write_lesson
 from station.drills.quantise_time import at_bar_starts, on_cells
@@ -182,7 +183,7 @@ def _importance(note: Note) -> tuple[int, int]:
 
 def _alone(note: Note) -> Ornament:
     """The ornament without grace strokes, for which no hand is left."""
-    return Ornament.NONE if note.ornament in GRACE_LEADS_MS else note.ornament
+    return Ornament.NONE if Graces().leads_ms(note.ornament) else note.ornament
 
 
 def _unhurried(notes: Sequence[Note], tempo_map: TempoMap) -> list[Note]:
@@ -232,16 +233,16 @@ def _velocities(notes: Sequence[Note]) -> Velocities:
 def _with_graces(note: Note, velocities: Velocities) -> list[Note]:
     """The note at the velocity of its dynamic, its grace strokes before it."""
     velocity = velocities.of(note.piece, note.dynamic)
-    soft = max(1, round(velocity * GRACE_SHARE))
+    usual = Graces()
     graces = [
         replace(
             note,
-            velocity=soft,
+            velocity=usual.velocity(velocity),
             dynamic=Dynamic.GHOST,
             lead_ms=lead,
             limb=OTHER_HAND.get(note.limb, Limb.UNKNOWN),
             midi_note=0,
         )
-        for lead in GRACE_LEADS_MS.get(note.ornament, ())
+        for lead in usual.leads_ms(note.ornament)
     ]
     return [*graces, replace(note, velocity=velocity, midi_note=0)]

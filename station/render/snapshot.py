@@ -122,14 +122,21 @@ def mark(marks: NDArray[np.void], judgement: Judgement, loudness: bool = True) -
 
 @dataclass(frozen=True, slots=True)
 class BarNumbers:
-    """How a score's bars are numbered: from `first` (from 0), anew after every `per_pass` bars; 0: never."""
+    """How a score's bars are numbered: from `first` (from 0), anew after every `per_pass` bars, `passes` times.
+
+    0 bars: never; without `passes`: always. What follows the last pass is numbered on from there.
+    """
 
     first: int = 0
     per_pass: int = 0
+    passes: int | None = None
 
     def of(self, bar: int) -> int:
         """The number, from 1, of the score's `bar`, from 0."""
-        return self.first + (bar % self.per_pass if self.per_pass else bar) + 1
+        before = bar // self.per_pass if self.per_pass else 0
+        if self.passes is not None:
+            before = min(before, self.passes - 1)
+        return self.first + bar - before * self.per_pass + 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,10 +14,9 @@ from station.practice.records.session_files import DRUMMER_NAME, PICTURE_NAME
 from station.practice.session.session import SessionResult
 from station.render.picture import draw_png
 from station.render.report.report_picture import draw_report_png
-from station.render.snapshot import ExtraHit, Hud, Snapshot, mark, no_marks
+from station.render.snapshot import BarNumbers, ExtraHit, Hud, Snapshot, mark, no_marks
 from station.scenes.demonstrator import Demonstrator, demonstrator_of
 from station.scenes.result_tables import session_facts
-from station.scenes.session_scene import bar_numbers
 from station.scoring.matching.alignment import judgements
 from station.scoring.matching.right import right_notes
 
@@ -43,9 +42,11 @@ def drummer_of(result: SessionResult, demonstrator: Demonstrator) -> Drummer:
 def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) -> None:
     """The last pass of a session, half into its first bar, every note with its judgement; raises `DeviceError`."""
     plan = result.plan
-    last_pass_s = (result.score.length_ns - plan.section.length_ns) / NS_PER_S
-    bar_s = plan.section.length_ns / NS_PER_S / plan.section.bar_count
-    snapshot = picture_of(drummer_of(result, demonstrator), last_pass_s + bar_s / 2)
+    numbers = BarNumbers(plan.first_bar, plan.section.bar_count, plan.passes)
+    tempo_map = result.score.tempo_map
+    tempo_map, last = result.score.tempo_map, plan.pass_starts[-1]
+    begin_s, end_s = tempo_map.seconds_at([tempo_map.bar_start(last), tempo_map.bar_start(last + 1)]).tolist()
+    snapshot = picture_of(drummer_of(result, demonstrator), (begin_s + end_s) / 2)
     marks = no_marks(result.score)
     extras = []
     for judgement in judgements(result.score, result.performance, result.alignment):
@@ -61,7 +62,7 @@ def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) 
         right=right,
         judged=len(result.score),
     )
-    shown = replace(snapshot, marks=marks, extras=tuple(extras), hud=hud, bar_numbers=bar_numbers(plan))
+    shown = replace(snapshot, marks=marks, extras=tuple(extras), hud=hud, bar_numbers=numbers)
     draw_png(shown, path)
 
 

@@ -16,6 +16,7 @@ from station.motion.style.lanes import in_passes
 from station.motion.style.style import Style
 from station.music.score import Score
 from station.practice.session.plan import Plan
+from station.render.snapshot import BarNumbers
 from station.scenes.demonstrator import Demonstrator
 
 Made = TypeVar("Made")
@@ -57,13 +58,15 @@ AHEAD = Ahead()
 
 
 class SessionPart:
-    """The drummer of `score`, the plan's section once or more, which begins at `start_ns` of the transport."""
+    """The drummer of the plan's section `times` times and its landing, who begins at `start_ns` of the transport."""
 
     def __init__(self, plan: Plan, score: Score, start_ns: int, demonstrator: Demonstrator) -> None:
         self.score = score
         self.start_ns = start_ns
         self._plan, self._demonstrator = plan, demonstrator
         self._bars = plan.first_bar, plan.section.bar_count, score.bar_count // plan.section.bar_count
+        self.bar_numbers = BarNumbers(*self._bars)
+        """The lesson's own numbers in every pass."""
         self._style = demonstrator.style
         self._drummer: Drummer | None = None
         self._coming: Future[Drummer] | None = None

@@ -19,7 +19,7 @@ from station.motion.style.style import Style
 from station.music.judgement import Judgement, Label
 from station.practice.session.plan import Phase, Plan
 from station.practice.session.session import Session, SessionResult
-from station.render.snapshot import BarNumbers, ExtraHit, Hud, SeenStrike, Snapshot, TimingCue, mark, no_marks
+from station.render.snapshot import ExtraHit, Hud, SeenStrike, Snapshot, TimingCue, mark, no_marks
 from station.scenes.curves import ScoreCurves, played_of_marks, played_of_result
 from station.scenes.demonstrator import Demonstrator
 from station.scenes.session_part import SessionPart
@@ -52,13 +52,10 @@ class SessionView:
         demonstrations = [s for s in plan.segments if s.phase is Phase.DEMONSTRATION]
         self._passes = SessionPart(plan, plan.score, plan.passes_start_ns, self._demonstrator)
         self._demonstration = (
-            SessionPart(
-                plan, plan.section.repeated(len(demonstrations)), demonstrations[0].start_ns, self._demonstrator
-            )
+            SessionPart(plan, plan.in_a_row(len(demonstrations)), demonstrations[0].start_ns, self._demonstrator)
             if demonstrations
             else self._passes
         )
-        self.bar_numbers = bar_numbers(plan)
         self._marks = no_marks(plan.score)
         self._cue: TimingCue = TimingCue.NONE
         self._cue_ns = 0
@@ -136,7 +133,7 @@ class SessionView:
             extras=self._extras(session) if part is self._passes and session.feedback is not Feedback.NONE else (),
             strikes=strikes(session.heard.recent, now_ns),
             hud=self._hud(session, now_ns, message or _why(session)),
-            bar_numbers=self.bar_numbers,
+            bar_numbers=part.bar_numbers,
             double=double,
         )
 
@@ -147,7 +144,7 @@ class SessionView:
         if not part.is_ready:
             return None
         played = played_of_marks(part.score, self._marks) if part is self._passes else None
-        return ScoreCurves(part.drummer(self._demonstrator.style), position_s, self.bar_numbers, played)
+        return ScoreCurves(part.drummer(self._demonstrator.style), position_s, part.bar_numbers, played)
 
     def make_ahead(self) -> None:
         """Let whoever plays be made while nobody waits."""
@@ -182,7 +179,7 @@ class SessionView:
             figure=drummer.figure,
             pose=drummer.pose(WAITING_S),
             limbs=part.score.notes["limb"],
-            bar_numbers=self.bar_numbers,
+            bar_numbers=part.bar_numbers,
         )
 
     def _extras(self, session: Session) -> tuple[ExtraHit, ...]:
@@ -202,7 +199,7 @@ class SessionView:
             bar=bar,
             beat=beat,
             beats=plan.section.tempo_map.meters[0].beats,
-            bar_count=plan.lesson.score.bar_count,
+            bar_count=max(plan.lesson.score.bar_count, bar or 0),
             beats_a_minute=plan.beats_a_minute,
             count_in=beat if segment.phase is Phase.COUNT_IN else None,
             right=right,
@@ -224,9 +221,9 @@ class SessionView:
 
     def _counts(self, session: Session, pass_index: int) -> tuple[int, int]:
         """Notes right and notes judged of one pass, of those whose marks are shown."""
-        per_pass = len(self.plan.section)
-        first = pass_index * per_pass
-        shown = first + np.flatnonzero(self._marks["label"][first : first + per_pass] >= 0)
+        first = pass_index * len(self.plan.section)
+        end = first + len(self.plan.section) if pass_index + 1 < self.plan.passes else len(self.plan.score)
+        shown = first + np.flatnonzero(self._marks["label"][first:end] >= 0)
         verdicts, is_grace = session.verdicts, self.plan.score.is_grace
         judged = [note for note in shown.tolist() if note in verdicts]
         right = sum(is_right(verdicts[note], bool(is_grace[note]), session.plan.level.windows) for note in judged)
@@ -237,7 +234,7 @@ def result_curves(result: SessionResult, demonstrator: Demonstrator) -> ScoreCur
     """The whole of a session that is over: who demonstrated it, and every stroke of the student."""
     plan = result.plan
     part = SessionPart(plan, result.score, 0, demonstrator)
-    return ScoreCurves(part.drummer(demonstrator.style), None, bar_numbers(plan), played_of_result(result))
+    return ScoreCurves(part.drummer(demonstrator.style), None, part.bar_numbers, played_of_result(result))
 
 
 def strikes(hits: Iterable[Hit], now_ns: int) -> tuple[SeenStrike, ...]:
@@ -254,11 +251,6 @@ def _by_key(verdict: Judgement, hits: Sequence[Hit]) -> bool:
 def _why(session: Session) -> str:
     """The reason for the pass, while it is counted in."""
     return session.message if session.state().segment.phase is not Phase.PASS else ""
-
-
-def bar_numbers(plan: Plan) -> BarNumbers:
-    """The lesson's own numbers in every pass."""
-    return BarNumbers(plan.first_bar, plan.section.bar_count)
 
 
 def cue_of(verdict: Judgement, windows: Windows) -> TimingCue:

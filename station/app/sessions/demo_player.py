@@ -29,7 +29,6 @@ from station.engine.messages import Command, Play, Stop
 from station.motion.drummer import Drummer
 from station.motion.kit.kit import Kit
 from station.motion.sticking.hand_notes import Hands
-from station.music.score import Score
 from station.practice.demonstration.song_cues import SOUNDED_NS, CountIn, after, count_in_of, song_cues
 from station.practice.demonstration.song_player import FLAGS, Song, SongPlayer, SongStep
 from station.practice.session.click_pattern import PLAIN, ClickPattern
@@ -89,6 +88,8 @@ class DemoPlayer:
     ) -> None:
         self._send = send
         self._watched = watched
+        self.score = watched.lesson.played_once
+        """The whole lesson at its own tempo, and its landing."""
         self._demonstrator = demonstrator or Demonstrator()
         self._drummer: Drummer | None = None
         self._flags: dict[str, tuple[int | None, ...]] = {}
@@ -108,11 +109,6 @@ class DemoPlayer:
         """What is demonstrated."""
         return self._watched.lesson
 
-    @property
-    def score(self) -> Score:
-        """The whole lesson at its own tempo."""
-        return self._watched.lesson.score
-
     def load(self, watched: DemonstratedLesson, bars: tuple[int, int] | None) -> None:
         """Take a lesson, its `bars` (first, last, from 1) as the loop; the same lesson stays where it is."""
         before, self._watched = self._watched, watched
@@ -121,6 +117,7 @@ class DemoPlayer:
         if watched.lesson is not before.lesson:
             self.halt()
             self._flags[before.lesson.name] = self.player.flags
+            self.score = watched.lesson.played_once
             flags = self._flags.get(watched.lesson.name, (None,) * FLAGS)
             self.player = SongPlayer(Song.of(self.score), speed_percent=self.player.speed_percent, flags=flags)
         self.repeat(bars)

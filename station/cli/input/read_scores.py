@@ -60,13 +60,17 @@ def load_score(name: str) -> Score:
 
 
 def load_led_score(name: str, kit: Kit, hands: Hands | None = None, as_written: bool = False) -> Score:
-    """The score that `name` means, a lesson's sticking read for the `hands` that play `kit` unless `as_written`."""
-    score = load_score(name)
-    if as_written or not is_lesson(name):
-        return score
+    """The score that `name` means, a lesson with its landing.
+
+    Its sticking is read for the `hands` that play `kit` unless `as_written`.
+    """
+    if not is_lesson(name):
+        return load_score(name)
+    from station.drills.library import find_lesson
     from station.motion.sticking.limbs import as_led
 
-    return as_led(score, kit, hands)
+    score = find_lesson(name).played_once
+    return score if as_written else as_led(score, kit, hands)
 
 
 def kit_of_lesson(name: str) -> str:

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 from station.core.errors import BadInput
-from station.drills.grid.cell_strokes import CellPlace
 from station.drills.grid.grid import Bar, GridFrame, parse_line
 from station.drills.grid.swing import Swing
 from station.drills.grid.tab_symbols import CHOKE, HOLD
@@ -23,8 +22,6 @@ TUPLET_CELLS = (3, 6, 5, 7, 2, 4, 9, 10, 12, 8, 14, 15, 16, 20, 21, 24, 28, 30, 
 _RARE_CELLS = (12, 16, 5, 7, 10, 24, 32)
 MOST_SHARED_CELLS = 12
 """Beyond so many cells a beat each line is cut for itself: finer bars are hard to read. Our choice."""
-_COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 6: "·t·a·", 8: "·e·&·a·"}
-"""How drummers count the cells after the beat's number."""
 REST = "-"
 REPEAT = "%"
 
@@ -85,22 +82,6 @@ def with_repeats(bars: Sequence[str], new_bar: Sequence[bool]) -> str:
     return "| " + " | ".join(cells) + " |"
 
 
-def counted(skeleton: str, setting: GridSetting) -> str:
-    """How a drummer counts the cells of this bar, beneath each other: `1e&a 2e&a …`; blank where no count is usual."""
-    cells = _cells(skeleton, setting.frame).cells
-    unit = setting.frame.meter.beat_ticks
-    starts = [c.tick for c in cells]
-    out = [" "] * len(skeleton)
-    for beat in range(setting.frame.meter.beats):
-        inside = [c for c in cells if beat * unit <= c.tick < (beat + 1) * unit]
-        if not inside or beat * unit not in starts:
-            continue
-        names = f"{(beat + 1) % 10}" + _COUNTS.get(len(inside), "·" * (len(inside) - 1))
-        for cell, name in zip(inside, names, strict=True):
-            out[cell.char] = name
-    return "".join(out)
-
-
 _Point = tuple[int, int | None]
 """A tick of the bar at which a cell must start, and the tick that must be that cell's middle (None: any)."""
 
@@ -135,13 +116,11 @@ class _Slot:
 
 @cache
 def _slots(skeleton: str, setting: GridSetting) -> tuple[_Slot, ...]:
-    length = setting.frame.meter.bar_ticks
+    meter = setting.frame.meter
     slots: list[_Slot] = []
     for cell in _cells(skeleton, setting.frame).cells:
-        here = CellPlace(0, length, cell.tick, cell.swings)
-        at, middle, end = (
-            here.later(ticks).played(setting.swing) for ticks in (0, cell.length_ticks // 2, cell.length_ticks)
-        )
+        ticks = (cell.tick, cell.tick + cell.length_ticks // 2, cell.tick + cell.length_ticks)
+        at, middle, end = (setting.swing.swung(t, meter) if cell.swings else t for t in ticks)
         slots.append(_Slot(at, middle, end, cell.char))
     return tuple(slots)
 
@@ -149,7 +128,7 @@ def _slots(skeleton: str, setting: GridSetting) -> tuple[_Slot, ...]:
 @cache
 def _cells(skeleton: str, frame: GridFrame) -> Bar:
     faults: list[str] = []
-    (bar,) = parse_line(skeleton, frame, lambda _, text: faults.append(text))
+    (bar,) = parse_line(skeleton, [frame], lambda _, text: faults.append(text))
     return bar
 
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Ornament, Piece, word
-from station.drills.grid.cell_strokes import GRACE_LEADS_MS
 from station.drills.grid.grid_writer import GridMark, LineText
 from station.drills.grid.sticking_line import BOTH, HANDS, RIGHT_FIRST, STICKING
 from station.drills.grid.tab_symbols import ALIASES, FOOT_OF, LETTER_OF, LINE_ORDER, TabSymbol, family_of
+from station.drills.grid.touch import Graces
 from station.music.score import Note, Score
 
 _HAND_LETTER = {limb: letter for letter, limb in HANDS.items()}
@@ -94,7 +94,7 @@ def _strokes(score: Score) -> Iterable[WrittenStroke]:
     for i, note in enumerate(score):
         bar = int(bars[i])
         if note.lead_ms > 0:
-            if note.lead_ms not in GRACE_LEADS_MS.get(note.ornament, ()):
+            if note.lead_ms not in Graces().leads_ms(note.ornament):
                 raise BadInput("score", f"bar {bar + 1}", f"a grace stroke {note.lead_ms:g} ms before its note")
             continue
         stroke = WrittenStroke(note, bar, starts[bar])

@@ -19,10 +19,11 @@ from station.drills.lesson import Lesson
 from station.drills.mastery.equipment_faults import rewired
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.next_pass import begin, fix_tempo, new_item, next_step, veto
-from station.drills.mastery.pass_facts import PassResult, measure_pass
+from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.practice_steps import PassKind, PracticeStep, item_of
 from station.drills.mastery.rules import Rules
 from station.drills.orchestration import reorchestrated
+from station.engine.engine import KEYBOARD
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
@@ -180,19 +181,13 @@ class Adaptation:
         swap = self.state.equipment.swap
         performance = rewired(result.performance, swap)
         alignment = result.alignment if swap is None else align(result.score, performance, clocked=True)
-        return measure_pass(result.score, performance, alignment, lesson_bars(result.plan), self.level.windows)
+        view = PassView(self.level.windows, self.rules.asked, result.device != KEYBOARD)
+        return measure_pass(result.score, performance, alignment, result.plan.practised_bars, view)
 
 
 def held_words(level: Level, after: Level) -> str:
     """That a student who holds a lesson at `level` is judged at the one `after` it."""
     return f"You hold it at {level}: judged as {after} from next time on."
-
-
-def lesson_bars(plan: Plan) -> tuple[int, ...]:
-    """The lesson's bar (from 0) of each bar of the plan's score."""
-    if plan.rounds is not None:
-        return plan.rounds.bars
-    return tuple(range(plan.first_bar, plan.first_bar + plan.section.bar_count)) * plan.passes
 
 
 # --- all passes in a row ----------------------------------------------------------------------------------------------
@@ -277,7 +272,7 @@ def _whole_plan(plans: list[Plan], row: ScoreRow, bars: tuple[int, int]) -> Plan
     score, last = row.score, plans[-1]
     names = np.full(score.bar_count, bars[0], np.int64)
     for start, plan in zip(row.start_bars, plans, strict=True):
-        played = lesson_bars(plan)
+        played = plan.bar_names
         names[start : start + len(played)] = played
     silences = tuple(
         (start_ns + begin_ns, start_ns + end_ns)
@@ -295,6 +290,7 @@ def _whole_plan(plans: list[Plan], row: ScoreRow, bars: tuple[int, int]) -> Plan
         segments=segments,
         passes_start_ns=0,
         end_ns=score.length_ns,
+        landing=last.landing[:0],
         rounds=Rounds(tuple(names.tolist()), row.start_bars, bars, silences),
     )
 

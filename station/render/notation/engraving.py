@@ -155,9 +155,7 @@ class _BarEngraver:
         )
         meter = self._tempo.meter_at(self._start)
         if self._bar > 0 and meter.tick == self._start:  # above the staff: time leaves no room for it between notes
-            self._draw_list.text(
-                f"{meter.beats}/{meter.unit}", (x, BAR_NUMBER_Y + 0.6), TypeStyle(1.5, BRAND, Face.BOLD)
-            )
+            self._draw_list.text(str(meter), (x, BAR_NUMBER_Y + 0.6), TypeStyle(1.5, BRAND, Face.BOLD))
 
     def _silent_bar(self) -> None:
         if self._start < self._e.score.end_tick:
