@@ -3,6 +3,8 @@
 Places are eighths or sixteenths of the bar, counted from 0; swung offbeats count as the eighth that they are.
 """
 
+from itertools import pairwise
+
 import pytest
 
 from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece
@@ -186,6 +188,13 @@ def test_a_fill_lesson_is_three_bars_and_a_fill_that_lands(name: str) -> None:
     landing = {n.piece for n in lesson.score if n.tick == 0}
     assert Piece.KICK in landing
     assert Piece.CRASH_1 in landing or {"country", "funk", "latin"} & set(lesson.tags)
+    assert {Piece.KICK, Piece.CRASH_1} <= set(lesson.landing["piece"].tolist())
+
+
+@pytest.mark.parametrize("name", [n for n in lesson_names() if find_lesson(n).prerequisites])
+def test_what_comes_before_is_there_and_no_harder(name: str) -> None:
+    lesson = find_lesson(name)
+    assert all(find_lesson(before).level <= lesson.level for before in lesson.prerequisites)
 
 
 @pytest.mark.parametrize("style", list(FILLS))
@@ -332,6 +341,52 @@ def test_the_street_ends_on_a_buzz() -> None:
     (buzz,) = [n for n in find_lesson("second-line-1").score if n.articulation is Articulation.BUZZ]
     assert buzz.ornament is Ornament.ROLL
     assert buzz.duration_ticks == PPQ // 2
+
+
+def test_latin_turns_into_swing_at_one_tempo() -> None:
+    lesson = find_lesson("latin-jazz-1")
+    assert [lesson.swing_of_bar(bar).ratio for bar in range(8)] == [1.0] * 4 + [1.8] * 4
+    assert len(lesson.score.tempo_map.tempos) == 1
+
+
+def test_a_form_is_played_as_it_says() -> None:
+    assert [s.name for s in find_lesson("rock-song-1").sections] == ["verse", "chorus"] * 2
+    ends = [s.name for s in find_lesson("rock-endings-1").sections]
+    assert ends == ["groove", "first ending", "groove", "second ending"]
+
+
+def test_one_pair_of_hands_has_two_kicks() -> None:
+    lesson = find_lesson("funk-4")
+    for bar in range(2):
+        assert places(lesson, Piece.SNARE, bar, 16) == places(lesson, Piece.SNARE, bar + 2, 16)
+        assert places(lesson, Piece.KICK, bar, 16) != places(lesson, Piece.KICK, bar + 2, 16)
+
+
+def test_the_bell_in_threes_comes_round_after_three_bars() -> None:
+    lesson = find_lesson("polymeter-1")
+    bells = [n.tick for n in of(lesson, Piece.RIDE, Dynamic.ACCENT)]
+    assert bells == [at * 3 * PPQ // 2 for at in range(8)]
+    assert lesson.score.bar_count == 3
+
+
+def test_four_and_seven_in_turn_make_fifteen() -> None:
+    tempo_map = find_lesson("meter-change-1").score.tempo_map
+    assert [tempo_map.bar_start(bar) // (PPQ // 2) for bar in range(5)] == [0, 8, 15, 23, 30]
+
+
+def test_the_fill_from_nothing_only_grows() -> None:
+    lesson = find_lesson("crescendo-fill-1")
+    strokes = [n.velocity for n in of(lesson, Piece.SNARE) if n.tick >= lesson.score.tempo_map.bar_start(3)]
+    assert len(strokes) == 16
+    assert all(a < b for a, b in pairwise(strokes))
+
+
+def test_the_last_bar_slows_down() -> None:
+    tempo_map = find_lesson("ballad-ending-1").score.tempo_map
+    starts_s = [tempo_map.seconds_at(tempo_map.bar_start(bar)) for bar in range(5)]
+    lengths = [b - a for a, b in pairwise(starts_s)]
+    assert lengths[0] == pytest.approx(4 * 60 / 63, abs=1e-6)
+    assert 4 * 60 / 63 < lengths[3] < 4 * 60 / 44
 
 
 def test_what_there_is_to_learn_from() -> None:
