@@ -215,7 +215,7 @@ class _Loop:
         start = tempo_map.bar_start(int(tempo_map.bars_at(tick)))
         pair = 2 * self.swing.unit_ticks
         first = (tick - start) // pair * pair
-        offbeat = self.swing.swung(first + self.swing.unit_ticks, first + pair)
+        offbeat = self.swing.swung(first + self.swing.unit_ticks, tempo_map.meter_at(start))
         written = first + self.swing.unit_ticks if tick - start == offbeat else tick - start
         return round(written % self.beat_ticks * _FINEST / self.beat_ticks) % _FINEST
 

@@ -86,9 +86,17 @@ def read_grid(raw: object, path: KeyPath, before: GridTiming, faults: Faults) ->
     lines = lines_of_table(values, path, found)
     if not lines and values["cycle"] is None and not found:
         found.add((), 'no line to play; expected one such as snare = "----o-------o---"', at_key=True)
+    are_all = not found
     faults.merge(found, *path)
+    if not timing.is_sure:
+        return _unread(values, timing)
     cycles = read_cycles(values["cycle"], (*path, "cycle"), faults)
-    return _Builder(values, path, timing, lines, cycles, faults).section()
+    return _Builder(values, path, timing, lines, cycles, faults, are_all).section()
+
+
+def _unread(values: Mapping[str, Any], timing: GridTiming) -> GridSection:
+    """A grid whose lines cannot be read, for nobody knows in what meter they are: a bar of rest."""
+    return GridSection(values["name"], timing, _bars(timing.meters, 1), ((),) * values["times"])
 
 
 @dataclass(slots=True)
@@ -101,6 +109,7 @@ class _Builder:
     lines: Sequence[RawLine]
     cycles: Sequence[Cycle]
     faults: Faults
+    are_all: bool
 
     def section(self) -> GridSection:
         times: int = self.values["times"]
@@ -113,7 +122,7 @@ class _Builder:
         length = bars[-1].tick + bars[-1].bar_ticks
         clock = BarClock(bars, self.timing.swing)
         self._must_not_cross(lines, bars)
-        own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults)
+        own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults, are_all=self.are_all)
         level = self._loudness(loudness, bars)
         parts = [self._struck([*own, *more], level) for more in self._cycled(bars, length, times)]
         return GridSection(self.values["name"], self.timing, bars, tuple(parts))
@@ -149,7 +158,7 @@ class _Builder:
         return by_repetition(strokes, length, times)
 
     def _loudness(self, line: ParsedLine | None, bars: Sequence[MeterChange]) -> Loudness:
-        if line is None or not all(bar.sound for bar in line.bars):
+        if line is None or not (line.aligned and all(bar.sound for bar in line.bars)):
             return Loudness()
         starts = [bar.tick for bar in bars]
         return read_loudness(zip(starts, line.bars, strict=False), line.reporter(self.faults))

@@ -29,7 +29,8 @@ class GridTiming:
 
     `tempo_bpm` in quarter notes a minute; `tempo_to_bpm` the tempo at which this grid arrives, None where it keeps
     its own (the next grid does not inherit it); `meters` are taken in turn, bar by bar, their ticks 0; `beat_ticks`
-    is the beat that `tempo_bpm` counts in the file and that `(…)` fills; `swing_path` is where the swing is written.
+    is the beat that `tempo_bpm` counts in the file and that `(…)` fills; `swing_path` is where the swing is
+    written. Where the file's meter or beat is wrong, `is_sure` is False up to the next meter.
     """
 
     tempo_bpm: float
@@ -39,6 +40,7 @@ class GridTiming:
     touch: Touch = field(default_factory=Touch)
     tempo_to_bpm: float | None = None
     swing_path: KeyPath = ("swing_ratio",)
+    is_sure: bool = True
 
     @property
     def velocities(self) -> Velocities:
@@ -117,6 +119,7 @@ def timing_of(values: Mapping[str, Any], before: GridTiming, faults: Faults, pat
 
     Faults count from that table.
     """
+    is_wrong = any(fault.path[:1] in (("meter",), ("beat",)) for fault in faults.noted)
     beat_ticks = before.beat_ticks if values["beat"] is None else values["beat"]
     ratio, unit = values["swing_ratio"], values["swing_unit"]
     was, changes = before.velocities, values["dynamics"] or {}
@@ -130,6 +133,7 @@ def timing_of(values: Mapping[str, Any], before: GridTiming, faults: Faults, pat
         touch,
         _tempo(values, "tempo_to_bpm", beat_ticks, faults),
         before.swing_path if ratio is unit is None else (*path, "swing_ratio" if unit is None else "swing_unit"),
+        not is_wrong and (before.is_sure or values["meter"] is not None),
     )
 
 
@@ -163,5 +167,7 @@ def _rising(before: Sequence[int], changes: Mapping[str, Any], *path: str) -> tu
     """Ghost, normal and accent velocities, as `before` but for the changes of the table at `path`."""
     ghost, normal, accent = (changes.get(key, was) for key, was in zip(_VELOCITIES, before, strict=True))
     if not ghost <= normal <= accent:
-        raise wrong(f"ghost {ghost}, normal {normal}, accent {accent}: expected rising velocities", *path)
+        said_first = next(key for key in changes if key in _VELOCITIES)
+        text = f"ghost {ghost}, normal {normal}, accent {accent}: expected rising velocities"
+        raise wrong(text, *path, said_first)
     return ghost, normal, accent

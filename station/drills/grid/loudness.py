@@ -53,7 +53,7 @@ class Loudness:
         if not self.ramps[i]:
             return self.gains[i]
         share = (tick - self.ticks[i]) / (self.ticks[i + 1] - self.ticks[i])
-        return self.gains[i] ** (1 - share) * self.gains[i + 1] ** share
+        return float(self.gains[i] ** (1 - share) * self.gains[i + 1] ** share)
 
 
 def read_loudness(bars: Iterable[tuple[int, Bar]], report: Report) -> Loudness:
