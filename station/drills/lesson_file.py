@@ -26,7 +26,7 @@ from station.drills.grid.cell_strokes import Origin, WrittenCell, expand
 from station.drills.grid.grid_reader import read_grid
 from station.drills.grid.grid_timing import GridTiming, timing_of
 from station.drills.grid.landing import read_landing
-from station.drills.grid.voice import MAX_CELLS, CellCount
+from station.drills.grid.voice import MAX_BARS, MAX_CELLS, CellCount
 from station.drills.lesson import Goals, Lesson
 from station.drills.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
 from station.drills.stretches import (
@@ -57,7 +57,8 @@ class Reading:
 
 def read_lesson(path: Path) -> Lesson:
     """The lesson in the file at `path`; raises `BadInput` with the place of the first fault."""
-    return read(lesson_source(path), lesson_reader(path.stem))
+    source = lesson_source(path)
+    return replace(read(source, lesson_reader(path.stem)), text=source.text)
 
 
 def lesson_source(path: Path) -> Source:
@@ -71,7 +72,9 @@ def lesson_source(path: Path) -> Source:
 
 def parse_lesson(text: str, source: str, name: str) -> Reading:
     """Read a lesson's text; `source` names it in faults, `name` becomes the lesson's."""
-    return Reading(*reading(text_source(text, source), lesson_reader(name)))
+    found = text_source(text, source)
+    lesson, faults = reading(found, lesson_reader(name))
+    return Reading(lesson and replace(lesson, text=found.text), faults)
 
 
 def lesson_reader(name: str) -> Reader[Lesson]:
@@ -82,17 +85,19 @@ def lesson_reader(name: str) -> Reader[Lesson]:
 def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     """The lesson that these values make; raises `Wrong` for their `faults` and all that is found on the way."""
     timing = timing_of(values, DEFAULT_TIMING, faults)
+    before = len(faults)
     written = [] if values["grid"] is None else _written(values["grid"], faults)
     no_grids: list[ReadGrid] = []
     grids = faults.attempt(lambda _: _read_grids(written, timing, faults), written, no_grids)
     order = played_order(values["form"], written, faults)
     nothing: list[Stretch] = []
     stretches = faults.attempt(lambda _: laid_out(order, grids), grids, nothing) if grids else nothing
+    are_sure = timing.is_sure and len(faults) == before  # else there may be more bars than could be read
     score, origins = _score(stretches, written, faults)
     lesson = Lesson(
         name=name,
         score=replace(score, title=values["title"]),
-        loop=_loop(values["loop"], score.bar_count, faults),
+        loop=_loop(values["loop"], score.bar_count if are_sure else MAX_BARS, faults),
         swing=stretches[0].grid.section.timing.swing if stretches else timing.swing,
         beat_ticks=timing.beat_ticks,
         sections=sections_of(stretches),
@@ -140,7 +145,8 @@ def _read_grids(written: Sequence[WrittenGrid], timing: GridTiming, faults: Faul
         before = timing if not grids else grids[-1 if each.like is None else each.like].section.timing
         found = Faults()
         section = read_grid(each.raw, each.path, before, found, cells)
-        shape = GridShape(section.meters, section.times, section.timing.beat_ticks, is_sure=not found)
+        is_sure = section.timing.is_sure and not found
+        shape = GridShape(section.meters, section.times, section.timing.beat_ticks, is_sure)
         at_bars = Faults()
         cues = read_cues(each.at, shape, at_bars)
         found.merge(at_bars, *each.path)

@@ -4,11 +4,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from station.core.schema import Field, Fields, anything, checked_values, number, optional, title, whole
+from station.core.expected import either_of, later, list_like
+from station.core.schema import Field, Fields, anything, checked_values, number, optional, table_like, title, whole
 from station.core.toml_faults import Faults
 from station.core.toml_places import KeyPath
 from station.drills.grid.cell_strokes import BarClock, WrittenCell
-from station.drills.grid.cycles import Cycle, by_repetition, cycle_strokes, read_cycles
+from station.drills.grid.cycles import CYCLE, Cycle, by_repetition, cycle_strokes, read_cycles
 from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, cells, lines_of_table, plain_line
 from station.drills.grid.grid_timing import TIMING, GridTiming, timing_of
@@ -64,7 +65,7 @@ class GridSection:
         return [stroke for i, start in enumerate(starts) for stroke in self.repetition(i, start)]
 
 
-_GRID: Fields = {
+GRID: Fields = {
     "name": Field(title, ""),
     "like": optional(anything),  # what the form says is read by its own readers
     "ending": optional(anything),
@@ -75,8 +76,9 @@ _GRID: Fields = {
     "bars": optional(whole(1, MAX_BARS)),
     LOUDNESS: optional(cells),
     **LINES,
-    "cycle": optional(anything),
+    "cycle": optional(later(either_of(table_like(CYCLE), list_like(table_like(CYCLE))))),
 }
+"""The keys of a grid."""
 
 
 def read_grid(
@@ -86,16 +88,23 @@ def read_grid(
 
     `count` has the cells of all grids of a lesson so far; raises `Wrong` where they are more than anyone practises.
     """
-    values, found = checked_values(raw, _GRID, "line")
+    values, found = checked_values(raw, GRID, "line")
     timing = timing_of(values, before, found, path)
     lines = lines_of_table(values, path, found)
     if not lines and values["cycle"] is None and not found:
         found.add((), 'no line to play; expected one such as snare = "----o-------o---"', at_key=True)
+    are_all = not found
     faults.merge(found, *path)
+    if not timing.is_sure:
+        return _unread(values, timing)
     cycles = read_cycles(values["cycle"], (*path, "cycle"), faults)
-    heard = faults if timing.is_known else Faults()
     count = CellCount() if count is None else count
-    return _Builder(values, path, timing, lines, cycles, heard, count, is_whole=not found).section()
+    return _Builder(values, path, timing, lines, cycles, faults, count, are_all).section()
+
+
+def _unread(values: Mapping[str, Any], timing: GridTiming) -> GridSection:
+    """A grid whose lines cannot be read, for nobody knows in what meter they are: a bar of rest."""
+    return GridSection(values["name"], timing, _bars(timing.meters, 1), ((),) * values["times"])
 
 
 @dataclass(slots=True)
@@ -109,8 +118,7 @@ class _Builder:
     cycles: Sequence[Cycle]
     faults: Faults
     cells: CellCount
-    is_whole: bool
-    """Whether all its lines could be read."""
+    are_all: bool
 
     def section(self) -> GridSection:
         times: int = self.values["times"]
@@ -123,7 +131,7 @@ class _Builder:
         length = bars[-1].tick + bars[-1].bar_ticks
         clock = BarClock(bars, self.timing.swing)
         self._must_not_cross(lines, bars)
-        own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults, self.is_whole)
+        own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults, are_all=self.are_all)
         level = self._loudness(loudness, bars)
         parts = [self._struck([*own, *more], level) for more in self._cycled(bars, length, times)]
         return GridSection(self.values["name"], self.timing, bars, tuple(parts))

@@ -24,8 +24,6 @@ left out that nobody counts, for they would hold strokes that were meant elsewhe
 _RARE_CELLS = (12, 16, 5, 7, 10, 24, 32)
 MOST_SHARED_CELLS = 12
 """Beyond so many cells a beat each line is cut for itself: finer bars are hard to read. Our choice."""
-_COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 6: "·t·a·", 8: "·e·&·a·"}
-"""How drummers count the cells after the beat's number."""
 REST = "-"
 REPEAT = "%"
 
@@ -84,29 +82,6 @@ def with_repeats(bars: Sequence[str], new_bar: Sequence[bool]) -> str:
     """The bars between bar lines; one that is not new is written as a repeat of the one before it."""
     cells = [bar if new else REPEAT.ljust(len(bar)) for bar, new in zip(bars, new_bar, strict=True)]
     return "| " + " | ".join(cells) + " |"
-
-
-def counted(skeleton: str, setting: GridSetting) -> str:
-    """How a drummer counts the cells of this bar, beneath each other: `1e&a 2e&a …`; blank where no count is usual."""
-    cells = _cells(skeleton, setting.frame).cells
-    meter = setting.frame.meter
-    unit = meter.beat_ticks
-    starts = [c.tick for c in cells]
-    out = [" "] * len(skeleton)
-    for beat in range(meter.beats):
-        inside = [c for c in cells if beat * unit <= c.tick < (beat + 1) * unit]
-        if not inside or beat * unit not in starts:
-            continue
-        names = f"{beat_name(beat, meter)}" + _COUNTS.get(len(inside), "·" * (len(inside) - 1))
-        for cell, name in zip(inside, names, strict=True):
-            out[cell.char] = name
-    return "".join(out)
-
-
-def beat_name(beat: int, meter: MeterChange) -> int:
-    """The number by which `beat`, from 0, is counted: in each group where these are of eighths, "123 12 12"."""
-    group = max((b for b in meter.group_starts if b <= beat), default=0) if meter.groups and meter.unit >= 8 else 0
-    return (beat - group + 1) % 10
 
 
 _Point = tuple[int, int | None]

@@ -33,16 +33,17 @@ def read_landing(raw: object, timing: GridTiming, faults: Faults, path: KeyPath 
     lines = lines_of_table(values, path, found)
     if not lines and not found:
         found.add((), 'nothing to land on; expected a line such as crash = "X"', at_key=True)
+    are_all = not found
     faults.merge(found, *path)
     frames = [GridFrame(_BEAT, _BEAT.beat_ticks)]
     under = plain_line(values, STICKING, path)
     sound = [line for line in lines if _is_one_stroke(line, faults)]
     if under and len(under.text.strip()) != 1:
-        faults.add(under.line.path, "expected one letter: R, L or B")
+        faults.add(under.line.path, "expected one letter: R, L or B", _first(under.text))
         under = None
     voices = [parsed(line, frames, faults) for line in sound]
     hands = parsed(under, frames, faults) if under and len(sound) == len(lines) else None
-    strokes = voice_strokes(voices, hands, [0], BarClock([_BEAT], timing.swing), faults, is_whole=not found)
+    strokes = voice_strokes(voices, hands, [0], BarClock([_BEAT], timing.swing), faults, are_all=are_all)
     rows, _ = expand([replace(stroke, touch=timing.touch) for stroke in strokes])
     return rows[np.lexsort((rows["piece"], -rows["lead_ms"]))] if len(rows) else np.zeros(0, NOTE_DTYPE)
 
@@ -51,10 +52,15 @@ def _is_one_stroke(line: RawLine, faults: Faults) -> bool:
     """Whether the line is one letter that strikes once; a fault if not."""
     letter = line.text.strip()
     if len(letter) != 1 or letter in _NOTHING_STRUCK:
-        faults.add(line.line.path, 'expected one letter that is struck, such as "X"')
+        faults.add(line.line.path, 'expected one letter that is struck, such as "X"', _first(line.text))
         return False
     symbol = SYMBOLS[family_of(line.line.piece)].get(letter)
     if symbol and symbol.ornament is Ornament.DIDDLE:
-        faults.add(line.line.path, "a diddle is two strokes, and the landing is one; expected o")
+        faults.add(line.line.path, "a diddle is two strokes, and the landing is one; expected o", _first(line.text))
         return False
     return True
+
+
+def _first(text: str) -> int:
+    """The index of the first letter."""
+    return len(text) - len(text.lstrip())

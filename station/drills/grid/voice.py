@@ -96,11 +96,12 @@ def voice_strokes(
     starts: Sequence[int],
     clock: BarClock,
     faults: Faults,
-    is_whole: bool = True,
+    *,
+    are_all: bool = True,
 ) -> list[WrittenCell]:
     """The strokes of lines whose bars begin at `starts`, with the hands that the sticking line `under` them says.
 
-    Where the lines are not all that were written (`is_whole`), a hand without a stroke is no fault.
+    `are_all` tells whether all lines of the table could be read; if not, a stroke may be missing anywhere.
     """
     strokes: list[WrittenCell] = []
     for line in lines:
@@ -109,5 +110,5 @@ def voice_strokes(
     if under is None or not under.aligned:
         return strokes
     bars = range(len(starts))
-    unsure = frozenset(bar for bar in bars if not is_whole or any(line.is_unsure(bar) for line in lines))
+    unsure = frozenset(bar for bar in bars if not are_all or any(line.is_unsure(bar) for line in lines))
     return apply_sticking(zip(starts, under.bars, strict=False), strokes, under.reporter(faults), unsure)

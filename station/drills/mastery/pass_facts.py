@@ -12,24 +12,21 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Ornament, Piece
+from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
+from station.drills.mastery.asked_parts import Part
+from station.drills.mastery.part_facts import NoteFacts, PartResult, part_result
+from station.drills.mastery.pass_spread import Flags, leaning, steady_strokes
 from station.music.judgement import Label
 from station.music.passages import Swung, slots, swung
 from station.music.performance import Performance
 from station.music.score import Score
+from station.scoring.analysis.loudness import dynamics
 from station.scoring.analysis.points import points
-from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
-from station.scoring.matching.alignment import Alignment
+from station.scoring.analysis.timing_spread import asynchrony_ms
+from station.scoring.matching.alignment import Alignment, Reference
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
 from station.scoring.matching.right import right_notes
-
-Floats = NDArray[np.float64]
-Flags = NDArray[np.bool_]
-
-LEAST_FREEDOM = 3
-"""With fewer degrees of freedom a spread says nothing; our choice."""
-_ROLLS = (Ornament.DIDDLE, Ornament.ROLL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +51,10 @@ class StruckFor:
 class PassResult:
     """One pass: `right` of `notes` were (`scoring.matching`), `wrong_pads` struck elsewhere, `extras` not written.
 
-    `played` notes were matched, right or not; `sd_ms` the spread about leans and swing, `lean_ms` the mean asynchrony,
-    `interval_ms` the usual wait between strokes as they were played, `swing_ratio` the ratio that was held (None where
-    nothing swings), `points` 0–100.
+    `played` notes were matched, right or not; `sd_ms` the spread about leans and swing, `lean_ms` the mean asynchrony
+    (None without a click), `interval_ms` the usual wait between strokes as they were played, `swing_ratio` the ratio
+    that was held (None where nothing swings), `points` 0–100, `loudness_error_db` the mean distance from the written
+    loudness, `parts` what the lesson asks something of besides.
     """
 
     notes: int
@@ -71,6 +69,8 @@ class PassResult:
     points: float | None = None
     bars: tuple[BarResult, ...] = ()
     answers: tuple[StruckFor, ...] = ()
+    loudness_error_db: float | None = None
+    parts: tuple[PartResult, ...] = ()
 
     @property
     def is_silent(self) -> bool:
@@ -78,66 +78,62 @@ class PassResult:
         return self.notes > 0 and not (self.played or self.right or self.wrong_pads or self.extras)
 
 
+@dataclass(frozen=True, slots=True)
+class PassView:
+    """How a pass is looked at: what is right by the level's `windows`, and the `parts` that are summed up besides.
+
+    `hears_velocity` False where the input cannot tell loud from soft.
+    """
+
+    windows: Windows = DEFAULT_LEVEL
+    parts: tuple[Part, ...] = ()
+    hears_velocity: bool = True
+
+
 def measure_pass(
     score: Score,
     performance: Performance,
     alignment: Alignment,
     bars: Sequence[int] | None = None,
-    windows: Windows = DEFAULT_LEVEL,
+    view: PassView | None = None,
 ) -> PassResult:
     """Sum up one pass over `score`, at the tempo at which it was played.
 
     `bars` names the lesson's bar (from 0) of each bar of `score`, several times where it is repeated (None: its own).
     """
+    view = view or PassView()
     names = np.arange(score.bar_count) if bars is None else np.asarray(bars, np.int64)
-    off_ms, rows, swing = asynchrony_ms(alignment), _steady(score, alignment), swung(score)
-    leaning = _leaning(score, off_ms, rows, swing.flags)
-    right = right_notes(score, alignment, windows)
+    swing, off_ms = swung(score), asynchrony_ms(alignment)
+    notes = NoteFacts(
+        score,
+        bar=names[score.bar],
+        off_ms=off_ms,
+        steady=steady_strokes(score, alignment),
+        offbeat=swing.flags,
+        right=right_notes(score, alignment, view.windows),
+        off_db=dynamics(score, performance, alignment).off_db if view.hears_velocity else np.full(len(score), np.nan),
+        is_clocked=alignment.reference is not Reference.PLAYER,
+    )
+    held, every = leaning(score, off_ms, notes.steady, swing.flags), np.ones(len(score), np.bool_)
     return PassResult(
         notes=len(score),
-        right=int(right.sum()),
+        right=int(notes.right.sum()),
         wrong_pads=alignment.count(Label.WRONG_PIECE),
         extras=alignment.count(Label.EXTRA),
         played=alignment.count(Label.MATCH),
-        sd_ms=leaning.sd_ms,
-        lean_ms=float(off_ms[rows].mean()) if rows.any() else None,
+        sd_ms=held.sd_ms,
+        lean_ms=notes.lean_ms(every),
         interval_ms=usual_interval_ms(score),
-        swing_ratio=_swing_ratio(leaning.swing_ms, rows, swing),
+        swing_ratio=_swing_ratio(held.swing_ms, notes.steady, swing),
         points=points(score, alignment, None),
-        bars=_by_bar(names[score.bar], right),
+        bars=_by_bar(notes.bar, notes.right),
         answers=_answers(score, performance, alignment),
+        loudness_error_db=notes.loudness_error_db(every),
+        parts=tuple(part_result(part, notes) for part in view.parts),
     )
 
 
 # --- timing -----------------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True, eq=False)
-class _Leaning:
-    """What is the player's own and no fault: `due_ms` (n,), of it `swing_ms` of swung rows; the spread that is left."""
-
-    due_ms: Floats
-    swing_ms: float
-    sd_ms: float | None
-
-
-def _steady(score: Score, alignment: Alignment) -> Flags:
-    """The strokes (n,) whose time counts: matched, neither grace strokes nor parts of diddles and rolls."""
-    notes = score.notes
-    rolled = np.isin(notes["ornament"], _ROLLS) | (notes["duration_ticks"] > 0)
-    return np.asarray(timed_notes(score, alignment) & ~rolled)
-
-
-def _leaning(score: Score, off_ms: Floats, rows: Flags, offbeat: Flags) -> _Leaning:
-    """Least squares over the `rows` that count: a lean for each piece, and one that swung offbeats share."""
-    pieces = np.unique(score.notes["piece"][rows])
-    by_piece = score.notes["piece"][:, None] == pieces
-    columns = np.column_stack([by_piece, offbeat]).astype(np.float64)
-    lean, _, rank, _ = np.linalg.lstsq(columns[rows], off_ms[rows], rcond=None)
-    due_ms: Floats = columns @ lean
-    left, freedom = (off_ms - due_ms)[rows], int(rows.sum()) - int(rank)
-    sd_ms = float((left @ left / freedom) ** 0.5) if freedom >= LEAST_FREEDOM else None
-    return _Leaning(due_ms, float(lean[-1]), sd_ms)
 
 
 def usual_interval_ms(score: Score) -> float | None:

@@ -13,6 +13,7 @@ from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
 from station.drills.grid.swing import STRAIGHT
 from station.drills.lesson import Lesson
+from station.drills.mastery.asked_parts import AskedPart, Part, asked_parts
 from station.drills.mastery.pass_mark import PASS_MARKS
 from station.scoring.matching.hit_windows import Level
 
@@ -42,7 +43,10 @@ class Rules:
     max_swing_error: float | None = None
     swing_ratio: float = STRAIGHT
     min_points: float | None = None
-    """A lesson's own goals; None leaves it to the lines above and judges neither lean, swing nor points."""
+    max_loudness_error_db: float | None = None
+    """A lesson's own goals; None leaves it to the lines above and judges neither lean, swing, points nor loudness."""
+    parts: tuple[AskedPart, ...] = ()
+    """What a lesson asks of limbs and bars besides; only a lesson can."""
 
     # --- the tempo's ladder (TEACHING) ---
     start_pct: float = 70.0
@@ -126,11 +130,18 @@ class Rules:
             max_swing_error=goals.max_swing_error,
             swing_ratio=lesson.swing_ratio,
             min_points=goals.min_score,
+            max_loudness_error_db=goals.max_loudness_error_db,
+            parts=asked_parts(lesson),
         )
+
+    @property
+    def asked(self) -> tuple[Part, ...]:
+        """The parts of which a lesson asks something."""
+        return tuple(each.part for each in self.parts)
 
     def changed(self, changes: Mapping[str, Any]) -> "Rules":
         """These rules with a teacher's `changes` by name; raises `BadInput` for a name or value that cannot be."""
-        known = {field.name for field in fields(self)}
+        known = {field.name for field in fields(self)} - {"parts"}
         for name, value in changes.items():
             if name not in known:
                 raise BadInput("mastery rules", name, f"no such rule{did_you_mean(name, sorted(known))}")

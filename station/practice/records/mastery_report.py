@@ -4,16 +4,13 @@ from station.drills.mastery.agenda import Turn
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.practice_steps import PracticeItem, PracticeStep
 from station.drills.mastery.rules import Rules
-from station.practice.records.what_next import advice_of
+from station.practice.records.what_next import MOST_STEPS, advice_of
 from station.practice.session.adaptation import Adaptation, PlayedPass, held_words
 from station.scoring.report.assessment_document import Json
 
-MOST_STEPS = 3
-"""So many sentences on what to do next (part of every report): the policy's first, then the advice's first."""
-
 
 def with_mastery(document: dict[str, Json], adaptation: Adaptation, turn: Turn | None = None) -> dict[str, Json]:
-    """The report with every pass and its reason, the state of mastery, and what comes next as the first step.
+    """The report with every pass and its reason, the state of mastery, and what comes next: a step, then the advice.
 
     `turn` is what to practise next of all that the student knows, None where nothing is remembered.
     """

@@ -22,8 +22,7 @@ from station.engine.engine import KEYBOARD
 from station.practice.records.mastery_report import passes_text
 from station.practice.records.phase_words import phase_document, phase_lines
 from station.practice.records.stick_words import sticking_lines, sticks_document, sticks_text
-from station.practice.records.what_next import advice_of, table_in, what_next
-from station.practice.session.adaptation import lesson_bars
+from station.practice.records.what_next import advice_of, measured_session, missed_document, table_in, what_next
 from station.practice.session.lesson_places import written_hands
 from station.practice.session.session import SessionResult
 from station.scoring.analysis.points import FREE_LEAN_MS, Feel
@@ -56,6 +55,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
     """The report of a session; computer keys have no velocity, so of them nothing is said of dynamics."""
     plan = result.plan
     document = assessment(summarise(result.score, result.performance, result.alignment, session_view(result, settings)))
+    measured = measured_session(result, document["score"])
     document["session"] = {
         "lesson": plan.lesson.name,
         "title": plan.lesson.title,
@@ -72,13 +72,14 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "output_latency_ms": result.latency.of_output(result.output) / NS_PER_MS,
         "latency": result.latency.words(result.device, result.output),
         "pauses": [
-            {"bar": lesson_bars(plan)[pause.bar] + 1, "asked": pause.asked, "strokes_again": pause.strokes}
+            {"bar": plan.bar_names[pause.bar] + 1, "asked": pause.asked, "strokes_again": pause.strokes}
             for pause in result.pauses
         ],
-        "next": [*what_next(document, plan)],
+        "goals_missed": missed_document(plan, measured),
+        "next": [*what_next(document, plan, measured)],
     }
-    document["sticks"] = sticks_document(result.felt)
-    document["phase"] = phase_document(result.phase)
+    document["sticks"] = sticks_document(result.felt, plan.lesson.goals.faults)
+    document["phase"] = phase_document(result.phase, plan.lesson.goals.faults)
     return document
 
 
@@ -106,16 +107,15 @@ def session_view(result: SessionResult, settings: Settings) -> SummaryView:
     plan = result.plan
     return SummaryView(
         windows=plan.level.windows,
-        pass_bars=plan.section.bar_count,
-        first_bar=plan.first_bar,
         hears_velocity=result.device != KEYBOARD,
         feel=feel_of(plan.lesson.goals),
         kit=kit_facts(settings, result.device),
         silences=plan.silences,
-        bar_names=None if plan.rounds is None else plan.rounds.bars,
+        bar_names=plan.practised_bars,
         beat_ticks=plan.lesson.beat_ticks,
         faults=plan.lesson.goals.faults,
         asks_hand=written_hands(result),
+        hints=plan.lesson.hints,
     )
 
 

@@ -6,6 +6,7 @@ from station.core.events import Hit, StickStroke
 from station.core.pieces import word
 from station.practice.records.phase_words import phase_lines
 from station.practice.records.what_next import table_in
+from station.scoring.analysis.fault_table import Asked
 from station.scoring.report.assessment_document import Json
 from station.sync.strokes.stick_remarks import StickFigures, StickRemark, stick_report
 
@@ -14,9 +15,12 @@ MOST_REMARKS = 3
 """A result's page has room for so many remarks beside all else; the report has them all."""
 
 
-def sticks_document(felt: Sequence[tuple[Hit, StickStroke]]) -> dict[str, Json] | None:
-    """How the sticks were used, from hits each with the stroke that made it; None without sensors."""
-    report = stick_report(felt)
+def sticks_document(felt: Sequence[tuple[Hit, StickStroke]], asked: Asked | None = None) -> dict[str, Json] | None:
+    """How the sticks were used, from hits each with the stroke that made it; None without sensors.
+
+    `asked` are the sizes from which the lesson minds remarks.
+    """
+    report = stick_report(felt, asked)
     if report is None:
         return None
     return {

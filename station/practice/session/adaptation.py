@@ -19,10 +19,12 @@ from station.drills.lesson import Lesson
 from station.drills.mastery.equipment_faults import rewired
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.next_pass import begin, fix_tempo, new_item, next_step, veto
-from station.drills.mastery.pass_facts import PassResult, measure_pass
+from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.practice_steps import PassKind, PracticeStep, item_of
 from station.drills.mastery.rules import Rules
+from station.drills.mastery.verdict import Grade, judge
 from station.drills.orchestration import reorchestrated
+from station.engine.engine import KEYBOARD
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
@@ -46,6 +48,9 @@ from station.scoring.matching.hit_windows import Level
 REST_S = 1.5
 """At least so much silence lies between two passes of the joined score: more than a session listens before its first
 bar and after its last (`session.EARLIEST_NS`, `plan.TAIL_S`), so that no stroke is near two passes."""
+BAD_TO_STRUGGLE = 2
+"""So many passes in a row that are not clean, and what comes before may be missing (our choice: as many as lower the
+tempo)."""
 SILENT_TO_STOP = 2
 """So many passes without a stroke, and nobody is there (TEACHING: auto-pause after two)."""
 
@@ -136,6 +141,13 @@ class Adaptation:
         """Whether the next session is judged more strictly than this one."""
         return self.next_level is not self.level
 
+    @property
+    def struggles(self) -> bool:
+        """Whether the last two passes that were judged were both not clean, nor only as loose as slow waits are."""
+        judged = [judge(one.measured, self._rules_of(one.step.kind)) for one in self.rounds if one.measured is not None]
+        bad = [verdict.grade in (Grade.BAD, Grade.BROKEN) for verdict in judged[-BAD_TO_STRUGGLE:]]
+        return len(bad) == BAD_TO_STRUGGLE and all(bad)
+
     def _rules_of(self, kind: PassKind) -> Rules:
         """What a pass of this `kind` is judged by: a review by the level at which the item was mastered."""
         return self._rules_at(self.state.review.level) if kind is PassKind.REVIEW else self.rules
@@ -180,19 +192,13 @@ class Adaptation:
         swap = self.state.equipment.swap
         performance = rewired(result.performance, swap)
         alignment = result.alignment if swap is None else align(result.score, performance, clocked=True)
-        return measure_pass(result.score, performance, alignment, lesson_bars(result.plan), self.level.windows)
+        view = PassView(self.level.windows, self.rules.asked, result.device != KEYBOARD)
+        return measure_pass(result.score, performance, alignment, result.plan.practised_bars, view)
 
 
 def held_words(level: Level, after: Level) -> str:
     """That a student who holds a lesson at `level` is judged at the one `after` it."""
     return f"You hold it at {level}: judged as {after} from next time on."
-
-
-def lesson_bars(plan: Plan) -> tuple[int, ...]:
-    """The lesson's bar (from 0) of each bar of the plan's score."""
-    if plan.rounds is not None:
-        return plan.rounds.bars
-    return tuple(range(plan.first_bar, plan.first_bar + plan.section.bar_count)) * plan.passes
 
 
 # --- all passes in a row ----------------------------------------------------------------------------------------------
@@ -277,7 +283,7 @@ def _whole_plan(plans: list[Plan], row: ScoreRow, bars: tuple[int, int]) -> Plan
     score, last = row.score, plans[-1]
     names = np.full(score.bar_count, bars[0], np.int64)
     for start, plan in zip(row.start_bars, plans, strict=True):
-        played = lesson_bars(plan)
+        played = plan.bar_names
         names[start : start + len(played)] = played
     silences = tuple(
         (start_ns + begin_ns, start_ns + end_ns)
@@ -295,6 +301,7 @@ def _whole_plan(plans: list[Plan], row: ScoreRow, bars: tuple[int, int]) -> Plan
         segments=segments,
         passes_start_ns=0,
         end_ns=score.length_ns,
+        landing=last.landing[:0],
         rounds=Rounds(tuple(names.tolist()), row.start_bars, bars, silences),
     )
 

@@ -1,4 +1,4 @@
-"""Every fault that advice can name, with the smallest size that a teacher minds: the table of docs/scoring.md.
+"""Every fault that a report can name, with the smallest size that a teacher minds: the table of docs/scoring.md.
 
 A size is a length, never signed: the word says to which side. `least` is what a teacher minds, in `unit`; where the
 music decides it (a share of the interval, a contrast that is written) `findings` works it out and the row says how.
@@ -24,6 +24,8 @@ class Group(IntEnum):
     PULSE = 1
     LEAN = 2
     DYNAMICS = 3
+    STICKS = 4
+    """What only sensors on the sticks tell: said beside the advice, never in it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +89,21 @@ _ROWS = (
     *_both("fades grows", Group.DYNAMICS, "dB", 6.0, _BRIEF),
 )
 FAULTS: Mapping[str, FaultKind] = MappingProxyType({row.word: row for row in _ROWS})
+"""What advice can name."""
+
+_STEP = "half a step between levels (3, 4.5, 6 inches: HUMANS)"
+_FREE_FALL = "more of a hand's strokes slower than a free fall from their height make a habit; our choice"
+_MADE = "height grows 1.7 times as fast as loudness from p to fff (HUMANS), 170 %; our choice, under a third of that"
+_STICK_ROWS = (
+    FaultKind("uneven_heights", Group.STICKS, "% higher", 22.0, _STEP),
+    FaultKind("uneven_rebound", Group.STICKS, "% of the speed", 10.0, "our choice: a fifth of a usual rebound"),
+    FaultKind("wasted_motion", Group.STICKS, "% of the strokes", 25.0, _FREE_FALL),
+    FaultKind("same_height", Group.STICKS, "% of the loudness that height does not make", 50.0, _MADE),
+    FaultKind("grip_changed", Group.STICKS, "°", 30.0, "the sensor no longer sits as it did; our choice"),
+    *_both("hand_ahead hand_behind", Group.STICKS, "ms", 1.0, "nobody hears less (HUMANS: 6 ms at best)"),
+)
+STICK_FAULTS: Mapping[str, FaultKind] = MappingProxyType({row.word: row for row in _STICK_ROWS})
+"""What the report says of sticks, and of a hand's lean against the common motion of both."""
 
 _FEET = MappingProxyType({"late_hihat_pedal": "slow_hihat_foot", "early_hihat_pedal": "early_hihat_foot"})
 
@@ -98,13 +115,14 @@ def of_piece(side: str, piece: str) -> str:
 
 
 PIECE_WORDS = frozenset(of_piece(side, word(piece)) for piece in Piece for side in ("late", "early"))
-WORDS = frozenset(FAULTS) - {"late_piece", "early_piece"} | PIECE_WORDS
-"""Every word that advice can say."""
+WORDS = frozenset(FAULTS) - {"late_piece", "early_piece"} | PIECE_WORDS | frozenset(STICK_FAULTS)
+"""Every word that a report can say, each of which a lesson may size or mute."""
 
 
 def kind_of(fault: str) -> FaultKind:
     """The row that measures a word of `WORDS`."""
-    return FAULTS[fault] if fault in FAULTS else FAULTS[f"{fault.partition('_')[0]}_piece"]
+    row = FAULTS.get(fault) or STICK_FAULTS.get(fault)
+    return row or FAULTS[f"{fault.partition('_')[0]}_piece"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,7 +40,8 @@ class Drill:
 class Advice:
     """One remark: the fault's word, the text, the lesson's bars (from 1), the effect, its 95 % interval, and the drill.
 
-    `alternatives` are other faults that would show in the same way: the data cannot tell.
+    `alternatives` are other faults that would show in the same way: the data cannot tell. `hint` is what the lesson's
+    author adds, empty where they add nothing.
     """
 
     fault: str
@@ -50,6 +51,7 @@ class Advice:
     ci: tuple[float, float]
     alternatives: tuple[str, ...]
     drill: Drill
+    hint: str = ""
 
 
 def advise(summary: Summary) -> tuple[Advice, ...]:
@@ -69,7 +71,8 @@ def _remark(finding: Finding, summary: Summary) -> Advice:
         tempo=tempo,
         slow=SLOWER * tempo,
     )
-    return Advice(finding.fault, text, bars, finding.effect, finding.ci, finding.alternatives, _drill(finding, tempo))
+    drill, hint = _drill(finding, tempo), summary.view.hints.get(finding.fault, "")
+    return Advice(finding.fault, text, bars, finding.effect, finding.ci, finding.alternatives, drill, hint)
 
 
 def _row_of(fault: str) -> str:

@@ -66,6 +66,7 @@ def assessment(summary: Summary) -> dict[str, Json]:
             {
                 "fault": advice.fault,
                 "text": advice.text,
+                "hint": advice.hint or None,
                 "bars": list(advice.bars),
                 "effect": _number(advice.effect),
                 "ci": [_number(end) for end in advice.ci],

@@ -11,12 +11,13 @@ from station.core.pieces import Piece
 from station.drills.lesson import Goals
 from station.drills.library import find_lesson
 from station.drills.mastery.equipment_faults import Equipment, rewired
+from station.drills.mastery.goals_missed import PassFault
 from station.drills.mastery.pass_facts import BarResult, PassResult, StruckFor
 from station.drills.mastery.practice_steps import PracticeItem, item_of
 from station.drills.mastery.reviews import Review
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
 from station.drills.mastery.silent_bars import SilentBars
-from station.drills.mastery.verdict import Grade, PassFault, judge
+from station.drills.mastery.verdict import Grade, judge
 from station.drills.mastery.weak_bars import tallied, weakest
 from station.music.performance import HIT_DTYPE, Performance
 from station.scoring.matching.hit_windows import Level
@@ -83,15 +84,17 @@ def test_loose_is_right_but_for_a_spread_within_an_eighth_of_a_slow_interval() -
 def test_a_lean_costs_nothing_unless_the_lesson_asks() -> None:
     leaning = replace(CLEAN, lean_ms=-24.0)
     assert grade(leaning) is Grade.CLEAN
-    assert judge(leaning, Rules(max_lean_ms=20.0)).faults == (PassFault.LEAN,)
+    assert [miss.fault for miss in judge(leaning, Rules(max_lean_ms=20.0)).missed] == [PassFault.LEAN]
 
 
 def test_swing_and_points_where_a_lesson_asks() -> None:
     swung = replace(CLEAN, swing_ratio=1.5, points=70.0)
     assert grade(swung) is Grade.CLEAN
-    assert judge(swung, Rules(max_swing_error=0.3, swing_ratio=2.0)).faults == (PassFault.SWING,)
+    assert [miss.fault for miss in judge(swung, Rules(max_swing_error=0.3, swing_ratio=2.0)).missed] == [
+        PassFault.SWING
+    ]
     assert judge(swung, Rules(max_swing_error=0.6, swing_ratio=2.0)).is_clean
-    assert judge(swung, Rules(min_points=75.0)).faults == (PassFault.POINTS,)
+    assert [miss.fault for miss in judge(swung, Rules(min_points=75.0)).missed] == [PassFault.POINTS]
 
 
 # --- rules ------------------------------------------------------------------------------------------------------------

@@ -6,8 +6,9 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.drills.lesson_difference import score_difference
 from station.drills.lesson_file import parse_lesson
-from station.drills.lesson_writer import first_difference, write_lesson
+from station.drills.lesson_writer import write_lesson
 from station.drills.library import find_lesson
 from station.drills.quantise import lesson_of, quantise_score
 from station.music.formats.smf.standard_midi import read_midi, score_from_midi
@@ -26,7 +27,7 @@ def fitted(*notes: Note, tempo_map: TempoMap = TEMPO) -> list[Note]:
     text = write_lesson(lesson_of(found.score, "x", "x", found.velocities))
     again = parse_lesson(text, "x", "x").lesson
     assert again
-    assert first_difference(found.score, again.score) == ""
+    assert score_difference(found.score, again.score) == ""
     return list(found.score)
 
 
@@ -37,7 +38,7 @@ def snare(tick: int, velocity: int = 80) -> Note:
 def test_what_the_grid_can_say_stays() -> None:
     lesson = find_lesson("funk-1")
     found = quantise_score(lesson.score)
-    assert first_difference(found.score, lesson.score) == ""
+    assert score_difference(found.score, lesson.score) == ""
     assert (found.moved, found.left_out, found.furthest_ms) == (0, 0, 0)
 
 

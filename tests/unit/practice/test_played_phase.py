@@ -15,6 +15,7 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.played_phase import PhasesHeard, PlayedPhase, all_phases
 from station.practice.session.runner import SessionRunner
+from station.scoring.analysis.fault_table import Asked
 from station.sync.drill.drummed_model import is_soon_made
 from station.sync.drill.phase_feedback import StrokeOffset
 from tests.unit.practice.test_adaptation import TODAY
@@ -79,6 +80,11 @@ def test_only_a_sure_lean_has_a_side() -> None:
         assert lines[0] == "Motion: your sticks were followed through the drill 80% of the time"
         assert words in lines[1]
     assert phase_lines({"phase": None}) == []
+    sized = Asked({"hand_behind": 20.0, "hand_ahead": None})
+    for late_ms in (12.0, -12.0):
+        phase: Any = phase_document(PlayedPhase(100, 80, offsets(late_ms, 5.0)), sized)
+        assert phase["hands"]["left_hand"]["fault"] is None
+        assert phase_lines({"phase": phase})[1].startswith("Motion: left hand spread (SD) ")
 
 
 def test_a_slip_is_no_lean() -> None:

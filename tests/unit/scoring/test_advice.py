@@ -17,7 +17,7 @@ from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.scoring.analysis.fault_table import FAULTS, Asked
+from station.scoring.analysis.fault_table import FAULTS, STICK_FAULTS, Asked
 from station.scoring.analysis.summary import Summary, SummaryView, summarise
 from station.scoring.matching.alignment import Alignment, Reference
 from station.scoring.report.advice import Advice, advise
@@ -105,6 +105,24 @@ def test_what_a_teacher_hears_at_once_is_said_first(fault: str) -> None:
     score, added = PLANTED[fault]
     said = [advise(human_take(score, seed, added)) for seed in SEEDS]
     assert sum(named(one, fault) for one in said) >= len(SEEDS) - 1, [[a.fault for a in one] for one in said]
+
+
+@pytest.mark.parametrize("fault", PLANTED)
+def test_any_word_can_be_muted_or_sized_away(fault: str) -> None:
+    """A size that no fault here comes near; of some words it is what there must be at least."""
+    score, added = PLANTED[fault]
+    must_be_there = fault in ("flat_accents", "loud_ghosts", "loud_graces", "tight_flams")
+    for size in (None, 0.1 if must_be_there else 500.0):
+        view = SummaryView(faults=Asked({fault: size}))
+        assert fault not in [one.fault for one in advise(human_take(score, 1, added, view=view))]
+
+
+def test_a_teachers_hint_comes_with_its_fault() -> None:
+    score, added = PLANTED["late_kick"]
+    view = SummaryView(hints={"late_kick": "Heel up.", "early_kick": "Wait."})
+    assert [(one.fault, one.hint) for one in advise(human_take(score, 1, added, view=view))] == [
+        ("late_kick", "Heel up.")
+    ]
 
 
 @pytest.mark.parametrize(
@@ -290,7 +308,7 @@ def test_ornaments_of_other_kinds_are_no_flams() -> None:
 def test_the_page_of_faults_has_every_word_and_size() -> None:
     page = (Path(__file__).parents[3] / "docs" / "scoring.md").read_text()
     rows = [line for line in page.splitlines() if line.startswith("| `")]
-    for fault, kind in FAULTS.items():
+    for fault, kind in {**FAULTS, **STICK_FAULTS}.items():
         shown = {"late_piece": "late_…", "early_piece": "early_…"}.get(fault, fault)
         (row,) = [line for line in rows if f"`{shown}`" in line]
         assert f"| {kind.group.name.lower()} | {kind.least:g} {kind.unit} |" in row

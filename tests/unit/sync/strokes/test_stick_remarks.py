@@ -8,6 +8,7 @@ import pytest
 
 from station.core.events import Hit, StickStroke
 from station.core.pieces import Limb, Piece, Zone
+from station.scoring.analysis.fault_table import Asked
 from station.sync.strokes.stick_remarks import Pair, StickReport, stick_report
 
 R, L = Limb.RIGHT_HAND, Limb.LEFT_HAND
@@ -29,14 +30,17 @@ def scattered(seed: int, right_m: float, left_m: float, count: int = 60) -> list
     ]
 
 
-def report(pairs: list[Pair]) -> StickReport:
-    made = stick_report(pairs)
+def report(pairs: list[Pair], asked: Asked | None = None) -> StickReport:
+    made = stick_report(pairs, asked)
     assert made is not None
     return made
 
 
-def kinds(pairs: list[Pair]) -> list[str]:
-    return [remark.kind for remark in report(pairs).remarks]
+def kinds(pairs: list[Pair], **asked: float | None) -> list[str]:
+    """What is remarked; mute in any case is what would be."""
+    said = [remark.kind for remark in report(pairs, Asked(asked)).remarks]
+    assert not report(pairs, Asked(dict.fromkeys(said))).remarks
+    return said
 
 
 def test_even_hands_have_figures_and_no_remarks() -> None:
@@ -59,6 +63,15 @@ def test_a_left_stick_that_rises_half_as_high_is_told() -> None:
     assert remark.text.startswith("Your sticks rise unevenly: ")
     assert remark.effect == pytest.approx(2.0, rel=0.1)
     assert remark.ci[0] < 2.0 < remark.ci[1]
+
+
+def test_a_lesson_says_from_which_size_a_remark_counts() -> None:
+    """Right twice as high as left is 100 % higher; half the strokes are held back."""
+    assert kinds(scattered(2, 0.2, 0.1), uneven_heights=70) == ["uneven_heights"]
+    assert kinds(scattered(2, 0.2, 0.1), uneven_heights=130) == []
+    held = [pair(k, R, 0.2, 1.4 if k % 2 else 3.0) for k in range(60)]
+    assert kinds(held, wasted_motion=30) == ["wasted_motion"]
+    assert kinds(held, wasted_motion=45) == []
 
 
 def test_few_strokes_bear_no_remark() -> None:
