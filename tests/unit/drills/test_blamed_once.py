@@ -48,6 +48,11 @@ SLIPS = {
     "a wrong hand letter": ("B-R- LR--", "B-Q- LR--", 9, "'Q' is no sticking"),
     "a hand where none strikes": ("B-R- LR--", "B-RL LR--", 9, "L says a hand, but no hand strikes here"),
     "one hand too few": ("R--- B-R- B-R-", "R--- B-R- R-R-", 9, "two strokes here (snare and hihat)"),
+    "a line that nobody knows": ('snare    = "| ----', 'snair    = "| ----', 8, "no such line: snair"),
+    "a meter that is none": ('name = "groove"', 'name = "groove"\nmeter = "5/3"', 6, "expected a meter"),
+    "a beat that is none": ('name = "groove"', 'name = "groove"\nbeat = "1/5"', 6, "expected a note length"),
+    "a meter that is none, for two grids": ('snare = "o | o"', 'meter = "4"\nsnare = "o | ooo"', 3, "expected a meter"),
+    "three strokes at once": ('kick     = "|', 'tom_1    = "| -o-- | - | - |"\nkick     = "|', 11, "3 hands needed"),
     "a mark that is none": ("mf--", "mmf-", 12, "'mmf' is no loudness"),
 }
 
