@@ -124,7 +124,7 @@ def test_the_landing_and_the_graces(lesson: Lesson) -> None:
         ('"rock-2"]', '"test"]', 4, 28, "test is this lesson itself"),
         ('"rock-2"]', '""]', 4, 28, "expected a word"),
         ("flam_ms = 20", "flam_ms = 5", 8, 11, "flam_ms: expected a number from 10 to 80"),
-        ('kick = "o"', 'kick = "oo"', 12, 8, "expected one letter that is struck"),
+        ('kick = "o"', 'kick = "oo"', 12, 9, "expected one letter that is struck"),
         ("weak_left", "weak_lefd", 16, 1, "no such fault: weak_lefd; did you mean weak_left?"),
         ('"A minute with the left alone."', '" "', 16, 13, 'expected a sentence such as "A minute'),
         ("max_loudness_error_db = 6", "max_loudness_error_db = 0", 20, 25, "expected a number from 0.5 to 40"),
