@@ -98,7 +98,8 @@ def test_endings_are_written_out_between_the_repetitions(
 def test_a_variation_is_its_model_with_other_lines(model: Written, other: Written) -> None:
     own = {key: value for key, value in other.keys.items() if key in LINES}
     if other.keys["meter"] != model.keys["meter"] or any(v.count("|") != _bars(model) for v in own.values()):
-        own = {"hihat_pedal": '"' + " | ".join(["x" * METERS[model.keys["meter"].strip('"')]] * (_bars(model) + 1)) + '"'}
+        bar = "x" * METERS[model.keys["meter"].strip('"')]
+        own = {"hihat_pedal": '"' + " | ".join([bar] * (_bars(model) + 1)) + '"'}
     variation = Written({"like": '"A"', **own})
     written_out = Written({**model.keys, **own})
     text = model.text(name='"A"') + LAST.text()
