@@ -185,6 +185,7 @@ def test_swing_keeps_order_and_the_beats(ratio: float, ticks: list[int], cut: in
 pieces_of_files = st.sampled_from(
     [
         *('"', "'", '"""', "[", "]", "[[grid]]", "[grid]", "=", "\n", "\n", "#", "{", "}", ",", "\\", " ", "é", "\x00"),
+        *("loudness", "bars", "[[grid.cycle]]", "[landing]", "[graces]", '"3+2/8"', "mf-<-f", "[[grid]]\nlike = "),
         *("snare", "sticking", "right_hand.", "o-o-", "(", ")", "|", "%", "%3", "~", "RLB", "1.5", "-7", "true", "1/4"),
         *FIELDS,
         *list(LINE_PIECES)[:6],
@@ -209,12 +210,26 @@ loop = [1, 2]
 [dynamics]
 ghost = 30
 [[grid]]
-hihat    = "| xxxx (xxx) xxxx xxxx | % |"
+hihat    = "| xxxx (-xx) xxxx ---- | % |"
 snare    = "| ---- f---  ---- b~~~ | - |"
-sticking = "| R--- L-- - R--- ---- | - |"
+sticking = "| R--- L--- R--- L--- | - |"
+loudness = "| p--- <--- ---- ---f | - |"
 [[grid]]
-left_hand.tom_1 = "oo"
+meter = ["3+2+2/8", "4/4"]
+tempo_to_bpm = 60
+left_hand.tom_1 = "oov ww (ooooooooo) | oo"
+[[grid.cycle]]
+meter = "5/8"
+kick = "o--o-"
+[grid.graces]
+flam_ms = 20
+[landing]
+crash = "X"
 """
+
+
+def test_the_lesson_is_sound() -> None:
+    assert parse_lesson(LESSON, "t", "t").faults == []
 
 
 @given(st.integers(0, len(LESSON) - 1), pieces_of_files | st.just(""))
