@@ -14,7 +14,7 @@ from station.music.tempo import MeterChange
 
 _REPEAT = re.compile(r"%(\d*)")
 _EIGHTH = 8
-_COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 6: "·t·a·", 8: "·e·&·a·"}
+_COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 6: "ta&ta", 8: "·e·&·a·"}
 """How drummers count the cells after the number of their beat; others are dots."""
 
 

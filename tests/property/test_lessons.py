@@ -16,7 +16,7 @@ from station.core.units import PPQ
 from station.drills.grid.grid import GridFrame, parse_line
 from station.drills.grid.swing import MAX_RATIO, Swing
 from station.drills.grid.tab_symbols import LINE_PIECES, SYMBOLS, family_of
-from station.drills.lesson import Goals, Lesson
+from station.drills.lesson import Lesson
 from station.drills.lesson_difference import first_difference, score_difference
 from station.drills.lesson_fields import FIELDS
 from station.drills.lesson_file import parse_lesson
@@ -25,7 +25,6 @@ from station.drills.lesson_writer import write_lesson
 from station.drills.quantise import lesson_of, quantise_score
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
-from station.scoring.matching.hit_windows import Level
 
 COMMON = MeterChange(0, 4, 4)
 METERS = ("4/4", "3/4", "2/4", "5/4", "6/8", "12/8", "7/8", "2/2", "3+2+2/8", "2+3/4")
@@ -107,37 +106,17 @@ def test_shown_a_lesson_is_the_same_and_shown_again_nothing_changes(lesson: Less
 
 
 words = st.text(max_size=40)
-goals = st.builds(
-    Goals,
-    min_accuracy=st.floats(0, 1),
-    max_sd_ms=st.none() | st.floats(1, 1000),
-    max_lean_ms=st.none() | st.floats(0, 1000),
-    max_swing_error=st.none() | st.floats(0, 3),
-    min_score=st.none() | st.floats(0, 100),
-    level=st.none() | st.sampled_from(Level),
-    strictest_level=st.sampled_from(Level),
-).filter(lambda goals: goals.level is None or goals.level.rank <= goals.strictest_level.rank)
 
 
-@given(title=words, about=words, author=words, tags=st.lists(words, max_size=3), goals=goals)
+@given(words)
 @settings(deadline=None)
-def test_words_and_goals_survive(title: str, about: str, author: str, tags: list[str], goals: Goals) -> None:
+def test_a_title_survives(title: str) -> None:
     base = parse_lesson('title = "T"\n[grid]\nsnare = "o"', "t", "t").lesson
     assert base
-    told = tuple(t.strip() for t in tags if t.strip())
-    lesson = replace(
-        base,
-        title=" ".join(title.split()).strip() or "T",
-        about=about.strip(),
-        author=author.strip(),
-        tags=told,
-        goals=goals,
-    )
+    lesson = replace(base, title=" ".join(title.split()).strip() or "T")
     again = parse_lesson(write_lesson(lesson), "t", "t").lesson
     assert again
-    assert (again.title, again.about, again.author) == (lesson.title, lesson.about, lesson.author)
-    assert again.tags == told
-    assert again.goals == goals
+    assert again.title == lesson.title
 
 
 hand_notes = st.builds(

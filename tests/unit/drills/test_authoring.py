@@ -7,6 +7,7 @@ from station.drills.authoring import NEW_LESSON
 from station.drills.grid.tab_symbols import SYMBOLS, TabFamily
 from station.drills.lesson_fields import FIELDS
 from station.drills.lesson_file import parse_lesson
+from station.drills.lesson_text import show
 
 
 def test_the_new_lesson_is_a_lesson() -> None:
@@ -14,6 +15,7 @@ def test_the_new_lesson_is_a_lesson() -> None:
     assert reading.faults == []
     assert reading.lesson
     assert reading.lesson.score.bar_count == 2
+    assert show(NEW_LESSON) == NEW_LESSON
 
 
 DOCS = Path(__file__).parents[3] / "docs" / "lessons.md"

@@ -88,6 +88,13 @@ def test_an_older_count_is_renewed_and_other_comments_are_not() -> None:
     ]
 
 
+def test_people_count_as_they_like() -> None:
+    assert shown('[grid]\nmeter = "6/8"\n#  1&a 2&a\nsnare = "oooooo"\n')[1:] == [
+        "#          1&a 2&a",
+        'snare = "| ooo ooo |"',
+    ]
+
+
 def test_strings_of_several_rows_keep_their_rows() -> None:
     grid = '[grid]\nsnare = """oooo | o-o-|\n  %|o"""\nkick = """\n| o |\n| o | %2 |\n"""\n'
     assert shown(grid) == [
