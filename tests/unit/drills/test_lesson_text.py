@@ -70,7 +70,7 @@ def test_repeats_stay_and_stand_under_the_bars_that_they_repeat() -> None:
         ('meter = "3/4"\n', "x-x-(xxx)", " 1& 2&  3ta", "x- x- (xxx)"),
         ('meter = "3+2/4"\n', "xxxxxxxxxx", " 1& 2& 3& 4& 5&", "xx xx xx xx xx"),
         ('meter = "3+2+2/8"\n', "x" * 14, " 1&2&3& 1&2& 1&2&", "xxxxxx xxxx xxxx"),
-        ('meter = "3+2+2/8"\n', "(xx)xx(xxx)", "  1    12  1", "(xx) xx (xxx)"),
+        ('meter = "3+2+2/8"\n', "(xx)xx(xxx)", "  1   12  1", "(xx) xx (xxx)"),
         ('meter = "2/2"\n', "xxxx", " 1& 2&", "xx xx"),
         ('beat = "1/2"\n', "(xxx)xx", "  1    3 4", "(xxx) x x"),
         ('meter = "6/8"\nbeat = "3/8"\n', "(xx)xxx", "  1   456", "(xx) xxx"),
