@@ -147,9 +147,8 @@ def _beat_starts(meter: MeterChange, shortest_ticks: int) -> tuple[int, ...]:
     """
     beats = meter.group_starts if meter.unit >= _EIGHTH else range(meter.beats)
     is_unsaid = meter.unit >= _EIGHTH and len(beats) == meter.beats
-    return (
-        (0,) if is_unsaid and shortest_ticks >= meter.beat_ticks else tuple(beat * meter.beat_ticks for beat in beats)
-    )
+    is_one_word = is_unsaid and shortest_ticks >= meter.beat_ticks
+    return (0,) if is_one_word else tuple(beat * meter.beat_ticks for beat in beats)
 
 
 def _words(text: str, frame: GridFrame, starts: Sequence[int]) -> list[str]:
