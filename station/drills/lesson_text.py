@@ -21,7 +21,7 @@ from station.drills.written_meters import written_meters
 
 _LINE_KEYS = frozenset({*LINE_PIECES, "sticking", "loudness"})
 _COUNT = re.compile(r"#[ ]{2,}1[\d&.·a-z]*(?: +\d[\d&.·a-z]*)*")
-"""A count that `show` or a teacher wrote above the lines: words of a digit and syllables, the first of them with a 1."""
+"""A count that `show` or a teacher wrote above the lines: words of a digit and syllables, the first with a 1."""
 _BLANKS_AT_END = re.compile(r"[ \t]+(?=\n|$)")
 
 
