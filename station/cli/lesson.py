@@ -118,6 +118,13 @@ def _new(_: NoOptions) -> int:
     return 0
 
 
+def _schema(_: NoOptions) -> int:
+    from station.drills.lesson_schema import lesson_schema
+
+    print_json(lesson_schema())
+    return 0
+
+
 def _import(options: ImportOptions) -> int:
     from station.drills.lesson_writer import write_lesson
     from station.drills.quantise import lesson_of, quantise_score
@@ -168,6 +175,7 @@ COMMAND = Verbs(
             Command(PathsOptions, _check),
         ),
         ("new", "print a lesson to start from", Command(NoOptions, _new)),
+        ("schema", "print the JSON Schema of lessons, for editors", Command(NoOptions, _schema)),
         ("import", "write a lesson from a MIDI file or a take", Command(ImportOptions, _import)),
         ("export", "write a lesson as a MIDI file", Command(ExportOptions, _export)),
     )
