@@ -21,6 +21,7 @@ from station.core.errors import DeviceError, StationError
 from station.core.files import growing, write_whole
 from station.core.settings import Settings
 from station.drills.lesson import Lesson
+from station.drills.lesson_text import show, with_value
 from station.drills.lesson_writer import write_lesson
 from station.practice.records.session_files import folder_name
 from station.scenes.sheets import lesson_labels, pdf_of
@@ -83,7 +84,7 @@ class Exporter:
     def lesson(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
         """The lesson as a file that repeats the bars; raises `BadInput` for what no file can say, `DeviceError`."""
         path = _place(lesson, bars, settings, ".toml")
-        write_whole(path, write_lesson(replace(lesson, loop=bars)).encode())
+        write_whole(path, lesson_file_of(lesson, bars).encode())
         return path
 
     def sheet(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
@@ -103,7 +104,7 @@ class Exporter:
         scratch = self._scratch_folder()
         source = scratch / f"{folder_name(lesson.name)}.toml"
         try:
-            write_whole(source, write_lesson(lesson).encode())
+            write_whole(source, (lesson.text or write_lesson(lesson)).encode())
         except StationError:
             self._end()
             raise
@@ -176,6 +177,13 @@ class Exporter:
         if self._scratch is not None:
             self._scratch.cleanup()
             self._scratch = None
+
+
+def lesson_file_of(lesson: Lesson, bars: Bars) -> str:
+    """The text of a lesson that repeats these bars: its own, or one written anew where it came from no file."""
+    if not lesson.text:
+        return write_lesson(replace(lesson, loop=bars))
+    return show(with_value(lesson.text, "loop", [bar + 1 for bar in bars]))
 
 
 def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:

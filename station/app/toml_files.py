@@ -10,7 +10,7 @@ from station.core.schema import Reader, reading
 from station.core.toml_faults import Fault, Noted, placed
 from station.core.toml_source import Source
 from station.devices.mapping import device_file, stick_file
-from station.drills import course, lesson_file
+from station.drills import course, lesson_fields, lesson_file
 from station.drills.lesson import Lesson
 from station.drills.library import course_prerequisites, lesson_prerequisites, lessons_for
 from station.drills.prerequisites import order_faults
@@ -38,7 +38,7 @@ def _course(path: Path) -> Reader[object]:
     return course.course_reader(path.name.removesuffix(course.ENDING), lessons_for(path.parent))
 
 
-LESSON = TomlKind("lesson", lesson_file.FIELDS, lambda path: lesson_file.lesson_reader(path.stem))
+LESSON = TomlKind("lesson", lesson_fields.FIELDS, lambda path: lesson_file.lesson_reader(path.stem))
 COURSE = TomlKind("course", course.FIELDS, _course)
 KINDS = (
     LESSON,

@@ -63,7 +63,8 @@ def run(options: AssessOptions) -> int:
         windows = options.level or lesson.levels.level().windows
         view = replace(view, windows=windows, pass_bars=score.bar_count, faults=lesson.goals.faults)
         view = replace(view, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks, hints=lesson.hints)
-        score = score.repeated(times_played(score, performance))
+        landing = lesson.landing_after(score.bar_count - 1)
+        score = score.repeated(times_played(score, performance)).landing_on(landing)
     session = _session(options)
     if session is not None:
         score, performance, alignment = session.score, session.performance, session.alignment

@@ -35,7 +35,7 @@ def run(options: SheetOptions) -> int:
     if out.suffix.lower() != ENDING:
         raise BadInput(out, "", f"expected a name that ends in {ENDING}")
     lesson = find_lesson(options.score) if is_lesson(options.score) else None
-    score = load_score(options.score) if lesson is None else lesson.score
+    score = load_score(options.score) if lesson is None else lesson.played_once
     first = options.start_bar
     last = score.bar_count if options.end_bar is None else options.end_bar
     if not 1 <= first <= last <= score.bar_count:

@@ -1,7 +1,8 @@
 """What the tables of our TOML files hold: a schema is a table of fields, and every fault of a file is found at once.
 
 A *reader* takes a raw value and gives what it means, or raises `Wrong` with everything that is wrong in it. Readers of
-tables and lists are made of readers of their parts, so the schema of a whole file is one reader.
+tables and lists are made of readers of their parts, so the schema of a whole file is one reader. Each carries what it
+expects (`core.expected`).
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -11,6 +12,7 @@ from enum import IntEnum
 from typing import Any, Generic, TypeVar
 
 from station.core.did_you_mean import did_you_mean, nearest
+from station.core.expected import LINE, TEXT, JsonSchema, expected_by, expects, later, list_like
 from station.core.pieces import word
 from station.core.toml_faults import Fault, Faults, Noted, Wrong, placed, refused, wrong
 from station.core.toml_source import Source
@@ -55,6 +57,16 @@ def optional(read: Reader[T]) -> Field[T | None]:
     return Field(read, None)
 
 
+def table_like(fields: Fields) -> JsonSchema:
+    """What a table with these fields is like, for editors."""
+    must = [key for key, each in fields.items() if each.must is not None]
+    return {
+        "type": "object",
+        "properties": {key: expected_by(each.read) for key, each in fields.items()},
+        "additionalProperties": False,
+    } | ({"required": must} if must else {})
+
+
 def checked_values(raw: object, fields: Fields, noun: str = "key") -> tuple[dict[str, Any], Faults]:
     """The values of all fields of a table, in the table's order, and all that is wrong; `noun` names its keys."""
     values: dict[str, Any] = {}
@@ -77,6 +89,7 @@ def checked_values(raw: object, fields: Fields, noun: str = "key") -> tuple[dict
 def record(build: Callable[..., T], fields: Fields, noun: str = "key") -> Reader[T]:
     """A table with these fields; `build` takes all of them by name and may raise `Wrong`."""
 
+    @expects(table_like(fields))
     def read(raw: object) -> T:
         values, faults = checked_values(raw, fields, noun)
         faults.check()
@@ -88,6 +101,7 @@ def record(build: Callable[..., T], fields: Fields, noun: str = "key") -> Reader
 def said(fields: Fields, noun: str = "key") -> Reader[dict[str, Any]]:
     """A table of which only those fields count that the file says: as what they are `called`, in the table's order."""
 
+    @expects(table_like(fields))
     def read(raw: object) -> dict[str, Any]:
         values, faults = checked_values(raw, fields, noun)
         faults.check()
@@ -99,6 +113,7 @@ def said(fields: Fields, noun: str = "key") -> Reader[dict[str, Any]]:
 def table_of(read_key: Reader[K], read: Reader[T]) -> Reader[dict[K, T]]:
     """A table whose keys are all of one kind, and its values too."""
 
+    @expects({"type": "object", "additionalProperties": expected_by(read)})
     def read_table(raw: object) -> dict[K, T]:
         found: dict[K, Any] = {}
         faults = Faults()
@@ -122,6 +137,7 @@ def table_of(read_key: Reader[K], read: Reader[T]) -> Reader[dict[K, T]]:
 def list_of(read: Reader[T], expected: str) -> Reader[tuple[T, ...]]:
     """A list whose entries are all of one kind; `expected` is an example of it in words."""
 
+    @expects(list_like(expected_by(read)))
     def read_list(raw: object) -> tuple[T, ...]:
         entries, faults = _list(raw, expected), Faults()
         found: list[Any] = [faults.attempt(read, entry, None, index) for index, entry in enumerate(entries)]
@@ -133,7 +149,9 @@ def list_of(read: Reader[T], expected: str) -> Reader[tuple[T, ...]]:
 
 def row_of(reads: Sequence[Reader[Any]], expected: str) -> Reader[tuple[Any, ...]]:
     """A list of as many entries as there are readers, each of its own kind."""
+    count = len(reads)
 
+    @expects({"type": "array", "prefixItems": [*map(expected_by, reads)], "minItems": count, "maxItems": count})
     def read_row(raw: object) -> tuple[Any, ...]:
         entries, faults = _list(raw, expected), Faults()
         if len(entries) != len(reads):
@@ -169,9 +187,8 @@ def no_such(noun: str, name: str, known: Iterable[str]) -> str:
 # --- single values ----------------------------------------------------------------------------------------------------
 
 
-def anything(value: object) -> object:
-    """The value as it is: it is read later."""
-    return value
+anything = later({})
+"""The value as it is: it is read later, and nothing can be said of it before."""
 
 
 def point(reach_m: float) -> Reader[tuple[float, float, float]]:
@@ -185,6 +202,7 @@ def point(reach_m: float) -> Reader[tuple[float, float, float]]:
     return read
 
 
+@expects(TEXT)
 def text(value: object) -> str:
     """A string as it is written."""
     if not isinstance(value, str):
@@ -192,11 +210,13 @@ def text(value: object) -> str:
     return value
 
 
+@expects(TEXT)
 def prose(value: object) -> str:
     """A string, blanks at its ends stripped."""
     return text(value).strip()
 
 
+@expects(LINE)
 def title(value: object) -> str:
     """A string of one line that says something."""
     line = prose(value)
@@ -205,6 +225,7 @@ def title(value: object) -> str:
     return line
 
 
+@expects({"type": "boolean"})
 def flag(value: object) -> bool:
     """True or false."""
     if not isinstance(value, bool):
@@ -212,6 +233,7 @@ def flag(value: object) -> bool:
     return value
 
 
+@expects({"type": "string", "format": "date"})
 def day(value: object) -> date:
     """A day without a time."""
     if not isinstance(value, date) or isinstance(value, datetime):
@@ -222,6 +244,7 @@ def day(value: object) -> date:
 def number(low: float, high: float) -> Reader[float]:
     """A number from `low` to `high`; neither NaN nor infinite."""
 
+    @expects({"type": "number", "minimum": low, "maximum": high})
     def read(value: object) -> float:
         if not isinstance(value, int | float) or isinstance(value, bool) or not low <= value <= high:
             raise wrong(f"expected a number from {low:g} to {high:g}, found {shown(value)}")
@@ -233,6 +256,7 @@ def number(low: float, high: float) -> Reader[float]:
 def whole(low: int, high: int) -> Reader[int]:
     """A whole number from `low` to `high`."""
 
+    @expects({"type": "integer", "minimum": low, "maximum": high})
     def read(value: object) -> int:
         fits = isinstance(value, int | float) and not isinstance(value, bool) and low <= value <= high
         if not fits or int(value) != value:  # type: ignore[call-overload] # a number, for it fits
@@ -259,6 +283,7 @@ def choice(choices: Mapping[str, T], noun: str) -> Reader[T]:
     words = either(choices)
     listed = words if len(words) <= _LONGEST_LISTED else ""
 
+    @expects({"enum": list(choices)})
     def read(value: object) -> T:
         if not isinstance(value, str):
             raise wrong(f"expected {listed or f'a {noun}'}, found {shown(value)}")

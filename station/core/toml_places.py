@@ -21,11 +21,16 @@ _ESCAPE = re.compile(r"\\(?:u[0-9A-Fa-f]{4}|U[0-9A-Fa-f]{8}|.)", re.DOTALL)
 
 @dataclass(slots=True)
 class Places:
-    """The offset of each key and value by key path; of a string also the offset of each of its characters."""
+    """The offset of each key and value by key path; of a string also the offset of each of its characters.
+
+    `ends` holds the offset just past each value, `headers` those of the `[table]` headers in the order of the text.
+    """
 
     text: str
     keys: dict[KeyPath, int] = field(default_factory=dict)
     values: dict[KeyPath, int] = field(default_factory=dict)
+    ends: dict[KeyPath, int] = field(default_factory=dict)
+    headers: list[int] = field(default_factory=list)
     chars: dict[KeyPath, list[int]] = field(default_factory=dict)
     line_starts: list[int] = field(default_factory=list)
 
@@ -103,6 +108,7 @@ class _Scanner:
             self.tables_in[path] = self.tables_in.get(path, -1) + 1
             path = (*path, self.tables_in[path])
         self.places.keys.setdefault(path, offset)
+        self.places.headers.append(offset)
         return path
 
     def _resolved(self, keys: KeyPath) -> KeyPath:
@@ -152,7 +158,8 @@ class _Scanner:
             assert bare, "tomllib accepted a value that is none"
             if self.wanted(bare.group()):
                 raise _FoundError(self.at, bare.group())
-            self.at = bare.end()
+            self.at += len(bare.group().rstrip())
+        self.places.ends[path] = self.at
 
     def _list(self, path: KeyPath) -> None:
         self.at += 1

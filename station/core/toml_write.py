@@ -5,7 +5,9 @@ from datetime import date
 
 
 def toml_value(value: object) -> str:
-    """A truth, a text, a number or a day as TOML."""
+    """A truth, a text, a number, a day, or a list of these as TOML."""
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(toml_value, value))}]"
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb
 from station.core.units import PPQ
-from station.drills.grid.cell_strokes import Velocities
 from station.drills.grid.swing import STRAIGHT, Swing
+from station.drills.grid.touch import Velocities
 from station.drills.level_range import OF_DIFFICULTY, LevelRange
 from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoChange
@@ -122,7 +122,7 @@ class Lesson:
     `kit` a kit file's name, empty for the player's own; `sections` cover all bars in order, as the form plays them.
     `swing` is the first section's. `cues` are in the order of their bars. `prerequisites` name the lessons that come
     before; `hints` say by a fault's word what helps against it; `landing` (n,) of `NOTE_DTYPE`, its ticks 0, is struck
-    where the last loop ends, empty where nothing is.
+    where the last loop ends, empty where nothing is. `text` is what its file says, empty where it comes from none.
     """
 
     name: str
@@ -146,6 +146,7 @@ class Lesson:
     prerequisites: tuple[str, ...] = ()
     hints: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     landing: NDArray[np.void] = field(default_factory=lambda: np.zeros(0, NOTE_DTYPE))
+    text: str = field(default="", repr=False)
 
     @property
     def tempo_bpm(self) -> float:
@@ -181,6 +182,15 @@ class Lesson:
     def loop_score(self) -> Score:
         """The bars of the loop, moved to tick 0."""
         return self.score.bars(*self.loop)
+
+    def landing_after(self, bar: int) -> NDArray[np.void]:
+        """What is struck where `bar`, from 0, was the last that was played: the landing where the loop ends with it."""
+        return self.landing if bar == self.loop[1] else self.landing[:0]
+
+    @property
+    def played_once(self) -> Score:
+        """All bars as they are written, and the landing after them where the loop ends with the last one."""
+        return self.score.landing_on(self.landing_after(self.score.bar_count - 1))
 
     @property
     def meter(self) -> str:

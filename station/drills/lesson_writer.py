@@ -1,22 +1,23 @@
-"""Lessons written as files: what `lesson show`, `import` and the editor put out.
+"""Lessons that came from no text, imports and takes, written as files; `lesson_text` gives those of files back.
 
-The text is a lesson file with its lines aligned and the count above them. It is read again before it is given away:
-whoever gets a text gets the same lesson back (all strokes but the MIDI numbers that they once came from).
+The text is laid out as `show` does it, and read again before it is given away: whoever gets a text gets the same lesson
+back (all strokes but the MIDI numbers that they once came from).
 """
 
 from collections.abc import Mapping, Sequence
-
-import numpy as np
+from dataclasses import asdict
 
 from station.core.errors import BadInput
 from station.core.pieces import word
 from station.core.units import PPQ
-from station.drills.grid.cell_strokes import Velocities
-from station.drills.grid.grid_writer import GridSetting, counted, frame_of, with_repeats, write_lines
-from station.drills.grid.lines_from_score import WrittenStroke, lines_of, strokes_by_bar
+from station.drills.grid.grid_writer import GridSetting, frame_of, with_repeats, write_lines
+from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines_of, strokes_by_bar
+from station.drills.grid.touch import Graces, Velocities
 from station.drills.lesson import Goals, Lesson, Section, tidy_bpm
+from station.drills.lesson_difference import score_difference
 from station.drills.lesson_file import parse_lesson
-from station.music.score import NOTE_DTYPE, Score
+from station.drills.lesson_text import show
+from station.music.score import Score
 from station.scoring.analysis.fault_table import MUTE
 
 _DYNAMICS = ("ghost", "normal", "accent")
@@ -28,33 +29,26 @@ def write_lesson(lesson: Lesson) -> str:
     Raises `BadInput` for music that the grid cannot write (times between its cells, velocities beside the lesson's
     dynamics, strokes without a letter): see `quantise.quantise_score`, which brings any score onto the grid.
     """
-    text = "\n".join([*_head(lesson), "", *_dynamics(lesson.velocities), *_goals(lesson), *_grids(lesson)]) + "\n"
+    text = (
+        "\n".join(
+            [
+                *_head(lesson),
+                "",
+                *_dynamics(lesson.velocities),
+                *_graces(lesson.score),
+                *_goals(lesson),
+                *_grids(lesson),
+            ]
+        )
+        + "\n"
+    )
     read = parse_lesson(text, lesson.name, lesson.name)
     if read.lesson is None:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {read.faults[0].text}")
-    difference = first_difference(lesson.score, read.lesson.score)
+    difference = score_difference(lesson.score, read.lesson.score)
     if difference:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {difference}")
-    return text
-
-
-def first_difference(a: Score, b: Score) -> str:
-    """What the first stroke is that differs, for people; empty if the scores sound and read alike."""
-    if a.tempo_map != b.tempo_map or a.end_tick != b.end_tick:
-        return "tempo, meter or length differ"
-    if len(a) != len(b):
-        return f"{len(a)} strokes became {len(b)}"
-    for name in NOTE_DTYPE.names or ():
-        if name == "midi_note":
-            continue
-        left, right = a.notes[name], b.notes[name]
-        same = (left == right) | (np.isnan(left) & np.isnan(right))
-        if not np.all(same):
-            i = int(np.flatnonzero(~same)[0])
-            note = a[i]
-            place = a.tempo_map.position_at(note.tick)
-            return f"bar {place.bar + 1}, beat {place.beat + 1}, {word(note.piece)}: {name} {left[i]} became {right[i]}"
-    return ""
+    return show(text)
 
 
 def _head(lesson: Lesson) -> list[str]:
@@ -88,6 +82,13 @@ def _dynamics(velocities: Velocities) -> list[str]:
     for piece, own in velocities.of_piece.items():
         lines += [f"[dynamics.{word(piece)}]", *_three(own, velocities.usual), ""]
     return lines
+
+
+def _graces(score: Score) -> list[str]:
+    """The grace strokes where they are not the usual ones."""
+    graces, usual = asdict(graces_of(score)), asdict(Graces())
+    said = [f"{key} = {number(value)}" for key, value in graces.items() if value != usual[key]]
+    return ["[graces]", *said, ""] if said else []
 
 
 def _three(values: tuple[int, int, int], usual: tuple[int, int, int]) -> list[str]:
@@ -134,29 +135,22 @@ def _changes(lesson: Lesson, section: Section) -> list[str]:
     tempo_map = lesson.score.tempo_map
     start = tempo_map.bar_start(section.first_bar)
     meter, before = tempo_map.meter_at(start), tempo_map.meter_at(start - 1)
-    changed = (meter.beats, meter.unit) != (before.beats, before.unit)
-    lines = [f'meter = "{meter.beats}/{meter.unit}"'] if changed else []
+    lines = [f"meter = {quoted(str(meter))}"] if str(meter) != str(before) else []
     here = next((t for t in tempo_map.tempos if t.tick == start), None)
     return lines + ([f"tempo_bpm = {number(tidy_bpm(here.us_per_quarter, lesson.beat_ticks))}"] if here else [])
 
 
 def _lines(lesson: Lesson, section: Section, by_bar: Mapping[int, Sequence[WrittenStroke]]) -> list[str]:
-    """The lines of one section: the count as a comment where all bars have one, then line by line."""
+    """The lines of one section."""
     start = lesson.score.tempo_map.bar_start(section.first_bar)
     setting = GridSetting(frame_of(lesson.score.tempo_map.meter_at(start), lesson.beat_ticks), lesson.swing)
     lines = lines_of(by_bar, section.first_bar, section.last_bar)
     count = section.last_bar - section.first_bar + 1
     if not lines:
         return [f'snare = "{"| -" * count} |"']
-    shared = write_lines(lines, count, setting)
+    write_lines(lines, count, setting)
     new = [True] + [any(line.bars[i] != line.bars[i - 1] for line in lines) for i in range(1, count)]
-    width = max(len(line.name) for line in lines)
-    out = []
-    if all(shared):
-        counts = [counted(s, setting) for s in shared]
-        out.append((f"#{'':{width + 3}}" + with_repeats(counts, [True] * count).replace("|", " ")).rstrip())
-    out += [f'{line.name:<{width}} = "{with_repeats(line.bars, new)}"' for line in lines]
-    return out
+    return [f'{line.name} = "{with_repeats(line.bars, new)}"' for line in lines]
 
 
 # --- TOML -------------------------------------------------------------------------------------------------------------

@@ -27,6 +27,7 @@ __all__ = [
     "courses_in",
     "find_lesson",
     "lesson_names",
+    "lesson_path",
     "lesson_rows",
     "lessons_dir",
     "lessons_for",
@@ -55,6 +56,11 @@ def _files(folder: Path) -> dict[str, Path]:
 def lesson_names() -> list[str]:
     """Names of all shipped lessons, sorted."""
     return sorted(_files(lessons_dir()))
+
+
+def lesson_path(name: str) -> Path:
+    """The file of the shipped lesson of that name."""
+    return _files(lessons_dir())[name]
 
 
 def find_lesson(name_or_path: str) -> Lesson:

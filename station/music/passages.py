@@ -106,7 +106,7 @@ def landing_fade(score: Score) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Offbeats:
-    """Strokes beside the beat that are written straight; a beat is a quarter, or three eighths in compound meters.
+    """Strokes beside the beat that are written straight; a beat is a pulse of the meter (`MeterChange.pulses`).
 
     Flags (n,): `all` of them, `ands` in the middle of the beat, `quarters` at its first and third quarter.
     """
@@ -118,8 +118,7 @@ class Offbeats:
 
 def offbeats(score: Score) -> Offbeats:
     """The strokes beside the beat; swung ones are none."""
-    beat_ticks = _beat_ticks(score)
-    within = (score.notes["tick"] - _beat_starts(score)) % beat_ticks
+    within, beat_ticks = _in_pulse(score)
     straight = ~score.is_grace & ~swung(score).flags
     halved = straight & (2 * within == beat_ticks) & (beat_ticks == PPQ)
     quartered = straight & ((4 * within == beat_ticks) | (4 * within == 3 * beat_ticks)) & (beat_ticks == PPQ)
@@ -248,14 +247,17 @@ def _beat_starts(score: Score) -> NDArray[np.int64]:
     return starts
 
 
-def _beat_ticks(score: Score) -> NDArray[np.int64]:
-    """Length of the beat of each row: three eighths in compound meters (6/8, 9/8, 12/8), else a quarter."""
-    meters = score.tempo_map.meters
-    compound = np.array([m.unit == 8 and m.beats % 3 == 0 and m.beats > 3 for m in meters])
-    lengths = np.where(compound, 3 * PPQ // 2, PPQ).astype(np.int64)
-    starts = np.array([m.tick for m in meters], np.int64)
-    found: NDArray[np.int64] = lengths[np.searchsorted(starts, score.notes["tick"], side="right") - 1]
-    return found
+def _in_pulse(score: Score) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Ticks of each row since its pulse began, and the pulse's length, both (n,)."""
+    meters, ticks = score.tempo_map.meters, score.notes["tick"]
+    within, lengths = np.zeros(len(score), np.int64), np.zeros(len(score), np.int64)
+    row_of_meter = np.searchsorted(ticks, [m.tick for m in meters])  # rows are in order of their ticks
+    for meter, rows in zip(meters, np.split(np.arange(len(score)), row_of_meter[1:]), strict=True):
+        starts, ends = np.array(meter.pulses, np.int64).T
+        in_bar = (ticks[rows] - meter.tick) % meter.bar_ticks
+        pulse = np.searchsorted(starts, in_bar, side="right") - 1
+        within[rows], lengths[rows] = in_bar - starts[pulse], (ends - starts)[pulse]
+    return within, lengths
 
 
 def _within_quarter(score: Score) -> NDArray[np.int64]:

@@ -178,6 +178,16 @@ class Score:
         """The score played `times` times without a gap, tempo and meter changes included."""
         return Score.joined([self] * times)
 
+    def landing_on(self, landing: NDArray[np.void]) -> "Score":
+        """The score, and in a bar more of its last meter and tempo `landing`, rows (m,) whose ticks are 0.
+
+        Without rows it is the score itself.
+        """
+        if not len(landing):
+            return self
+        last = self.tempo_map.section(self.end_tick - 1, self.end_tick)
+        return Score.joined([self, Score.from_array(landing, last, last.meters[0].bar_ticks)])
+
     @staticmethod
     def joined(parts: Sequence["Score"]) -> "Score":
         """All `parts` one after the other, each from the end of the one before; at least one part."""

@@ -73,6 +73,16 @@ class MeterChange:
         is_compound = self.unit >= 8 and self.beats > 3 and self.beats % 3 == 0
         return self.groups or ((3,) * (self.beats // 3) if is_compound else (1,) * self.beats)
 
+    @property
+    def pulses(self) -> tuple[tuple[int, int], ...]:
+        """Start and end, in ticks of the bar, of what a foot taps: groups of eighths and shorter, else single beats.
+
+        In quarters and longer a group is a phrase of beats: 5/4 as 3+2 is still tapped in five.
+        """
+        groups = self.felt_groups if self.unit >= 8 else (1,) * self.beats
+        ends = [end * self.beat_ticks for end in accumulate(groups)]
+        return tuple(zip([0, *ends[:-1]], ends, strict=True))
+
     def __str__(self) -> str:
         beats = "+".join(map(str, self.groups)) or str(self.beats)
         return f"{beats}/{self.unit}"

@@ -11,6 +11,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.named_view import NamedView
 from station.core.pieces import Limb, Piece
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.pose import Pose
@@ -81,7 +82,7 @@ class Hud:
 
     `phase` in words such as "Demonstration" or "Pass 2 of 4"; `bar` and `beat` from 1, None while nothing runs; `beats`
     a bar; `count_in` the number to show large, None outside a count-in; `right`, `judged` this pass's counts; `message`
-    a sentence for the user; `cue` with `cue_age_s` since it came.
+    a sentence for the user; `cue` with `cue_age_s` since it came; `say` the words of the lesson's teacher.
     """
 
     title: str = ""
@@ -97,6 +98,7 @@ class Hud:
     message: str = ""
     cue: TimingCue = TimingCue.NONE
     cue_age_s: float = 0.0
+    say: str = ""
 
 
 def no_marks(score: Score) -> NDArray[np.void]:
@@ -122,14 +124,21 @@ def mark(marks: NDArray[np.void], judgement: Judgement, loudness: bool = True) -
 
 @dataclass(frozen=True, slots=True)
 class BarNumbers:
-    """How a score's bars are numbered: from `first` (from 0), anew after every `per_pass` bars; 0: never."""
+    """How a score's bars are numbered: from `first` (from 0), anew after every `per_pass` bars, `passes` times.
+
+    0 bars: never; without `passes`: always. What follows the last pass is numbered on from there.
+    """
 
     first: int = 0
     per_pass: int = 0
+    passes: int | None = None
 
     def of(self, bar: int) -> int:
         """The number, from 1, of the score's `bar`, from 0."""
-        return self.first + (bar % self.per_pass if self.per_pass else bar) + 1
+        before = bar // self.per_pass if self.per_pass else 0
+        if self.passes is not None:
+            before = min(before, self.passes - 1)
+        return self.first + bar - before * self.per_pass + 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +160,8 @@ class Snapshot:
     `position_s` is the score's time at the play line, negative in a count-in. `marks` (n,) of `MARK_DTYPE` belongs to
     the rows of `score`; nobody writes to it after it was put here. `limbs` (n,) of `Limb` shows the sticking, None what
     the score says. `pose` None draws the kit alone. Where there is a `strip`, it stands in place of the score.
-    `double` is the student beside the demonstrator, for those who want to see it.
+    `double` is the student beside the demonstrator, for those who want to see it. `view` is from where the lesson's
+    teacher wants it to be seen, None where they leave it to whoever looks.
     """
 
     score: Score
@@ -167,3 +177,4 @@ class Snapshot:
     bar_numbers: BarNumbers = BarNumbers()
     strip: Strip | None = None
     double: StudentShown | None = None
+    view: NamedView | None = None

@@ -14,7 +14,6 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.motion.drummer import Drummer
 from station.motion.style.lanes import in_passes
 from station.music.performance import Performance
-from station.practice.session.adaptation import lesson_bars
 from station.practice.session.session import SessionResult
 from station.render.snapshot import BarNumbers, Hud, Snapshot, StudentShown, TimingCue
 from station.scenes.demonstrator import Demonstrator
@@ -32,7 +31,7 @@ class Comparison:
         self, result: SessionResult, bar: int, played: Performance | None, demonstrator: Demonstrator, words: str
     ) -> None:
         plan, tempo_map = result.plan, result.score.tempo_map
-        self._lesson_bar = lesson_bars(plan)[bar]
+        self._lesson_bar = plan.bar_names[bar]
         self._start_ns = int(tempo_map.ns_at(tempo_map.bar_start(bar)))
         style = in_passes(demonstrator.style, self._lesson_bar, 1, 1)
         self._drummer = Drummer(result.score.bars(bar, bar), plan.kit, demonstrator.figure, style)

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from station.core.pieces import Limb
-from station.practice.session.lesson_places import places_of
 from station.practice.session.session import SessionResult
 from station.scoring.matching.right import right_notes
 
@@ -50,7 +49,7 @@ def heat_map(result: SessionResult) -> HeatMap:
     score = result.score
     if not len(score):
         return HeatMap({})
-    bars = places_of(result, score.notes["tick"])["bar"]
+    bars = np.asarray(result.plan.practised_bars, np.int32)[score.bar] + 1
     right = right_notes(score, result.alignment, result.plan.level.windows)
     cells: dict[tuple[int, Limb], HeatCell] = {}
     for limb in LIMBS:

@@ -30,9 +30,8 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         points=float(points) if isinstance(points, float | int) else None,
         advice=tuple(map(str, steps)),
         technique=(*stick_lines(document), *technique_lines(document)),
-        pass_bars=plan.section.bar_count,
         first_bar=plan.first_bar,
-        starts=() if plan.rounds is None else plan.rounds.starts,
+        starts=plan.pass_starts,
     )
     return result_facts(
         result.score,

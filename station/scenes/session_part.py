@@ -16,7 +16,8 @@ from station.motion.style.lanes import in_passes
 from station.motion.style.style import Style
 from station.music.score import Score
 from station.practice.session.plan import Plan
-from station.scenes.demonstrator import Demonstrator
+from station.render.snapshot import BarNumbers
+from station.scenes.demonstrator import Demonstrator, as_taught
 
 Made = TypeVar("Made")
 
@@ -57,13 +58,15 @@ AHEAD = Ahead()
 
 
 class SessionPart:
-    """The drummer of `score`, the plan's section once or more, which begins at `start_ns` of the transport."""
+    """The drummer of the plan's section `times` times and its landing, who begins at `start_ns` of the transport."""
 
     def __init__(self, plan: Plan, score: Score, start_ns: int, demonstrator: Demonstrator) -> None:
         self.score = score
         self.start_ns = start_ns
         self._plan, self._demonstrator = plan, demonstrator
         self._bars = plan.first_bar, plan.section.bar_count, score.bar_count // plan.section.bar_count
+        self.bar_numbers = BarNumbers(*self._bars)
+        """The lesson's own numbers in every pass."""
         self._style = demonstrator.style
         self._drummer: Drummer | None = None
         self._coming: Future[Drummer] | None = None
@@ -88,7 +91,7 @@ class SessionPart:
         if self._drummer is None:
             self._drummer = self._made() if self._coming is None else self._coming.result()
         if style is not self._style:
-            self._style, self._drummer = style, self._drummer.with_style(in_passes(style, *self._bars))
+            self._style, self._drummer = style, self._drummer.with_style(self._of_all_passes(style))
         return self._drummer
 
     def position_s(self, transport_ns: int) -> float:
@@ -96,6 +99,9 @@ class SessionPart:
         return (transport_ns - self.start_ns) / NS_PER_S
 
     def _made(self) -> Drummer:
-        return Drummer(
-            self.score, self._plan.kit, self._demonstrator.figure, in_passes(self._demonstrator.style, *self._bars)
-        )
+        style = self._of_all_passes(self._demonstrator.style)
+        return Drummer(self.score, self._plan.kit, self._demonstrator.figure, style)
+
+    def _of_all_passes(self, style: Style) -> Style:
+        """The style as the lesson's teacher changes it, over the bars of the score."""
+        return in_passes(as_taught(style, self._plan.lesson.cues), *self._bars)

@@ -13,7 +13,7 @@ Bars = tuple[int, int]
 def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
     """What stands on the sheet of a lesson's bars; where they hold its loop, that is repeated."""
     first, last = bars
-    beats = tidy_bpm(lesson.score.bars(*bars).tempo_map.tempos[0].us_per_quarter, lesson.beat_ticks)
+    beats = tidy_bpm(lesson.played_once.bars(*bars).tempo_map.tempos[0].us_per_quarter, lesson.beat_ticks)
     loop = (lesson.loop[0] - first, lesson.loop[1] - first)
     sections = tuple((s.first_bar - first, s.name) for s in lesson.sections if s.name and first <= s.first_bar <= last)
     return SheetWords(

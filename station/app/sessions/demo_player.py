@@ -24,19 +24,19 @@ from station.app.actions import (
     Wind,
 )
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
+from station.drills.directions import NO_DIRECTION, Direction, direction_at
 from station.drills.lesson import Lesson
 from station.engine.messages import Command, Play, Stop
 from station.motion.drummer import Drummer
 from station.motion.kit.kit import Kit
 from station.motion.sticking.hand_notes import Hands
-from station.music.score import Score
 from station.practice.demonstration.song_cues import SOUNDED_NS, CountIn, after, count_in_of, song_cues
 from station.practice.demonstration.song_player import FLAGS, Song, SongPlayer, SongStep
 from station.practice.session.click_pattern import PLAIN, ClickPattern
 from station.practice.session.plan import with_sticking
 from station.render.snapshot import BarNumbers, Hud, Snapshot
 from station.scenes.curves import ScoreCurves
-from station.scenes.demonstrator import Demonstrator
+from station.scenes.demonstrator import Demonstrator, as_taught
 
 LEAD_NS = 50 * NS_PER_MS
 """How long after a change the sound begins: the engine's way and a block of sound fit in (our choice)."""
@@ -89,8 +89,11 @@ class DemoPlayer:
     ) -> None:
         self._send = send
         self._watched = watched
+        self.score = watched.lesson.played_once
+        """The whole lesson at its own tempo, and its landing."""
         self._demonstrator = demonstrator or Demonstrator()
         self._drummer: Drummer | None = None
+        self._style = self._demonstrator.style
         self._flags: dict[str, tuple[int | None, ...]] = {}
         self._sounding_until_ns: int | None = None
         self._due = False
@@ -108,11 +111,6 @@ class DemoPlayer:
         """What is demonstrated."""
         return self._watched.lesson
 
-    @property
-    def score(self) -> Score:
-        """The whole lesson at its own tempo."""
-        return self._watched.lesson.score
-
     def load(self, watched: DemonstratedLesson, bars: tuple[int, int] | None) -> None:
         """Take a lesson, its `bars` (first, last, from 1) as the loop; the same lesson stays where it is."""
         before, self._watched = self._watched, watched
@@ -121,6 +119,7 @@ class DemoPlayer:
         if watched.lesson is not before.lesson:
             self.halt()
             self._flags[before.lesson.name] = self.player.flags
+            self.score = watched.lesson.played_once
             flags = self._flags.get(watched.lesson.name, (None,) * FLAGS)
             self.player = SongPlayer(Song.of(self.score), speed_percent=self.player.speed_percent, flags=flags)
         self.repeat(bars)
@@ -143,9 +142,12 @@ class DemoPlayer:
         if self._drummer is None:
             watched, demonstrator = self._watched, self._demonstrator
             score = with_sticking(self.score, watched.kit, watched.hands)
-            self._drummer = Drummer(score, watched.kit, demonstrator.figure, demonstrator.style)
-        if self._drummer.style is not self._demonstrator.style:
-            self._drummer = self._drummer.with_style(self._demonstrator.style)
+            self._style = demonstrator.style
+            style = as_taught(self._style, self.lesson.cues)
+            self._drummer = Drummer(score, watched.kit, demonstrator.figure, style)
+        if self._style is not self._demonstrator.style:
+            self._style = self._demonstrator.style
+            self._drummer = self._drummer.with_style(as_taught(self._style, self.lesson.cues))
         return self._drummer
 
     # --- what the user does ------------------------------------------------------------------------------------------
@@ -278,7 +280,16 @@ class DemoPlayer:
             pose=drummer.pose(position_s - raising_s),
             limbs=drummer.assignment.limbs,
             hud=self._hud(),
+            view=self._direction.view,
         )
+
+    @property
+    def _direction(self) -> Direction:
+        """What the lesson's cues say of where the player is, once it is used."""
+        if not self.is_shown:
+            return NO_DIRECTION
+        bar = self.player.place(self.now_ns).bar
+        return direction_at(self.lesson.cues, min(bar, self.lesson.score.bar_count - 1))
 
     def curves(self) -> ScoreCurves:
         """The same for the graph."""
@@ -298,6 +309,7 @@ class DemoPlayer:
             beats=self.score.tempo_map.meter_at(start).beats,
             bar_count=self.score.bar_count,
             beats_a_minute=quarters * PPQ / self.lesson.beat_ticks * player.speed_percent / 100,
+            say="" if self._left_ns else self._direction.say,
         )
 
 

@@ -13,6 +13,7 @@ from station.music.performance import Performance
 from station.music.score import Score
 
 if TYPE_CHECKING:
+    from station.drills.lesson import BarCue
     from station.motion.kit.kit import Kit
     from station.motion.sticking.hand_notes import Hands
     from station.practice.session.click_pattern import Gap
@@ -60,13 +61,17 @@ def load_score(name: str) -> Score:
 
 
 def load_led_score(name: str, kit: Kit, hands: Hands | None = None, as_written: bool = False) -> Score:
-    """The score that `name` means, a lesson's sticking read for the `hands` that play `kit` unless `as_written`."""
-    score = load_score(name)
-    if as_written or not is_lesson(name):
-        return score
+    """The score that `name` means, a lesson with its landing.
+
+    Its sticking is read for the `hands` that play `kit` unless `as_written`.
+    """
+    if not is_lesson(name):
+        return load_score(name)
+    from station.drills.library import find_lesson
     from station.motion.sticking.limbs import as_led
 
-    return as_led(score, kit, hands)
+    score = find_lesson(name).played_once
+    return score if as_written else as_led(score, kit, hands)
 
 
 def kit_of_lesson(name: str) -> str:
@@ -76,6 +81,15 @@ def kit_of_lesson(name: str) -> str:
     from station.drills.library import find_lesson
 
     return find_lesson(name).kit
+
+
+def cues_of_lesson(name: str) -> tuple[BarCue, ...]:
+    """The cues of the lesson `name`; none where it is a music file."""
+    if not is_lesson(name):
+        return ()
+    from station.drills.library import find_lesson
+
+    return find_lesson(name).cues
 
 
 def load_score_and_performance(score_name: str, performance_name: str) -> tuple[Score, Performance]:

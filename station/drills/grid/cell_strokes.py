@@ -2,10 +2,11 @@
 
 A written stroke is one letter; a played one is a row of the score. A flam has one grace stroke before it, a drag two;
 a diddle is two strokes that share its cell; a buzz roll is one row that lasts. Diddles that touch each other on a
-piece make a roll. All ticks are straight until `expand` swings them.
+piece make a roll. `BarClock` says where the music that is written straight is played.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from bisect import bisect_right
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from types import MappingProxyType
@@ -18,17 +19,9 @@ from station.core.toml_places import KeyPath
 from station.drills.grid.grid import Bar
 from station.drills.grid.swing import Swing
 from station.drills.grid.tab_symbols import CHOKE, HOLD, RESTS, SYMBOLS, TabSymbol, family_of, not_a_letter
+from station.drills.grid.touch import MAX_VELOCITY, MIN_VELOCITY, Touch
 from station.music.score import NOTE_DTYPE
-
-FLAM_LEAD_MS = 30.0
-"""Middle of a flam's 15–40 ms (HUMANS, Timing)."""
-DRAG_LEADS_MS = (110.0, 55.0)
-"""A drag's strokes follow each other 40–70 ms apart (HUMANS, Timing)."""
-GRACE_SHARE = 0.4
-"""A grace stroke's velocity as a share of its main stroke's, in the middle of 25–50 % (HUMANS, Timing)."""
-GRACE_LEADS_MS: Mapping[Ornament, tuple[float, ...]] = MappingProxyType(
-    {Ornament.FLAM: (FLAM_LEAD_MS,), Ornament.DRAG: DRAG_LEADS_MS}
-)
+from station.music.tempo import MeterChange
 
 OTHER_HAND = MappingProxyType({Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND})
 
@@ -43,94 +36,106 @@ class Origin:
 
 @dataclass(frozen=True, slots=True)
 class CellPlace:
-    """A moment of the music: ticks into a bar that starts at `bar_start` and lasts `bar_ticks`."""
+    """A moment of the music in ticks: where it is written, `straight`, and where it is `played`, swing and all."""
 
-    bar_start: int
-    bar_ticks: int
-    tick: int
-    swings: bool
+    straight: int
+    played: int
 
-    def played(self, swing: Swing) -> int:
-        """Tick of the score at which it is played."""
-        return self.bar_start + (swing.swung(self.tick, self.bar_ticks) if self.swings else self.tick)
+    def moved(self, ticks: int) -> "CellPlace":
+        """The same moment `ticks` later."""
+        return CellPlace(self.straight + ticks, self.played + ticks)
 
-    def later(self, ticks: int) -> "CellPlace":
-        """The moment `ticks` straight ticks later in the same bar."""
-        return replace(self, tick=self.tick + ticks)
 
-    @property
-    def straight(self) -> int:
-        """Tick of the score if nothing swung."""
-        return self.bar_start + self.tick
+@dataclass(frozen=True, slots=True)
+class BarClock:
+    """Where moments are played: the bars (the tick of each is its start) and how they swing."""
+
+    bars: Sequence[MeterChange]
+    swing: Swing
+
+    def place(self, tick: int, swings: bool) -> CellPlace:
+        """The moment written at `tick`."""
+        if not swings:
+            return CellPlace(tick, tick)
+        bar = self.bars[bisect_right(self.bars, tick, key=lambda b: b.tick) - 1]
+        return CellPlace(tick, bar.tick + self.swing.swung(tick - bar.tick, bar))
 
 
 @dataclass(frozen=True, slots=True)
 class WrittenCell:
-    """One letter of a line; `until` is where a buzz roll ends or a cymbal is grabbed."""
+    """One letter of a line.
+
+    `middle` is where a diddle's second stroke falls; `until` where a buzz roll ends or a cymbal is grabbed; `gain`
+    multiplies the velocities of its touch.
+    """
 
     place: CellPlace
+    middle: CellPlace
     length_ticks: int
     piece: Piece
     letter: TabSymbol
     limb: Limb
     origin: Origin
     until: CellPlace | None = None
+    touch: Touch = field(default_factory=Touch)
+    gain: float = 1.0
 
     @property
     def is_open_roll(self) -> bool:
         """Whether this cell holds two strokes."""
         return self.letter.ornament is Ornament.DIDDLE
 
+    def moved(self, ticks: int) -> "WrittenCell":
+        """The same letter `ticks` later."""
+        until = None if self.until is None else self.until.moved(ticks)
+        return replace(self, place=self.place.moved(ticks), middle=self.middle.moved(ticks), until=until)
 
-@dataclass(frozen=True, slots=True)
-class Velocities:
-    """The velocity of each dynamic: (ghost, normal, accent), with others for some pieces.
-
-    The defaults are HUMANS' ranges: ghost 20–45, normal 60–95, accent 105–127.
-    """
-
-    usual: tuple[int, int, int] = (32, 80, 116)
-    of_piece: Mapping[Piece, tuple[int, int, int]] = field(default_factory=lambda: MappingProxyType({}))
-
-    def of(self, piece: Piece, dynamic: Dynamic) -> int:
-        """Velocity 1–127 of a stroke of `piece`."""
-        return self.of_piece.get(piece, self.usual)[dynamic]
+    def velocity(self, dynamic: Dynamic) -> int:
+        """Velocity 1–127 of its stroke, were it `dynamic`."""
+        loud = round(self.touch.velocities.of(self.piece, dynamic) * self.gain)
+        return min(max(loud, MIN_VELOCITY), MAX_VELOCITY)
 
 
 # --- a line ----------------------------------------------------------------------------------------------------------
 
 
 def line_strokes(
-    bars: Sequence[Bar], bar_places: Sequence[tuple[int, int]], line: "GridLine", report: Callable[[int, str], None]
+    bars: Iterable[tuple[int, Bar]], line: "GridLine", clock: BarClock, report: Callable[[int, str], None]
 ) -> list[WrittenCell]:
-    """The strokes of one line; `bar_places` are each bar's start and length in ticks, faults go to `report`."""
+    """The strokes of one line, its bars each with the tick of its start; faults go to `report`."""
     symbols = SYMBOLS[family_of(line.piece)]
     strokes: list[WrittenCell] = []
     open_end: CellPlace | None = None  # where a buzz that may go on has come to
-    for bar, (start, length) in zip(bars, bar_places, strict=False):
+    is_known = True  # what the line struck last; not after a faulty bar
+    for start, bar in bars:
         for cell in bar.cells:
-            here = CellPlace(start, length, cell.tick, cell.swings)
-            end = here.later(cell.length_ticks)
+            here = clock.place(start + cell.tick, cell.swings)
+            end = clock.place(here.straight + cell.length_ticks, cell.swings)
             if cell.letter == HOLD:
-                open_end = _hold(strokes, open_end, end, cell.char, report)
+                open_end = _hold(strokes, open_end, end, cell.char, report if is_known else _unheard)
                 continue
             open_end = None
             if cell.letter == CHOKE:
-                _choke(strokes, line.piece, here, cell.char, report)
+                _choke(strokes, line.piece, here, cell.char, report if is_known else _unheard)
             elif cell.letter in symbols:
                 letter = symbols[cell.letter]
-                is_buzz = letter.articulation is Articulation.BUZZ
-                open_end = end if is_buzz else None
+                open_end = end if letter.articulation is Articulation.BUZZ else None
+                middle = clock.place(here.straight + cell.length_ticks // 2, cell.swings)
+                origin = Origin(line.path, cell.char)
                 strokes.append(
-                    WrittenCell(
-                        here, cell.length_ticks, line.piece, letter, line.limb, Origin(line.path, cell.char), open_end
-                    )
+                    WrittenCell(here, middle, cell.length_ticks, line.piece, letter, line.limb, origin, open_end)
                 )
+                is_known = True
             elif cell.letter not in RESTS:
                 report(cell.char, not_a_letter(cell.letter, family_of(line.piece)))
+                is_known = False
         if not bar.sound:
-            open_end = None
+            open_end, is_known = None, False
     return strokes
+
+
+def _unheard(_char: int, _text: str) -> None:
+    """Where an earlier fault may be the cause of another, that one is not told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,65 +190,55 @@ def rolls(strokes: Sequence[WrittenCell]) -> set[int]:
     return found
 
 
-def expand(
-    strokes: Sequence[WrittenCell], velocities: Velocities, swing: Swing
-) -> tuple[NDArray[np.void], list[Origin]]:
+def expand(strokes: Sequence[WrittenCell]) -> tuple[NDArray[np.void], list[Origin]]:
     """Rows of `NOTE_DTYPE` of all strokes, and beside each row the letter that wrote it."""
     in_rolls = rolls(strokes)
     rows: list[tuple[float, ...]] = []
     origins: list[Origin] = []
     for i, stroke in enumerate(strokes):
         if stroke.is_open_roll:
-            made = _two_rows(stroke, velocities, swing, Ornament.ROLL if i in in_rolls else Ornament.DIDDLE)
+            made = _two_rows(stroke, Ornament.ROLL if i in in_rolls else Ornament.DIDDLE)
         else:
-            made = _rows(stroke, velocities, swing)
+            made = _rows(stroke)
         rows += made
         origins += [stroke.origin] * len(made)
     return np.array(rows, NOTE_DTYPE), origins
 
 
-def _two_rows(stroke: WrittenCell, velocities: Velocities, swing: Swing, ornament: Ornament) -> list[tuple[float, ...]]:
+def _two_rows(stroke: WrittenCell, ornament: Ornament) -> list[tuple[float, ...]]:
     """Both strokes of a diddle; an accent is the first one's alone."""
-    second = replace(
-        stroke,
-        place=stroke.place.later(stroke.length_ticks // 2),
-        letter=replace(stroke.letter, dynamic=Dynamic.NORMAL),
-    )
-    return [
-        _row(s, s.place.played(swing), velocities.of(s.piece, s.letter.dynamic), ornament) for s in (stroke, second)
-    ]
+    dynamic = min(stroke.letter.dynamic, Dynamic.NORMAL)
+    second = replace(stroke, place=stroke.middle, letter=replace(stroke.letter, dynamic=dynamic))
+    return [_row(s, s.velocity(s.letter.dynamic), ornament) for s in (stroke, second)]
 
 
-def _rows(stroke: WrittenCell, velocities: Velocities, swing: Swing) -> list[tuple[float, ...]]:
+def _rows(stroke: WrittenCell) -> list[tuple[float, ...]]:
     """The grace strokes first, then the stroke itself."""
-    tick = stroke.place.played(swing)
-    velocity = velocities.of(stroke.piece, stroke.letter.dynamic)
-    lasts = 0 if stroke.until is None else stroke.until.played(swing) - tick
+    velocity = stroke.velocity(stroke.letter.dynamic)
+    lasts = 0 if stroke.until is None else stroke.until.played - stroke.place.played
     is_buzz = stroke.letter.articulation is Articulation.BUZZ
-    main = _row(stroke, tick, velocity, stroke.letter.ornament, {"duration_ticks" if is_buzz else "choke_ticks": lasts})
-    return [*_graces(stroke, tick, velocity), main]
+    main = _row(stroke, velocity, stroke.letter.ornament, {"duration_ticks" if is_buzz else "choke_ticks": lasts})
+    return [*_graces(stroke, velocity), main]
 
 
-def _graces(stroke: WrittenCell, tick: int, velocity: int) -> list[tuple[float, ...]]:
+def _graces(stroke: WrittenCell, velocity: int) -> list[tuple[float, ...]]:
     grace = replace(
         stroke,
         limb=OTHER_HAND.get(stroke.limb, Limb.UNKNOWN),
         letter=replace(stroke.letter, dynamic=Dynamic.GHOST),
     )
-    soft = max(1, round(velocity * GRACE_SHARE))
-    return [
-        _row(grace, tick, soft, stroke.letter.ornament, {"lead_ms": lead})
-        for lead in GRACE_LEADS_MS.get(stroke.letter.ornament, ())
-    ]
+    graces, ornament = stroke.touch.graces, stroke.letter.ornament
+    soft = graces.velocity(velocity)
+    return [_row(grace, soft, ornament, {"lead_ms": lead}) for lead in graces.leads_ms(ornament)]
 
 
 def _row(
-    stroke: WrittenCell, tick: int, velocity: int, ornament: Ornament, more: Mapping[str, float] = MappingProxyType({})
+    stroke: WrittenCell, velocity: int, ornament: Ornament, more: Mapping[str, float] = MappingProxyType({})
 ) -> tuple[float, ...]:
     """One row; `more` holds the fields that most strokes leave at 0."""
     letter = stroke.letter
     values: dict[str, float] = {
-        "tick": tick,
+        "tick": stroke.place.played,
         "openness": np.nan if letter.openness is None else letter.openness,
         "piece": stroke.piece,
         "zone": letter.zone,

@@ -3,17 +3,18 @@
 * The cells of a bar share it equally: in 4/4, 8 characters are eighths, 12 are triplets, 16 are sixteenths. The number
   must be a whole multiple of the meter's beats, or divide them (1, 2 or 4 in 4/4), so that a lost character shows.
 * Blanks are for the eye and mean nothing.
-* `(…)` fills exactly one beat, however many characters it holds: `x-x- (xxx) x-x- x-x-`. It starts on a beat, and is
-  never swung.
+* `(…)` fills exactly one beat, in a meter with groups the group in which it starts, with 1 to 64 characters:
+  `x-x- (xxx) x-x- x-x-`. It starts on a beat, or a group, and is never swung.
 * `%` repeats the bar before it, `%3` three times more. A `|` at either end is welcome and means nothing.
 
-Ticks count from the start of the bar, straight (no swing yet).
+Ticks count from the start of the bar, straight (no swing yet), and round to the nearest: nine cells do not divide a
+quarter note exactly.
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 from station.core.units import PPQ
 from station.music.tempo import MeterChange
@@ -26,6 +27,8 @@ _USUAL = (1, 2, 3, 4, 6, 8)
 """Cells a beat that a message proposes."""
 MAX_REPEATS = 200
 """Our choice: a longer repetition is a slip of the finger."""
+MAX_CELLS_A_BEAT = 64
+"""256th notes in a quarter: more than anybody writes or plays (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,18 +52,28 @@ class Bar:
 
 @dataclass(frozen=True, slots=True)
 class GridFrame:
-    """What the cells of a bar divide: its meter, and the beat that `(…)` fills."""
+    """What the cells of a bar divide: its meter, and the beat that `(…)` fills where the meter has no groups."""
 
     meter: MeterChange
     beat_ticks: int
 
+    @property
+    def spans(self) -> tuple[tuple[int, int], ...]:
+        """Start and length in ticks of everything that `(…)` can fill, in order: the groups, or the whole beats."""
+        unit, groups = self.meter.beat_ticks, self.meter.groups
+        if groups:
+            starts = accumulate(groups[:-1], initial=0)
+            return tuple((start * unit, beats * unit) for start, beats in zip(starts, groups, strict=True))
+        beats = self.meter.bar_ticks // self.beat_ticks
+        return tuple((i * self.beat_ticks, self.beat_ticks) for i in range(beats))
+
 
 @dataclass(slots=True)
-class _Group:
-    """Characters between two parentheses (`beat`), or outside any."""
+class _Run:
+    """Characters between two parentheses (`is_tuplet`), or outside any."""
 
     chars: list[tuple[int, str]]
-    beat: bool
+    is_tuplet: bool
     start: int
 
 
@@ -69,17 +82,20 @@ class _BadBarError(Exception):
         self.char, self.text = char, text
 
 
-def parse_line(text: str, frame: GridFrame, report: Report) -> list[Bar]:
-    """The bars of one line of the grid; faults go to `report`, and a faulty bar keeps its place as an empty one."""
+def parse_line(text: str, frames: Sequence[GridFrame], report: Report) -> list[Bar]:
+    """The bars of one line of the grid, their `frames` taken in turn.
+
+    Faults go to `report`, and a faulty bar keeps its place as an empty one.
+    """
     bars: list[Bar] = []
     for start, end in _bar_spans(text):
         word = text[start:end].strip()
         repeat = _REPEAT.match(word)
         if repeat:
-            bars += _repeated(bars, repeat.group(1), _first(text, start), report)
+            bars += _repeated(bars, repeat.group(1), _first(text, start), frames, report)
             continue
         try:
-            bars.append(_parse_bar(text, start, end, frame))
+            bars.append(_parse_bar(text, start, end, frames[len(bars) % len(frames)]))
         except _BadBarError as fault:
             report(fault.char, fault.text)
             bars.append(Bar((), sound=False))
@@ -103,7 +119,7 @@ def _first(text: str, start: int) -> int:
     return next((i for i in range(start, len(text)) if not text[i].isspace()), start)
 
 
-def _repeated(bars: list[Bar], count: str, char: int, report: Report) -> list[Bar]:
+def _repeated(bars: list[Bar], count: str, char: int, frames: Sequence[GridFrame], report: Report) -> list[Bar]:
     times = min(int(count[:9] or 1), MAX_REPEATS + 1)
     if not bars:
         report(char, "% repeats the bar before it, and there is none; expected a written bar")
@@ -111,28 +127,44 @@ def _repeated(bars: list[Bar], count: str, char: int, report: Report) -> list[Ba
     if not 1 <= times <= MAX_REPEATS:
         report(char, f"%{count}: a bar is repeated 1 to {MAX_REPEATS} times")
         return [Bar((), sound=False)]
+    meters = [frames[i % len(frames)].meter for i in range(len(bars) - 1, len(bars) + times)]
+    other = next((meter for meter in meters if meter != meters[0]), None)
+    if other and bars[-1].sound:
+        report(char, f"% repeats a bar of {meters[0]}, and this one is of {other}; expected it written out")
+        return [Bar((), sound=False)] * times
     return [bars[-1]] * times
 
 
 def _parse_bar(text: str, start: int, end: int, frame: GridFrame) -> Bar:
-    groups = _groups(text, start, end)
-    if not groups:
+    runs = _runs(text, start, end)
+    if not runs:
         raise _BadBarError(min(start, max(len(text) - 1, 0)), "an empty bar; a bar's rest is written -")
-    plain_ticks = _plain_cell_ticks(text, start, groups, frame)
+    free = _free_ticks(text, runs, frame)
+    count = sum(len(r.chars) for r in runs if not r.is_tuplet)
+    swings = bool(count) and _is_binary(count, free)
+    lengths = dict(frame.spans)
     cells: list[Cell] = []
     tick = 0
-    for group in groups:
-        length = _beat_cell_ticks(group, tick, frame.beat_ticks) if group.beat else plain_ticks
-        swings = not group.beat and _is_binary(length)
-        for char, letter in group.chars:
-            cells.append(Cell(tick, length, letter, char, swings))
-            tick += length
+    for run in runs:
+        parts = len(run.chars) if run.is_tuplet else count
+        whole = lengths[tick] if run.is_tuplet else free
+        edges = [tick + _part(whole, i, parts) for i in range(len(run.chars) + 1)]
+        cells += [
+            Cell(a, b - a, letter, char, swings and not run.is_tuplet)
+            for (a, b), (char, letter) in zip(pairwise(edges), run.chars, strict=True)
+        ]
+        tick = edges[-1]
     return Bar(tuple(cells))
 
 
-def _groups(text: str, start: int, end: int) -> list[_Group]:
+def _part(whole: int, i: int, parts: int) -> int:
+    """`i` of `parts` equal parts of `whole`, to the nearest tick."""
+    return (2 * i * whole + parts) // (2 * parts)
+
+
+def _runs(text: str, start: int, end: int) -> list[_Run]:
     """The characters of a bar, cut at the parentheses."""
-    groups: list[_Group] = []
+    runs: list[_Run] = []
     inside = False
     for i in range(start, end):
         char = text[i]
@@ -143,44 +175,91 @@ def _groups(text: str, start: int, end: int) -> list[_Group]:
                 raise _BadBarError(i, f"{char!r} without its partner in this bar")
             inside = char == "("
             if inside:
-                groups.append(_Group([], True, i))
-            elif not groups[-1].chars:
+                runs.append(_Run([], True, i))
+            elif not runs[-1].chars:
                 raise _BadBarError(i, "nothing between the parentheses; a beat's rest is (-)")
             continue
-        if not groups or groups[-1].beat != inside:
-            groups.append(_Group([], inside, i))
-        groups[-1].chars.append((i, char))
+        if not runs or runs[-1].is_tuplet != inside:
+            runs.append(_Run([], inside, i))
+        runs[-1].chars.append((i, char))
     if inside:
-        raise _BadBarError(groups[-1].start, "'(' without its partner in this bar")
-    return groups
+        raise _BadBarError(runs[-1].start, "'(' without its partner in this bar")
+    return runs
 
 
-def _plain_cell_ticks(text: str, start: int, groups: list[_Group], frame: GridFrame) -> int:
-    """Length of the cells outside parentheses; 0 if there are none and none are missing."""
-    beats = [g for g in groups if g.beat]
-    count = sum(len(g.chars) for g in groups if not g.beat)
+def _free_ticks(text: str, runs: list[_Run], frame: GridFrame) -> int:
+    """Ticks that the cells outside parentheses share; 0 if there are none and none are missing."""
+    for run in runs:
+        if run.is_tuplet and len(run.chars) > MAX_CELLS_A_BEAT:
+            raise _BadBarError(run.start, f"{len(run.chars)} cells in one (…); expected 1 to {MAX_CELLS_A_BEAT}")
+    tuplets = [r for r in runs if r.is_tuplet]
+    what = "group" if frame.meter.groups else "beat"
+    if len(tuplets) > len(frame.spans):
+        most = len(frame.spans)
+        raise _BadBarError(
+            tuplets[most].start, f"a {frame.meter} bar holds {most} (…) of one {what} each; this is one too many"
+        )
+    if frame.meter.groups and tuplets:
+        return _grouped_free(runs, frame)
+    free = _even_free(text, runs, frame)
+    count = sum(len(r.chars) for r in runs if not r.is_tuplet)
+    for last, run in enumerate(runs):
+        if run.is_tuplet and _end_of(runs[: last + 1], free, count, frame) is None:
+            raise _BadBarError(run.start, "(…) fills one beat and must start on a beat")
+    return free
+
+
+def _even_free(text: str, runs: list[_Run], frame: GridFrame) -> int:
+    """The same where all `(…)` are one beat long, or there are none."""
+    tuplets = sum(r.is_tuplet for r in runs)
+    count = sum(len(r.chars) for r in runs if not r.is_tuplet)
     unit = frame.meter.beat_ticks
-    free = frame.meter.bar_ticks - len(beats) * frame.beat_ticks
-    name = f"{frame.meter.beats}/{frame.meter.unit}"
-    if free < 0:
-        most = frame.meter.bar_ticks // frame.beat_ticks
-        raise _BadBarError(beats[most].start, f"a {name} bar holds {most} (…) of one beat each; this is one too many")
+    free = frame.meter.bar_ticks - tuplets * frame.beat_ticks
     if not count and not free:
         return 0
     if not count or not free or free % unit:
-        left = free / unit
-        raise _BadBarError(
-            groups[0].start, f"{count} cells for the {left:g} beats of 1/{frame.meter.unit} that (…) leave of {name}"
-        )
-    if not _fits(count, free // unit, whole_bar=not beats) or free % count:
-        place = _odd_one_out(text, groups) if not beats else groups[0].chars[0][0]
-        beside = " beside (…)" if beats else ""
-        what = f"{count} cells{beside} do not fill a {name} bar"
-        raise _BadBarError(place, f"{what}; expected {_expected(free // unit, not beats)}")
-    return free // count
+        left = f"the {free / unit:g} beats of 1/{frame.meter.unit} that (…) leave of {frame.meter}"
+        raise _BadBarError(runs[0].start, f"{count} cells for {left}")
+    if not _fits(count, free // unit, whole_bar=not tuplets):
+        place = _odd_one_out(text, runs) if not tuplets else runs[0].chars[0][0]
+        beside = " beside (…)" if tuplets else ""
+        expected = _expected(free // unit, not tuplets)
+        raise _BadBarError(place, f"{count} cells{beside} do not fill a {frame.meter} bar; expected {expected}")
+    return free
+
+
+def _grouped_free(runs: list[_Run], frame: GridFrame) -> int:
+    """The same where `(…)` fill groups: so much that each of them starts a group and the bar is full."""
+    count = sum(len(r.chars) for r in runs if not r.is_tuplet)
+    unit = frame.meter.beat_ticks
+    for beats in range(frame.meter.beats):
+        fits = _fits(count, beats, whole_bar=False) if beats else not count
+        if fits and _end_of(runs, beats * unit, count, frame) == frame.meter.bar_ticks:
+            return beats * unit
+    raise _BadBarError(
+        runs[0].start,
+        f"{count} cells beside (…) do not fill a {frame.meter} bar; each (…) starts a group and fills it, and beside"
+        " them stand as many cells on every beat",
+    )
+
+
+def _end_of(runs: list[_Run], free: int, count: int, frame: GridFrame) -> int | None:
+    """Where these runs end if `count` plain cells share `free` ticks; None where a `(…)` starts on no beat or group."""
+    lengths = dict(frame.spans)
+    tick = 0
+    for run in runs:
+        if not run.is_tuplet:
+            tick += _part(free, len(run.chars), count)
+        elif tick in lengths:
+            tick += lengths[tick]
+        else:
+            return None
+    return tick
 
 
 def _fits(count: int, beats: int, whole_bar: bool) -> bool:
+    if count > MAX_CELLS_A_BEAT * beats:
+        return False
     return count % beats == 0 or (whole_bar and beats % count == 0)
 
 
@@ -190,9 +269,9 @@ def _expected(beats: int, whole_bar: bool) -> str:
     return ", ".join(counts[:-1]) + " or " + counts[-1]
 
 
-def _odd_one_out(text: str, groups: list[_Group]) -> int:
+def _odd_one_out(text: str, runs: list[_Run]) -> int:
     """Where the blank-separated group stands that is not as long as the most common one; else the bar's start."""
-    chars = groups[0].chars
+    chars = runs[0].chars
     words: list[list[int]] = [[]]
     for (i, _), (after, _) in zip(chars, [*chars[1:], (len(text), "")], strict=True):
         words[-1].append(i)
@@ -204,15 +283,7 @@ def _odd_one_out(text: str, groups: list[_Group]) -> int:
     return next((w[0] for w in words if len(w) != usual), chars[0][0])
 
 
-def _beat_cell_ticks(group: _Group, tick: int, beat_ticks: int) -> int:
-    if tick % beat_ticks:
-        raise _BadBarError(group.start, "(…) fills one beat and must start on a beat")
-    if beat_ticks % len(group.chars):
-        raise _BadBarError(group.start, f"a beat cannot be cut exactly into {len(group.chars)} cells")
-    return beat_ticks // len(group.chars)
-
-
-def _is_binary(length_ticks: int) -> bool:
-    """Whether a whole note is a power of two of such cells: only those swing."""
-    cells, rest = divmod(4 * PPQ, length_ticks)
+def _is_binary(count: int, ticks: int) -> bool:
+    """Whether a whole note is a power of two of such cells, `count` in `ticks`: only those swing."""
+    cells, rest = divmod(4 * PPQ * count, ticks)
     return not rest and cells & (cells - 1) == 0

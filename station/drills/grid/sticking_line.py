@@ -38,15 +38,14 @@ RIGHT_FIRST: tuple[Piece, ...] = (
 
 
 def apply_sticking(
-    bars: Sequence[Bar],
-    bar_starts: Sequence[int],
+    bars: Iterable[tuple[int, Bar]],
     strokes: Iterable[WrittenCell],
     report: Callable[[int, str], None],
     unsure_bars: frozenset[int],
 ) -> list[WrittenCell]:
-    """The strokes with the hands that the line says; faults go to `report`.
+    """The strokes with the hands that the line says, its bars each with the tick of its start; faults go to `report`.
 
-    `unsure_bars` are those (from 0) in which another line is at fault: there a letter without a stroke is no fault.
+    `unsure_bars` are those (from 0) in which another line is at fault: there a missing stroke is no fault.
     """
     by_tick: dict[int, list[WrittenCell]] = {}
     others: list[WrittenCell] = []
@@ -55,29 +54,38 @@ def apply_sticking(
             by_tick.setdefault(stroke.place.straight, []).append(stroke)
         else:
             others.append(stroke)
-    for number, (bar, start) in enumerate(zip(bars, bar_starts, strict=False)):
+    for number, (start, bar) in enumerate(bars):
         for cell in bar.cells:
             if cell.letter in RESTS:
                 continue
             here = by_tick.get(start + cell.tick, [])
-            fault = _fault(cell.letter, here)
-            if not fault:
+            if len(here) > len(HANDS):
+                continue  # nobody can play it, whoever's hands they are: `motion.feasibility` says so
+            lacking, fault = _lacking(cell.letter, here), _fault(cell.letter, here)
+            if fault or (lacking and number not in unsure_bars):
+                report(cell.char, fault or lacking)
+            elif not lacking:
                 by_tick[start + cell.tick] = _with_hands(cell.letter, here)
-            elif here or number not in unsure_bars:
-                report(cell.char, fault)
     return [*others, *(s for here in by_tick.values() for s in here)]
 
 
-def _fault(letter: str, here: Sequence[WrittenCell]) -> str:
-    """What is wrong with this letter over these strokes; empty if nothing."""
-    if letter not in HANDS and letter != BOTH:
-        return f"{letter!r} is no sticking; expected R, L, B (both hands) or -"
+def _lacking(letter: str, here: Sequence[WrittenCell]) -> str:
+    """What is wrong where this letter says more hands than strike; empty if nothing."""
     if not here:
         return f"{letter} says a hand, but no hand strikes here; expected -"
-    if letter == BOTH and len(here) != 2:
+    if letter == BOTH and len(here) < len(HANDS):
         return f"B says both hands, but one strikes here ({_names(here)}); expected R or L"
+    return ""
+
+
+def _fault(letter: str, here: Sequence[WrittenCell]) -> str:
+    """What else is wrong with this letter over these strokes; empty if nothing."""
+    if letter not in HANDS and letter != BOTH:
+        return f"{letter!r} is no sticking; expected R, L, B (both hands) or -"
     if letter in HANDS and len(here) > 1:
         return f"two strokes here ({_names(here)}); expected B, or write right_hand.… and left_hand.… lines"
+    if letter == BOTH and len(here) == 1:
+        return ""
     for stroke, limb in zip(here, _hands(letter, here), strict=True):
         if stroke.limb not in (Limb.UNKNOWN, limb):
             return f"{letter} contradicts the {word(stroke.limb)}.{word(stroke.piece)} line"
@@ -90,6 +98,8 @@ def _names(strokes: Iterable[WrittenCell]) -> str:
 
 def _hands(letter: str, here: Sequence[WrittenCell]) -> list[Limb]:
     """The hand of each stroke of one moment."""
+    if not here:
+        return []
     if letter in HANDS:
         return [HANDS[letter]]
     first = min(here, key=lambda s: RIGHT_FIRST.index(s.piece))

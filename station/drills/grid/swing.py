@@ -2,13 +2,15 @@
 
 With a ratio r (long:short) the offbeat of a pair of length p moves from p/2 to p·r/(r+1), and whatever stands inside
 either half moves in proportion, so that sixteenths under swung eighths stay in order. Ticks round to the nearest.
-r = 2 is the triplet feel, 3 the dotted eighth, 1 straight.
+r = 2 is the triplet feel, 3 the dotted eighth, 1 straight. Pairs begin with the bar, and in a meter with groups with
+each group.
 """
 
 from dataclasses import dataclass
 from fractions import Fraction
 
 from station.core.units import PPQ
+from station.music.tempo import MeterChange
 
 STRAIGHT = 1.0
 MIN_RATIO, MAX_RATIO = 1.0, 3.5
@@ -23,15 +25,16 @@ class Swing:
     ratio: float = STRAIGHT
     unit_ticks: int = PPQ // 2
 
-    def swung(self, tick: int, bar_ticks: int) -> int:
+    def swung(self, tick: int, meter: MeterChange) -> int:
         """Where the straight `tick` of a bar is played; ticks count from the bar's start, the bar's end included.
 
-        Where the pairs do not fill the bar (eighths in 7/8), its last cell stays straight.
+        Where the pairs do not fill the bar (eighths in 7/8) or one of its groups, its last cell stays straight.
         """
+        start, end = _stretch(tick, meter)
         pair = 2 * self.unit_ticks
-        start = tick // pair * pair
+        start += (tick - start) // pair * pair
         inside = tick - start
-        if self.ratio == STRAIGHT or not inside or start + pair > bar_ticks:
+        if self.ratio == STRAIGHT or not inside or start + pair > end:
             return tick
         long_share = self._long_share
         if inside <= self.unit_ticks:
@@ -43,3 +46,14 @@ class Swing:
         """The long cell's share of the pair, exactly."""
         ratio = Fraction(self.ratio).limit_denominator(_LIMIT_DENOMINATOR)
         return ratio / (ratio + 1)
+
+
+def _stretch(tick: int, meter: MeterChange) -> tuple[int, int]:
+    """Where the pairs around `tick` begin and must end: its group in a meter with groups, else the bar."""
+    start = 0
+    for beats in meter.groups:
+        end = start + beats * meter.beat_ticks
+        if tick < end:
+            return start, end
+        start = end
+    return (0, meter.bar_ticks) if not meter.groups else (start, start)

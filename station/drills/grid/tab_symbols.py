@@ -1,8 +1,8 @@
 """The letters of the grid: one table a family of pieces says what each letter plays.
 
-A small letter is a normal stroke, its capital the same stroke accented, `g` a ghost stroke. The letters follow those
-that drummers know from drum tablature and GrooveScribe (`o` drum, `x` cymbal, `O`/`X` accent, `g` ghost, `f` flam,
-`d` drag, `b` buzz, `#` choke) where those agree with each other.
+A small letter is a normal stroke, its capital the same stroke accented, `g` a ghost stroke; `v w u z` are a flam, drag,
+diddle and buzz as soft as that. The letters follow those that drummers know from drum tablature and GrooveScribe (`o`
+drum, `x` cymbal, `O`/`X` accent, `g` ghost, `f` flam, `d` drag, `b` buzz, `#` choke) where those agree with each other.
 """
 
 from collections.abc import Mapping
@@ -57,8 +57,15 @@ def _both(
     }
 
 
-def _ghost(zone: Zone, openness: float | None = None) -> dict[str, TabSymbol]:
-    return {"g": TabSymbol(zone, dynamic=Dynamic.GHOST, openness=openness)}
+def _ghost(
+    zone: Zone,
+    openness: float | None = None,
+    letter: str = "g",
+    articulation: Articulation = Articulation.NORMAL,
+    ornament: Ornament = Ornament.NONE,
+) -> dict[str, TabSymbol]:
+    """A letter for what is played as softly as a ghost stroke."""
+    return {letter: TabSymbol(zone, articulation, Dynamic.GHOST, openness, ornament)}
 
 
 _DRUM = {
@@ -69,6 +76,10 @@ _DRUM = {
     **_both("t", Zone.HEAD, ornament=Ornament.DIDDLE),
     **_both("b", Zone.HEAD, Articulation.BUZZ, ornament=Ornament.ROLL),
     **_both("r", Zone.RIM, Articulation.RIM_SHOT),
+    **_ghost(Zone.HEAD, letter="v", ornament=Ornament.FLAM),
+    **_ghost(Zone.HEAD, letter="w", ornament=Ornament.DRAG),
+    **_ghost(Zone.HEAD, letter="u", ornament=Ornament.DIDDLE),
+    **_ghost(Zone.HEAD, letter="z", articulation=Articulation.BUZZ, ornament=Ornament.ROLL),
 }
 
 SYMBOLS: Mapping[TabFamily, Mapping[str, TabSymbol]] = MappingProxyType(
@@ -87,7 +98,7 @@ SYMBOLS: Mapping[TabFamily, Mapping[str, TabSymbol]] = MappingProxyType(
         },
         TabFamily.PEDAL: {
             **_both("x", Zone.PEDAL, Articulation.CHICK, CLOSED),
-            "g": TabSymbol(Zone.PEDAL, Articulation.CHICK, Dynamic.GHOST, CLOSED),
+            **_ghost(Zone.PEDAL, CLOSED, articulation=Articulation.CHICK),
             **_both("o", Zone.PEDAL, Articulation.SPLASH, OPEN),
         },
         TabFamily.RIDE: {
@@ -167,7 +178,6 @@ _HINTS: Mapping[tuple[TabFamily, str], str] = MappingProxyType(
         (TabFamily.RIDE, "o"): "a cymbal is struck with x",
         (TabFamily.CRASH, "o"): "a cymbal is struck with x",
         (TabFamily.SNARE, "@"): "a rim shot is r",
-        (TabFamily.SNARE, "z"): "a buzz is b",
     }
 )
 

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.music.score import Score
-from station.music.tempo import MeterChange
 
 Array = NDArray[np.float64]
 
@@ -33,7 +32,7 @@ _LOUD = tuple(set(Piece) - {Piece.HIHAT, Piece.HIHAT_PEDAL, Piece.RIDE, Piece.RI
 
 @dataclass(frozen=True, eq=False)
 class Beats:
-    """The felt beats, from before the score to after it: three eighths are one beat of a 6/8, 9/8 or 12/8.
+    """The felt beats, from before the score to after it: the meter's pulses (`MeterChange.pulses`).
 
     `time_s` (n,); `in_bar` (n,) which beat of its bar each is, from 0, and `of_bar` (n,) how many the bar has.
     """
@@ -49,9 +48,9 @@ class Beats:
         felt = []
         for tick, index in tempo_map.beats_between(0, end):
             meter = tempo_map.meter_at(tick)
-            units = _units_of_a_beat(meter)
-            if index % units == 0:
-                felt.append((tick, index // units, meter.beats // units))
+            starts = [start // meter.beat_ticks for start, _ in meter.pulses]
+            if index in starts:
+                felt.append((tick, starts.index(index), len(starts)))
         inside = tempo_map.seconds_at(np.array([*(f[0] for f in felt), end], np.int64))
         first = float(inside[1] - inside[0])
         last = float(inside[-2] - inside[-3]) if len(inside) > 2 else first  # the last beat may be cut short
@@ -76,10 +75,6 @@ class Beats:
         times[::2] = self.time_s
         times[1::2] = 0.5 * (self.time_s[1:] + self.time_s[:-1])
         return times
-
-
-def _units_of_a_beat(meter: MeterChange) -> int:
-    return 3 if meter.unit >= 8 and meter.beats > 3 and meter.beats % 3 == 0 else 1
 
 
 def restarts(beats_s: Array, onset_s: Array) -> NDArray[np.bool_]:

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.performance import Performance
 from station.practice.records.previous_session import PreviousSession
-from station.practice.session.adaptation import lesson_bars
 from station.practice.session.click_pattern import PLAIN, click_cues
 from station.practice.session.listening import RING_NS, Listening, played_cues, stretch
 from station.practice.session.plan import demonstration_cues, moved_by
@@ -61,7 +60,7 @@ def previous_bar(result: SessionResult, bar: int, previous: PreviousSession) -> 
     """What was played earlier in the lesson's bar that is `bar`, from 0, of the result's score, laid over it."""
     tempo_map = result.score.tempo_map
     start = tempo_map.bar_start(bar)
-    at, strokes = previous.in_bar(lesson_bars(result.plan)[bar] + 1)
+    at, strokes = previous.in_bar(result.plan.bar_names[bar] + 1)
     ticks = start + np.round((at[:, 0] - 1) * tempo_map.meter_at(start).beat_ticks).astype(np.int64)
     strokes = strokes.copy()
     strokes["at_ns"] = tempo_map.ns_at(ticks) + np.round(at[:, 1] * NS_PER_S).astype(np.int64)

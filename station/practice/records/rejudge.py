@@ -18,7 +18,6 @@ from station.devices.capture.replay import CaptureBegan, Entry, LoggedText, Outp
 from station.engine.messages import EngineEvent, Sounding, Started
 from station.music.judgement import Label
 from station.music.score import Score
-from station.practice.session.adaptation import lesson_bars
 from station.practice.session.event_log import Ended, PassBegan, Paused, Said, Tracked, WentOn, said_in, stroke_key
 from station.practice.session.session import Session, SessionResult
 from station.scoring.matching.alignment import judgements
@@ -183,7 +182,7 @@ def session_document(result: SessionResult) -> dict[str, Json]:
         "passes": plan.passes,
         "complete": result.complete,
         "pauses": [
-            {"bar": lesson_bars(plan)[pause.bar] + 1, "asked": pause.asked, "strokes_again": pause.strokes}
+            {"bar": plan.bar_names[pause.bar] + 1, "asked": pause.asked, "strokes_again": pause.strokes}
             for pause in result.pauses
         ],
         "judgements": rows,

@@ -23,7 +23,6 @@ from station.practice.records.mastery_report import passes_text
 from station.practice.records.phase_words import phase_document, phase_lines
 from station.practice.records.stick_words import sticking_lines, sticks_document, sticks_text
 from station.practice.records.what_next import advice_of, measured_session, missed_document, table_in, what_next
-from station.practice.session.adaptation import lesson_bars
 from station.practice.session.lesson_places import written_hands
 from station.practice.session.session import SessionResult
 from station.scoring.analysis.points import FREE_LEAN_MS, Feel
@@ -73,7 +72,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "output_latency_ms": result.latency.of_output(result.output) / NS_PER_MS,
         "latency": result.latency.words(result.device, result.output),
         "pauses": [
-            {"bar": lesson_bars(plan)[pause.bar] + 1, "asked": pause.asked, "strokes_again": pause.strokes}
+            {"bar": plan.bar_names[pause.bar] + 1, "asked": pause.asked, "strokes_again": pause.strokes}
             for pause in result.pauses
         ],
         "goals_missed": missed_document(plan, measured),
@@ -108,13 +107,11 @@ def session_view(result: SessionResult, settings: Settings) -> SummaryView:
     plan = result.plan
     return SummaryView(
         windows=plan.level.windows,
-        pass_bars=plan.section.bar_count,
-        first_bar=plan.first_bar,
         hears_velocity=result.device != KEYBOARD,
         feel=feel_of(plan.lesson.goals),
         kit=kit_facts(settings, result.device),
         silences=plan.silences,
-        bar_names=None if plan.rounds is None else plan.rounds.bars,
+        bar_names=plan.practised_bars,
         beat_ticks=plan.lesson.beat_ticks,
         faults=plan.lesson.goals.faults,
         asks_hand=written_hands(result),

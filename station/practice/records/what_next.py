@@ -11,7 +11,6 @@ from station.drills.mastery.goals_missed import Miss, missed_goals
 from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.rules import Rules
 from station.engine.engine import KEYBOARD
-from station.practice.session.adaptation import lesson_bars
 from station.practice.session.plan import Plan
 from station.practice.session.session import SessionResult
 from station.scoring.report.assessment_document import Json
@@ -29,7 +28,7 @@ def measured_session(result: SessionResult, score: Json) -> PassResult:
     """All passes of a session as one, as the mastery policy measures a pass; its points are the report's `score`."""
     plan = result.plan
     view = PassView(plan.level.windows, _rules(plan).asked, result.device != KEYBOARD)
-    measured = measure_pass(result.score, result.performance, result.alignment, lesson_bars(plan), view)
+    measured = measure_pass(result.score, result.performance, result.alignment, plan.practised_bars, view)
     return replace(measured, points=score if isinstance(score, float) else None)
 
 

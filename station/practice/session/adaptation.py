@@ -193,19 +193,12 @@ class Adaptation:
         performance = rewired(result.performance, swap)
         alignment = result.alignment if swap is None else align(result.score, performance, clocked=True)
         view = PassView(self.level.windows, self.rules.asked, result.device != KEYBOARD)
-        return measure_pass(result.score, performance, alignment, lesson_bars(result.plan), view)
+        return measure_pass(result.score, performance, alignment, result.plan.practised_bars, view)
 
 
 def held_words(level: Level, after: Level) -> str:
     """That a student who holds a lesson at `level` is judged at the one `after` it."""
     return f"You hold it at {level}: judged as {after} from next time on."
-
-
-def lesson_bars(plan: Plan) -> tuple[int, ...]:
-    """The lesson's bar (from 0) of each bar of the plan's score."""
-    if plan.rounds is not None:
-        return plan.rounds.bars
-    return tuple(range(plan.first_bar, plan.first_bar + plan.section.bar_count)) * plan.passes
 
 
 # --- all passes in a row ----------------------------------------------------------------------------------------------
@@ -290,7 +283,7 @@ def _whole_plan(plans: list[Plan], row: ScoreRow, bars: tuple[int, int]) -> Plan
     score, last = row.score, plans[-1]
     names = np.full(score.bar_count, bars[0], np.int64)
     for start, plan in zip(row.start_bars, plans, strict=True):
-        played = lesson_bars(plan)
+        played = plan.bar_names
         names[start : start + len(played)] = played
     silences = tuple(
         (start_ns + begin_ns, start_ns + end_ns)
@@ -308,6 +301,7 @@ def _whole_plan(plans: list[Plan], row: ScoreRow, bars: tuple[int, int]) -> Plan
         segments=segments,
         passes_start_ns=0,
         end_ns=score.length_ns,
+        landing=last.landing[:0],
         rounds=Rounds(tuple(names.tolist()), row.start_bars, bars, silences),
     )
 

@@ -1,9 +1,9 @@
 """The click as a pattern over beats: what sounds where, as cues over a tempo map.
 
 Pure. A pattern knows bars, beats and their parts; the tempo map says when they are. A beat is one of the meter's unit
-(in 6/8 an eighth); where the backbeat or one click a bar is asked for in a compound meter (6/8, 9/8, 12/8), beats are
-the dotted quarters that a drummer feels. It stands here, above both the music and the engine's cues, for the sound
-itself knows no bars.
+(in 6/8 an eighth). Where beats stand in groups (6/8, 7/8 as 3+2+2) each group's first has a middle accent; where the
+backbeat or one click a bar is asked for, beats are the pulses that a drummer feels. It stands here, above both the
+music and the engine's cues, for the sound itself knows no bars.
 
 A counted word sounds `SPOKEN_LEAD_NS` before its beat, so that its vowel falls on the beat.
 """
@@ -146,20 +146,30 @@ def silences(tempo_map: TempoMap, end_tick: int, gap: Gap | None) -> tuple[tuple
 @lru_cache(maxsize=64)
 def bar_clicks(meter: MeterChange, pattern: ClickPattern) -> tuple[_Click, ...]:
     """The clicks of one whole bar of `meter`; silent ones are left out."""
-    pulse = _pulse_ticks(meter, pattern.beats)
     clicks = [
         click
-        for index, tick in enumerate(range(0, meter.bar_ticks, pulse))
+        for index, beat in enumerate(_click_beats(meter, pattern.beats))
         if _sounds(index, pattern.beats)
-        for click in _beat_clicks(index, tick, pulse, pattern)
+        for click in _beat_clicks(index, beat, pattern)
     ]
-    moved = (click._replace(tick=pattern.swing.swung(click.tick, meter.bar_ticks)) for click in clicks)
+    moved = (click._replace(tick=pattern.swing.swung(click.tick, meter)) for click in clicks)
     return tuple(click for click in moved if click.velocity > 0)
 
 
-def _pulse_ticks(meter: MeterChange, beats: ClickBeats) -> int:
-    is_compound = meter.unit == 8 and meter.beats % 3 == 0 and meter.beats > 3
-    return meter.beat_ticks * (3 if is_compound and beats is not ClickBeats.ALL else 1)
+class _Beat(NamedTuple):
+    """A beat that may click: its tick from the bar's start, its length, and whether a group of beats begins there."""
+
+    tick: int
+    ticks: int
+    begins_group: bool
+
+
+def _click_beats(meter: MeterChange, beats: ClickBeats) -> list[_Beat]:
+    """The beats of a bar of `meter`: all of them, or its pulses where only some of those click."""
+    if beats is not ClickBeats.ALL:
+        return [_Beat(start, end - start, begins_group=False) for start, end in meter.pulses]
+    starts = meter.group_starts if max(meter.felt_groups) > 1 else ()
+    return [_Beat(i * meter.beat_ticks, meter.beat_ticks, i in starts) for i in range(meter.beats)]
 
 
 def _sounds(index: int, beats: ClickBeats) -> bool:
@@ -168,15 +178,15 @@ def _sounds(index: int, beats: ClickBeats) -> bool:
     return beats is ClickBeats.ALL or index % 2 == 1
 
 
-def _beat_clicks(index: int, tick: int, pulse: int, pattern: ClickPattern) -> list[_Click]:
-    """The clicks of the beat `index` at `tick`, straight."""
+def _beat_clicks(index: int, beat: _Beat, pattern: ClickPattern) -> list[_Click]:
+    """The clicks of `beat`, the bar's `index`-th, straight."""
+    tick, pulse = beat.tick, beat.ticks
     if pattern.displacement is not Displacement.NONE:
         voice = PART_LABELS[4][pattern.displacement - 1] if pattern.counts else ClickVoice.BEAT
         return [_Click(tick + pattern.displacement * pulse // 4, voice, pattern.levels.beat)]
-    is_accent = index in pattern.accents
-    plain = ClickVoice.ACCENT if is_accent else ClickVoice.BEAT
+    plain, velocity = _weight(index, beat, pattern)
     voice = word_of_beat(index, plain) if pattern.counts else plain
-    first = _Click(tick, voice, pattern.levels.accent if is_accent else pattern.levels.beat)
+    first = _Click(tick, voice, velocity)
     words = PART_LABELS.get(pattern.subdivisions, ()) if pattern.counts else ()
     others = words or (ClickVoice.SUBDIVISION,) * (pattern.subdivisions - 1)
     return [
@@ -186,6 +196,16 @@ def _beat_clicks(index: int, tick: int, pulse: int, pattern: ClickPattern) -> li
             for part, voice in enumerate(others)
         ),
     ]
+
+
+def _weight(index: int, beat: _Beat, pattern: ClickPattern) -> tuple[ClickVoice, int]:
+    """The voice and the velocity of a beat: an accent, a middle accent where a group begins, or neither."""
+    levels = pattern.levels
+    if index in pattern.accents:
+        return ClickVoice.ACCENT, levels.accent
+    if pattern.accents and beat.begins_group:  # who asks for no accents gets none
+        return ClickVoice.ACCENT, (levels.accent + levels.beat) // 2
+    return ClickVoice.BEAT, levels.beat
 
 
 def counting(pattern: ClickPattern) -> ClickPattern:

@@ -6,7 +6,7 @@ the clock, a text has its place among the strokes: the session heard them later 
 
 | `said` | besides |
 |---|---|
-| `pass` | what is to be played and judged: `lesson`, `title`, `tempo_bpm`, `beat_ticks`, `first_bar`, `passes`, `click`, `level`, `notes` (rows of `NOTE_DTYPE`), `tempos`, `meters`, `end_tick` of one pass, `passes_start_ns`, `end_ns`; `latency`, `waits` |
+| `pass` | what is to be played and judged: `lesson`, `title`, `tempo_bpm`, `beat_ticks`, `first_bar`, `passes`, `click`, `level`, `notes` (rows of `NOTE_DTYPE`), `tempos`, `meters`, `end_tick` of one pass, `landing` (rows; none in old captures), `passes_start_ns`, `end_ns`; `latency`, `waits` |
 | `pause` | `now_ns`, the session time that it knew; `command`: the strokes that asked for it, each as `stroke_key` has it |
 | `go_on` | `asked`, `whole`, as `Session.resume` takes them |
 | `end` | `now_ns`, the session time at which nothing more was awaited |
@@ -21,6 +21,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.events import Hit
@@ -126,6 +127,7 @@ def _plan_fields(plan: Plan) -> dict[str, object]:
         "click": plan.click is not None,
         "level": plan.level,
         **_section_fields(plan.section),
+        "landing": _rows(plan.landing),
         "passes_start_ns": plan.passes_start_ns,
         "end_ns": plan.end_ns,
     }
@@ -134,11 +136,15 @@ def _plan_fields(plan: Plan) -> dict[str, object]:
 def _section_fields(section: Score) -> dict[str, object]:
     tempo_map = section.tempo_map
     return {
-        "notes": [_without_nan(row) for row in section.notes.tolist()],
+        "notes": _rows(section.notes),
         "tempos": [[change.tick, change.us_per_quarter] for change in tempo_map.tempos],
         "meters": [[change.tick, change.beats, change.unit, *change.groups] for change in tempo_map.meters],
         "end_tick": section.end_tick,
     }
+
+
+def _rows(notes: NDArray[np.void]) -> list[list[float | int | None]]:
+    return [_without_nan(row) for row in notes.tolist()]
 
 
 def _without_nan(row: tuple[float | int, ...]) -> list[float | int | None]:
@@ -192,7 +198,7 @@ def said_in(logged: LoggedText) -> Said | Tracked | None:
 
 def _plan(fields: dict[str, object]) -> Plan:
     """As much of the plan as judgement needs: nothing sounds, and nobody demonstrates."""
-    section = _section(fields)
+    section, landing = _section(fields), _landing(fields)
     passes, start_ns, end_ns = (_whole(fields[key]) for key in ("passes", "passes_start_ns", "end_ns"))
     beat_ticks, tempo_bpm = _whole(fields["beat_ticks"]), float(str(fields["tempo_bpm"]))
     if not (1 <= passes <= MAX_LOOPS and 0 < beat_ticks <= _MOST_TICKS and 0 < tempo_bpm < math.inf):
@@ -203,7 +209,7 @@ def _plan(fields: dict[str, object]) -> Plan:
         kit=load_kit(DEFAULT_KIT),
         tempo_bpm=tempo_bpm,
         section=section,
-        score=section.repeated(passes),
+        score=section.repeated(passes).landing_on(landing),
         first_bar=_whole(fields["first_bar"]),
         passes=passes,
         segments=(),
@@ -212,7 +218,15 @@ def _plan(fields: dict[str, object]) -> Plan:
         cues=np.zeros(0, CUE_DTYPE),
         click=PLAIN if fields["click"] else None,
         level=Level(str(fields.get("level", Level.INTERMEDIATE))),  # at which all was judged before there was a choice
+        landing=landing,
     )
+
+
+def _landing(fields: dict[str, object]) -> NDArray[np.void]:
+    notes = [_note(_list(row)) for row in _list(fields.get("landing", []))]
+    if any(note.tick for note in notes):
+        raise ValueError
+    return Score.from_notes(notes, TempoMap()).notes
 
 
 def _section(fields: dict[str, object]) -> Score:

@@ -5,7 +5,6 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb
 from station.music.score import Score
-from station.practice.session.adaptation import lesson_bars
 from station.practice.session.session import SessionResult
 
 PLACE_DTYPE = np.dtype(
@@ -25,17 +24,14 @@ def places_of(result: SessionResult, ticks: NDArray[np.int64]) -> NDArray[np.voi
     if not len(ticks):
         return places
     tempo_map, plan = result.score.tempo_map, result.plan
-    names = np.asarray(lesson_bars(plan))
+    names = np.asarray(plan.bar_names)
     row = np.minimum(tempo_map.bars_at(ticks), len(names) - 1)
     starts = np.asarray([tempo_map.bar_start(bar) for bar in range(int(row.max()) + 2)])
     within = np.minimum((ticks - starts[row]) / np.diff(starts)[row], 1.0)
     beats = np.asarray([tempo_map.meter_at(int(start)).beats for start in starts[:-1]])[row]
     places["row_bar"], places["bar"], places["beat"] = row, names[row] + 1, within * beats + 1
     places["place"] = places["bar"] + within
-    if plan.rounds is not None:
-        places["pass"] = np.searchsorted(np.asarray(plan.rounds.starts), row, "right")
-    else:
-        places["pass"] = row // plan.section.bar_count + 1
+    places["pass"] = np.searchsorted(np.asarray(plan.pass_starts), row, "right")
     return places
 
 
@@ -45,7 +41,7 @@ def written_hands(result: SessionResult) -> NDArray[np.bool_]:
     written = np.isin(lesson.notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND))
     starts = np.asarray([lesson.tempo_map.bar_start(bar) for bar in range(lesson.bar_count + 1)])
     asked = set(zip(lesson.bar[written].tolist(), *_within(lesson, starts, written), strict=True))
-    score, names = result.score, np.asarray(lesson_bars(result.plan))
+    score, names = result.score, np.asarray(result.plan.bar_names)
     starts = np.asarray([score.tempo_map.bar_start(bar) for bar in range(int(score.bar.max(initial=0)) + 1)])
     row = np.minimum(score.bar, len(names) - 1)
     here = zip(names[row].tolist(), *_within(score, starts, np.ones(len(score), np.bool_)), strict=True)

@@ -5,7 +5,7 @@ segments of the timeline out. Times are nanoseconds from the transport's zero un
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 
 import numpy as np
@@ -18,7 +18,7 @@ from station.engine.messages import CUE_DTYPE, Bus
 from station.motion.kit.kit import Kit
 from station.motion.sticking.hand_notes import Hands
 from station.motion.sticking.limbs import as_led, assign_limbs
-from station.music.score import Score
+from station.music.score import NOTE_DTYPE, Score
 from station.practice.session.click_pattern import (
     PLAIN,
     ClickPattern,
@@ -81,6 +81,8 @@ class PlanOptions:
 class Rounds:
     """Passes that differ: the lesson's bar (from 0) of each of `bars`, the bars in which passes start, the `loop`.
 
+    Their landings are among `bars`, as `Plan.bar_names` has them.
+
     `silences` say from and until which ns the click was silent.
     """
 
@@ -94,7 +96,8 @@ class Rounds:
 class Plan:
     """A session laid out.
 
-    `kit` is the drummer's, `section` one pass at the practice tempo, `score` all passes in a row (what is judged),
+    `kit` is the drummer's, `section` one pass at the practice tempo, `landing` (m,) of `NOTE_DTYPE` what is struck
+    where the last one ends, its limbs written, `score` all passes in a row and the landing (what is judged),
     `first_bar` the lesson's bar (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on
     the transport, `end_ns` where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds, `click` the
     pattern under the passes, None where the score follows the student, `level` how strictly is judged.
@@ -115,6 +118,31 @@ class Plan:
     click: ClickPattern | None
     level: Level
     rounds: Rounds | None = None
+    landing: NDArray[np.void] = field(default_factory=lambda: np.zeros(0, NOTE_DTYPE))
+
+    def in_a_row(self, times: int) -> Score:
+        """The section `times` times in a row, and the landing."""
+        return self.section.repeated(times).landing_on(self.landing)
+
+    @property
+    def bar_names(self) -> tuple[int, ...]:
+        """The lesson's bar (from 0) of each bar of `score`; a landing stands in the one after the bars practised."""
+        if self.rounds is not None:
+            return self.rounds.bars
+        after = self.first_bar + self.section.bar_count
+        return tuple(range(self.first_bar, after)) * self.passes + ((after,) if len(self.landing) else ())
+
+    @property
+    def practised_bars(self) -> tuple[int, ...]:
+        """The same, a landing with the bar that leads to it: what counts for a bar, and what is to be practised."""
+        return tuple(min(bar, self.bars[1]) for bar in self.bar_names)
+
+    @property
+    def pass_starts(self) -> tuple[int, ...]:
+        """The bars of `score`, from 0, in which passes start."""
+        if self.rounds is not None:
+            return self.rounds.starts
+        return tuple(range(0, self.passes * self.section.bar_count, self.section.bar_count))
 
     @property
     def beats_a_minute(self) -> float:
@@ -167,10 +195,10 @@ def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:
     first, last = _checked_bars(options.bars, lesson)
     kit = drummers_kit(lesson, options.hands, options.stands)
     section = lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm)
-    section = with_sticking(section, kit, options.hands)
+    section, landing = _led(section, lesson.landing_after(last), kit, options.hands)
     demonstrations = lesson.demonstrations if options.demonstrations is None else options.demonstrations
 
-    line = _Timeline(section, lesson.count_in_bars, options)
+    line = _Timeline(section, landing, lesson.count_in_bars, options)
     line.add(Phase.DEMONSTRATION, demonstrations)
     passes_start_ns = line.add(Phase.PASS, passes)
     return Plan(
@@ -178,7 +206,7 @@ def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:
         kit=kit,
         tempo_bpm=tempo_bpm,
         section=section,
-        score=section.repeated(passes),
+        score=section.repeated(passes).landing_on(landing),
         first_bar=first,
         passes=passes,
         segments=tuple(line.segments),
@@ -187,30 +215,36 @@ def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:
         cues=_in_order(line.cues),
         click=options.click,
         level=lesson.levels.level(options.level),
+        landing=landing,
     )
 
 
 class _Timeline:
     """A session's `segments` and `cues` so far, until `end_ns`; each phase is counted in."""
 
-    def __init__(self, section: Score, count_in_bars: int, options: PlanOptions) -> None:
+    def __init__(self, section: Score, landing: NDArray[np.void], count_in_bars: int, options: PlanOptions) -> None:
         self.segments: list[Segment] = []
         self.cues: list[NDArray[np.void]] = []
         self.end_ns = 0
-        self._section, self._options, self._click = section, options, options.click or PLAIN
+        self._section, self._landing = section, landing
+        self._options, self._click = options, options.click or PLAIN
         self._count_in = _count_in(section, count_in_bars)
 
     def add(self, phase: Phase, times: int) -> int:
-        """The section `times` times in a row behind a count-in, nothing where it is none; returns when it begins."""
+        """The section `times` times in a row and the landing behind a count-in, nothing where it is none.
+
+        The last time lasts as long as the landing's bar. Returns when it begins.
+        """
         if times == 0:
             return self.end_ns
         self._count()
-        start_ns, whole = self.end_ns, self._section.repeated(times)
-        ends_ns = whole.tempo_map.ns_at(np.arange(1, times + 1) * self._section.end_tick).tolist()
-        starts_ns = [0, *ends_ns[:-1]]
+        start_ns, whole = self.end_ns, self._section.repeated(times).landing_on(self._landing)
+        starts_ns = whole.tempo_map.ns_at(np.arange(times) * self._section.end_tick).tolist()
+        ends_ns = [*starts_ns[1:], whole.length_ns]
         if phase is Phase.DEMONSTRATION:
-            for at_ns in starts_ns:
-                self._sound(start_ns + at_ns, self._clicks(self._section), demonstration_cues(self._section))
+            once, last = self._section, self._section.landing_on(self._landing)
+            for at_ns, score in zip(starts_ns, [once] * (times - 1) + [last], strict=True):
+                self._sound(start_ns + at_ns, self._clicks(score), demonstration_cues(score))
         else:
             self._sound(start_ns, *self._under_passes(whole))
         self.segments += [
@@ -234,10 +268,22 @@ class _Timeline:
             yield demonstration_cues(whole)
 
     def _clicks(self, score: Score) -> NDArray[np.void]:
-        return click_cues(score.tempo_map, score.end_tick, self._click)
+        """The clicks of `score`: of the landing's bar only the first, for the last stroke rings."""
+        end_tick = score.end_tick
+        if len(self._landing) and score is not self._section:
+            end_tick = score.tempo_map.bar_start(score.bar_count - 1) + 1
+        return click_cues(score.tempo_map, end_tick, self._click)
 
     def _sound(self, at_ns: int, *cues: NDArray[np.void]) -> None:
         self.cues += [moved_by(each, at_ns) for each in cues]
+
+
+def _led(section: Score, landing: NDArray[np.void], kit: Kit, hands: Hands | None) -> tuple[Score, NDArray[np.void]]:
+    """Both with a limb for every stroke; the hands land as they come out of the section."""
+    led = with_sticking(section.landing_on(landing), kit, hands).notes
+    rows = led[len(section) :].copy()
+    rows["tick"] = 0
+    return replace(section, notes=led[: len(section)]), rows
 
 
 def demonstration_cues(score: Score) -> NDArray[np.void]:

@@ -33,6 +33,8 @@ _LEAST, _MOST = 0.34, 0.86
 """Height of the softest and the loudest note, in lanes (our choice: both can be seen across a room)."""
 _WIDE = 0.34
 _WEDGE_SIZE = 0.26
+_BEAT_LINE, _GROUP_LINE = 0.09, 0.18
+"""How strong the lines of beats are, and of the first beats of groups; bar lines are stronger still (our choice)."""
 _LEAST_LANES = 4
 """With fewer pieces the lanes grow no taller (our choice: notes stay notes)."""
 _LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L", Limb.RIGHT_FOOT: "R", Limb.LEFT_FOOT: "L"}
@@ -86,10 +88,14 @@ class Highway:
         first, last = tempo_map.bars_at(ticks).tolist()
         for bar in range(first, min(last, last_bar) + 1):
             start, end = tempo_map.bar_start(bar), tempo_map.bar_start(bar + 1)
-            beats = tempo_map.meter_at(start).beats if bar < last_bar else 1
-            for beat in range(beats):
-                draw_list.time_s = float(tempo_map.seconds_at(start + (end - start) * beat // beats))
-                draw_list.box((-0.02, 0.0), (0.04, float(rows)), INK_FAINT if beat == 0 else with_opacity(INK, 0.09))
+            meter = tempo_map.meter_at(start)
+            groups = meter.group_starts if max(meter.felt_groups) > 1 else (0,)
+            for tick in range(start, end, meter.beat_ticks) if bar < last_bar else (start,):
+                beat = (tick - start) // meter.beat_ticks
+                opacity = _GROUP_LINE if beat in groups else _BEAT_LINE
+                draw_list.time_s = float(tempo_map.seconds_at(tick))
+                colour = INK_FAINT if beat == 0 else with_opacity(INK, opacity)
+                draw_list.box((-0.02, 0.0), (0.04, float(rows)), colour)
 
     def _note(self, draw_list: DrawList, i: int, y: float) -> None:
         score, marks = self.snapshot.score, self.snapshot.marks

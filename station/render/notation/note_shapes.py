@@ -13,6 +13,8 @@ STAFF_LINE = 0.10
 """Thickness of a staff line."""
 _HEAD_HALF = (0.66, 0.46)
 _HEAD_TURN = -0.38
+_SIGNATURE, _SIGNATURE_ROOM = 2.75, 3.1
+"""The letters of a time signature fill two spaces; wider than the room are the groups of a meter, set smaller."""
 
 
 def draw_head(draw_list: DrawList, head: NoteHead, at: tuple[float, float], scale: float) -> None:
@@ -40,10 +42,12 @@ def draw_hat_sign(draw_list: DrawList, kind: str, at: tuple[float, float]) -> No
 
 
 def time_signature(draw_list: DrawList, meter: MeterChange, x: float) -> None:
-    """The two numbers, right-aligned at `x`."""
-    style = TypeStyle(2.75, INK, Face.BOLD, 0.5)
-    draw_list.text(str(meter.beats), (x, -0.06), style)
-    draw_list.text(str(meter.unit), (x, 1.94), style)
+    """The beats, in their groups where the meter has them, over their unit, both with their middle at `x`."""
+    beats, _, unit = str(meter).partition("/")
+    style = TypeStyle(_SIGNATURE, INK, Face.BOLD, 0.5)
+    size = _SIGNATURE * min(1.0, _SIGNATURE_ROOM / draw_list.width(beats, style))
+    draw_list.text(beats, (x, -0.06 - (_SIGNATURE - size) / 4), TypeStyle(size, INK, Face.BOLD, 0.5))
+    draw_list.text(unit, (x, 1.94), style)
 
 
 def clef(draw_list: DrawList, x: float) -> None:

@@ -1,7 +1,8 @@
 """Spells rhythm: which note values, rests, beams and tuplets write a bar's onsets in one voice.
 
-A bar falls into beat groups (a quarter, or three eighths in compound time). Each group takes the simplest division that
-its onsets fit; a stroke lasts to the next one or to the group's end, as drum parts are written.
+A bar falls into beat groups: quarters, or the groups of the meter where they are eighths (6/8, 7/8 as 3+2+2). Each
+group takes the simplest division that its onsets fit; a stroke lasts to the next one or to the group's end, as drum
+parts are written.
 """
 
 from collections.abc import Sequence
@@ -14,9 +15,10 @@ _EXACT_TICKS = PPQ // 240
 """Onsets so close to a division are on it: one tick of a 240 PPQ file (our choice)."""
 _LOOSENESS = 0.012
 """A played, unquantised group may leave the grid by so much of a beat more for each step of simplicity (our choice)."""
-_QUARTER_DIVISIONS = (1, 2, 4, 3, 6, 8, 5, 7, 12, 16)
-_COMPOUND_DIVISIONS = (3, 6, 12, 24)
-"""Divisions tried, simplest first, of a quarter and of a dotted quarter."""
+_QUARTER_DIVISIONS = (1, 2, 4, 3, 6, 8, 5, 7, 12, 16, 9, 10, 14, 11, 13, 15, 24, 32)
+_COMPOUND_DIVISIONS = (3, 6, 12, 24, 5, 7, 9, 10, 14)
+_OTHER_TUPLETS = (3, 5, 6, 7, 9, 10, 12, 14)
+"""Divisions tried, simplest first, of a quarter, of a dotted quarter, and after plain ones of longer groups."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,11 +55,11 @@ class BeatGroup:
 
 def beat_groups(meter: MeterChange, length: int) -> list[tuple[int, int]]:
     """Start and end of the beat groups of a bar `length` ticks long (the last bar before a change may be short)."""
-    eighth = PPQ // 2
-    step = 3 * eighth if meter.unit == 8 and meter.beats % 3 == 0 else PPQ
-    groups = [(start, min(start + step, length)) for start in range(0, length, step)]
-    if meter.unit == 8 and len(groups) > 1 and groups[-1][1] - groups[-1][0] == eighth:
-        groups[-2:] = [(groups[-2][0], length)]  # 7/8 reads 2 + 2 + 3
+    if meter.unit >= 8 and max(meter.felt_groups) > 1:
+        return [(start, min(end, length)) for start, end in meter.pulses if start < length]
+    groups = [(start, min(start + PPQ, length)) for start in range(0, length, PPQ)]
+    if meter.unit == 8 and len(groups) > 1 and groups[-1][1] - groups[-1][0] == PPQ // 2:
+        groups[-2:] = [(groups[-2][0], length)]  # 7/8 reads 2 + 2 + 3 where nothing else is said
     return groups
 
 
@@ -86,7 +88,8 @@ def _divisions(length: int) -> tuple[int, ...]:
     if length == PPQ:
         return _QUARTER_DIVISIONS
     eighths = 2 * length / PPQ
-    return tuple(int(eighths * k) for k in (0.5, 1, 2, 4, 8) if eighths * k >= 1 and (eighths * k).is_integer()) or (1,)
+    plain = tuple(int(eighths * k) for k in (0.5, 1, 2, 4, 8) if eighths * k >= 1 and (eighths * k).is_integer())
+    return plain + tuple(count for count in _OTHER_TUPLETS if count not in plain)
 
 
 def _best_division(offsets: list[int], length: int, divisions: tuple[int, ...]) -> int:

@@ -52,9 +52,8 @@ class ResultFacts:
 class ResultWords:
     """What is written on a result beside its numbers.
 
-    `points` 0–100, `advice` sentences on what to do next, `technique` lines on what hands and feet did; a pass has
-    `pass_bars` bars (0: all are one pass), the first is the lesson's `first_bar`, from 0; passes that differ begin in
-    the bars `starts`.
+    `points` 0–100, `advice` sentences on what to do next, `technique` lines on what hands and feet did; passes begin
+    in the bars `starts` of the score, the first of which is the lesson's `first_bar`, from 0.
     """
 
     title: str
@@ -62,7 +61,6 @@ class ResultWords:
     points: float | None
     advice: tuple[str, ...] = ()
     technique: tuple[str, ...] = ()
-    pass_bars: int = 0
     first_bar: int = 0
     starts: tuple[int, ...] = ()
 
@@ -123,14 +121,12 @@ def headline(facts: ResultFacts) -> str:
 
 def ticks(facts: ResultFacts) -> tuple[str, list[tuple[int, str]]]:
     """What the time axis counts, and its marks: row of `bar_s` and number. Passes if several, else bars."""
-    if facts.words.starts:
+    if len(facts.words.starts) > 1:
         every = max(1, round(len(facts.words.starts) / MOST_TICKS))
         return "pass", [(bar, str(number)) for number, bar in enumerate(facts.words.starts, 1)][::every]
-    bars, pass_bars = len(facts.bar_s) - 1, facts.words.pass_bars
-    several = 0 < pass_bars < bars
-    step, first = (pass_bars, 0) if several else (1, facts.words.first_bar)
-    every = step * max(1, round(bars / step / MOST_TICKS))
-    return "pass" if several else "bar", [(bar, str(first + bar // step + 1)) for bar in range(0, bars, every)]
+    bars = len(facts.bar_s) - 1
+    every = max(1, round(bars / MOST_TICKS))
+    return "bar", [(bar, str(facts.words.first_bar + bar + 1)) for bar in range(0, bars, every)]
 
 
 def _lean(name: str, facts: ResultFacts, rows: NDArray[np.bool_]) -> PieceLean:

@@ -13,7 +13,7 @@ from station.cli.animate_options import LEVELS, AnimateOptions
 from station.cli.options.option_fields import read_options
 from station.core.errors import DeviceError
 from station.core.settings import Settings
-from station.drills.lesson_writer import first_difference
+from station.drills.lesson_difference import first_difference
 from station.drills.library import find_lesson
 from station.motion.sticking.hand_notes import Hands
 from station.music.formats.smf.standard_midi import read_midi
@@ -60,7 +60,21 @@ def test_a_lesson_file_is_the_lesson_with_those_bars_as_its_loop(tmp_path: Path)
     path = Exporter().lesson(ROCK, (1, 1), settings(tmp_path))
     read = find_lesson(str(path))
     assert read.loop == (1, 1)
-    assert first_difference(read.score, ROCK.score) == ""
+    assert first_difference(replace(read, loop=ROCK.loop), ROCK) == ""
+
+
+def test_a_lesson_file_keeps_the_teachers_words_and_comments(tmp_path: Path) -> None:
+    written = 'title = "T"  # for Ann\n[grid]\ntimes = 2\nleft_hand.snare = "o---"\n'
+    (tmp_path / "own.toml").write_text(written)
+    path = Exporter().lesson(find_lesson(str(tmp_path / "own.toml")), (1, 1), settings(tmp_path))
+    assert path.read_text().splitlines() == [
+        'title = "T"  # for Ann',
+        "loop = [2, 2]",
+        "[grid]",
+        "times = 2",
+        "#                    1 2 3 4",
+        'left_hand.snare = "| o - - - |"',
+    ]
 
 
 def test_a_video_is_filmed_by_another_process_and_told_of_once(tmp_path: Path) -> None:

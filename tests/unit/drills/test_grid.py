@@ -128,7 +128,7 @@ PREFIX = 'snare = "'
         ("(o)(o)(o)(o)(o)", 22, "holds 4 (…) of one beat each"),
         ("(o)(o)(o)(o)o", 10, "1 cells for the 0 beats"),
         ("(o)(o)(o)", 10, "0 cells for the 1 beats"),
-        ("(ooooooooooo)ooo", 10, "cannot be cut exactly into 11 cells"),
+        ("(" + 65 * "o" + ")ooo", 10, "65 cells in one (…); expected 1 to 64"),
         ("oooq", 13, "'q' is no letter for a snare line"),
         ("oo©o", 12, "no letter"),
         ("o-~-", 12, "goes on with a buzz roll"),

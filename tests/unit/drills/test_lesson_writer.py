@@ -5,8 +5,9 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
+from station.drills.lesson_difference import score_difference
 from station.drills.lesson_file import parse_lesson
-from station.drills.lesson_writer import first_difference, note_length, quoted, write_lesson
+from station.drills.lesson_writer import note_length, quoted, write_lesson
 from station.drills.library import find_lesson, lesson_names
 from station.drills.quantise import lesson_of
 from station.music.score import Note, Score
@@ -43,13 +44,16 @@ def test_mixed_beats_are_written_with_parentheses() -> None:
 
 def test_lines_that_no_cells_suit_together_are_cut_apart() -> None:
     lines = grid_of('snare = "ooo ooo ooo ooo"\nkick = "oooo oooo oooo oooo"\ncrash = "(xxxxx) - - -"')
-    assert not lines[0].startswith("#")
-    assert lines[1] == 'snare = "| ooo ooo ooo ooo |"'
-    assert lines[2] == 'kick  = "| oooo oooo oooo oooo |"'
+    assert lines == [
+        "#          1e&a    2e&a 3e&a 4e&a",
+        'crash = "| (xxxxx) -    -    -    |"',
+        'snare = "| ooo     ooo  ooo  ooo  |"',
+        'kick  = "| oooo    oooo oooo oooo |"',
+    ]
 
 
 def test_a_bar_like_the_one_before_it_is_a_percent() -> None:
-    assert grid_of('snare = "oo-- | oo-- | oo-o"')[1] == 'snare = "| o o - - | %       | o o - o |"'
+    assert grid_of('snare = "oo-- | oo-- | oo-o"')[1] == 'snare = "| o o - - | % | o o - o |"'
 
 
 def test_ornaments_go_back_to_their_letters() -> None:
@@ -85,7 +89,7 @@ def test_every_shipped_lesson_is_written_and_read_alike(name: str) -> None:
     lesson = find_lesson(name)
     again = parse_lesson(write_lesson(lesson), name, name).lesson
     assert again
-    assert first_difference(lesson.score, again.score) == ""
+    assert score_difference(lesson.score, again.score) == ""
     for field in ("title", "author", "level", "about", "tags", "kit", "loop", "passes", "count_in_bars", "goals"):
         assert getattr(again, field) == getattr(lesson, field)
     for field in ("demonstrations", "swing", "beat_ticks", "sections", "tempo_bpm", "meter"):
@@ -122,7 +126,10 @@ SNARE = Note(0, Piece.SNARE)
         ([Note(TRIPLET // 11, Piece.SNARE)], "bar 1: strokes lie between the cells"),
         ([Note(WHOLE, Piece.SNARE, Zone.BELL)], "bar 2: no letter of the grid plays this stroke"),
         ([Note(0, Piece.SNARE, velocity=81)], "bar 1, beat 1, snare: velocity 81 became 80"),
-        ([Note(0, Piece.SNARE, lead_ms=20, ornament=Ornament.FLAM), SNARE], "a grace stroke 20 ms before its note"),
+        (
+            [Note(t, Piece.SNARE, lead_ms=ms, ornament=Ornament.FLAM) for t, ms in ((0, 30), (QUARTER, 20))],
+            "bar 1: a grace stroke 20 ms before its note",
+        ),
         ([Note(0, Piece.SNARE, ornament=Ornament.DIDDLE)], "a diddle of one stroke"),
         ([Note(0, Piece.KICK)], "kick: limb -1 became 2"),
         ([SNARE, Note(0, Piece.TOM_1), Note(0, Piece.TOM_2)], "3 hands needed at once"),
@@ -138,12 +145,12 @@ def test_what_the_grid_cannot_say_is_named(notes: list[Note], words: str) -> Non
 def test_no_word_is_lost_between_equal_scores() -> None:
     a = Score.from_notes([SNARE, Note(SIXTEENTH, Piece.HIHAT, Zone.BOW, openness=0.0)], TempoMap.constant(60))
     b = Score.from_array(a.notes.copy(), a.tempo_map)
-    assert first_difference(a, b) == ""
+    assert score_difference(a, b) == ""
     rows = a.notes.copy()
     rows["openness"][1] = np.nan
-    assert "openness 0.0 became nan" in first_difference(a, Score.from_array(rows, a.tempo_map))
-    assert "2 strokes became 1" in first_difference(a, Score.from_array(rows[:1], a.tempo_map))
-    assert "tempo" in first_difference(a, Score.from_array(rows, TempoMap.constant(61)))
+    assert "openness 0.0 became nan" in score_difference(a, Score.from_array(rows, a.tempo_map))
+    assert "2 strokes became 1" in score_difference(a, Score.from_array(rows[:1], a.tempo_map))
+    assert "tempo" in score_difference(a, Score.from_array(rows, TempoMap.constant(61)))
 
 
 def test_note_lengths() -> None:
@@ -152,6 +159,32 @@ def test_note_lengths() -> None:
 
 def test_quotes() -> None:
     assert quoted('a"b\\c\n\x07') == '"a\\"b\\\\c\\n\\u0007"'
+
+
+def test_other_graces_than_the_usual_are_written_for_the_whole_lesson() -> None:
+    head = "tempo_bpm = 60\n[graces]\nflam_ms = 22.2\ndrag_ms = 40\nshare = 0.75"
+    text = write_lesson(read('snare = "fdFD"', head))
+    assert "[graces]\nflam_ms = 22.2\ndrag_ms = 40\nshare = 0.75\n" in text
+
+
+def test_groups_of_a_meter_are_set_apart_and_counted() -> None:
+    head = 'tempo_bpm = 60\nmeter = "3+2+2/8"'
+    assert grid_of('hihat = "xxxxxxx"\nsnare = "---o-o-"', head) == [
+        "#          123 12 12",
+        'hihat = "| xxx xx xx |"',
+        'snare = "| --- o- o- |"',
+    ]
+    assert grid_of('snare = "ooo (ooooo) oo"', head)[-1] == 'snare = "| ooo (ooooo) oo |"'
+
+
+@pytest.mark.parametrize("cells", [9, 10, 11, 13, 14, 18])
+def test_any_tuplet_that_drummers_count_is_written(cells: int) -> None:
+    grid = f"| oooo ({'o' * cells}) oo-- o--- |"
+    assert grid_of(f'snare = "{grid}"')[-1] == f'snare = "{grid}"'
+
+
+def test_soft_letters_go_back_to_themselves() -> None:
+    assert grid_of('snare = "| vwu- -z~~ ---- ---- |"')[-1] == 'snare = "| vwu- -z~~ ---- ---- |"'
 
 
 def test_a_buzz_by_a_named_hand() -> None:

@@ -6,8 +6,9 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.drills.lesson_difference import score_difference
 from station.drills.lesson_file import parse_lesson
-from station.drills.lesson_writer import first_difference, write_lesson
+from station.drills.lesson_writer import write_lesson
 from station.drills.library import find_lesson
 from station.drills.quantise import lesson_of, quantise_score
 from station.music.formats.smf.standard_midi import read_midi, score_from_midi
@@ -26,7 +27,7 @@ def fitted(*notes: Note, tempo_map: TempoMap = TEMPO) -> list[Note]:
     text = write_lesson(lesson_of(found.score, "x", "x", found.velocities))
     again = parse_lesson(text, "x", "x").lesson
     assert again
-    assert first_difference(found.score, again.score) == ""
+    assert score_difference(found.score, again.score) == ""
     return list(found.score)
 
 
@@ -37,7 +38,7 @@ def snare(tick: int, velocity: int = 80) -> Note:
 def test_what_the_grid_can_say_stays() -> None:
     lesson = find_lesson("funk-1")
     found = quantise_score(lesson.score)
-    assert first_difference(found.score, lesson.score) == ""
+    assert score_difference(found.score, lesson.score) == ""
     assert (found.moved, found.left_out, found.furthest_ms) == (0, 0, 0)
 
 
@@ -101,6 +102,22 @@ def test_a_flam_beside_another_hand_loses_its_grace_stroke() -> None:
         Note(0, Piece.RIDE, Zone.BOW),
     )
     assert [n.lead_ms for n in found] == [0, 0]
+
+
+def test_strokes_faster_than_two_hands_are_thinned_out() -> None:
+    """Sixty-four strokes 31.25 ms apart. People need 476 ms for eleven, which is sixteen cells: at most 10 in 16."""
+    found = fitted(*(snare(i * QUARTER // 16) for i in range(64)))
+    assert 64 * 10 // 16 - 4 <= len(found) <= 64 * 10 // 16
+    again = [n.tick for n in found] + [n.tick + WHOLE for n in found]
+    for strokes, least_ms in ((3, 45), (5, 160), (11, 476)):
+        lasts = [b - a for a, b in zip(again, again[strokes - 1 :], strict=False)]
+        assert min(lasts) >= least_ms * MS
+
+
+def test_the_last_kick_makes_room_for_the_first_of_the_next_loop() -> None:
+    """A sixty-fourth before the end of the bar is 31 ms from its start, where the same foot plays again."""
+    kicks = [Note(0, Piece.KICK), Note(WHOLE - QUARTER // 16, Piece.KICK)]
+    assert len(fitted(*kicks)) == 1
 
 
 def test_strokes_without_a_letter_become_the_nearest() -> None:

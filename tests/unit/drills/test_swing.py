@@ -3,6 +3,7 @@
 import pytest
 
 from station.drills.grid.swing import Swing
+from station.music.tempo import MeterChange
 from tests.unit.drills.reading import EIGHTH, QUARTER, SIXTEENTH, TRIPLET, notes, ticks
 
 
@@ -51,5 +52,5 @@ def test_a_buzz_lasts_to_the_swung_end() -> None:
 
 
 def test_ratio_as_written_not_as_binary_fraction() -> None:
-    assert Swing(1.1).swung(EIGHTH, 4 * QUARTER) == 56320  # 107520 * 11/21
-    assert Swing(1.1).swung(SIXTEENTH, 4 * QUARTER) == 28160
+    assert Swing(1.1).swung(EIGHTH, MeterChange(0, 4, 4)) == 56320  # 107520 * 11/21
+    assert Swing(1.1).swung(SIXTEENTH, MeterChange(0, 4, 4)) == 28160

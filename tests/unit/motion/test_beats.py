@@ -80,6 +80,14 @@ def test_compound_meters_are_felt_in_groups_of_three(beats: int, unit: int, felt
     assert set(found.of_bar.tolist()) == {felt}
 
 
+def test_a_meter_with_groups_is_felt_by_them() -> None:
+    """7/8 as 3+2+2 at 120 quarters a minute: 0.75, 0.5 and 0.5 s."""
+    tempo_map = TempoMap.build([TempoChange(0, 500_000)], [MeterChange(0, 7, 8, (3, 2, 2))])
+    found = Beats.of(Score.from_notes([Note(0, Piece.KICK), Note(7 * PPQ, Piece.KICK)], tempo_map))
+    assert found.time_s[LEAD_IN_BEATS : LEAD_IN_BEATS + 5] == pytest.approx([0.0, 0.75, 1.25, 1.75, 2.5])
+    assert found.in_bar[LEAD_IN_BEATS : LEAD_IN_BEATS + 5].tolist() == [0, 1, 2, 0, 1]
+
+
 def test_music_starts_again_after_two_silent_beats() -> None:
     beats = np.arange(10.0)
     assert np.flatnonzero(restarts(beats, np.array([1.0, 1.5, 2.0, 4.0, 7.5]))).tolist() == [1, 7]

@@ -7,7 +7,7 @@ from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import PPQ
 from station.music import passages
 from station.music.score import Note, Score
-from station.music.tempo import TempoChange, TempoMap
+from station.music.tempo import MeterChange, TempoChange, TempoMap
 from tests.fakes import scores
 
 
@@ -135,3 +135,12 @@ def test_hands_are_compared_where_both_play_one_dynamic() -> None:
     told = Score.from_notes([*notes, Note(4 * PPQ, Piece.SNARE, limb=left)], TempoMap.constant(120))
     assert passages.hands_compared(told).tolist() == [True, True, False, True, True]
     assert not passages.hands_compared(told, fewest=2).any()
+
+
+def test_offbeats_of_a_grouped_meter_count_from_its_groups_in_every_bar() -> None:
+    """Two bars of 7/8 as 2+2+3: the eighths beside the groups' first are 1, 3, 5, 6 of each bar."""
+    eighth = PPQ // 2
+    tempo_map = TempoMap.build([TempoChange(0, 500_000)], [MeterChange(0, 7, 8, (2, 2, 3))])
+    found = passages.offbeats(Score.from_notes([Note(i * eighth, Piece.SNARE) for i in range(14)], tempo_map))
+    assert np.flatnonzero(found.all).tolist() == [1, 3, 5, 6, 8, 10, 12, 13]
+    assert np.flatnonzero(found.ands).tolist() == [1, 3, 8, 10]

@@ -99,3 +99,14 @@ def test_scaled_keeps_the_meter() -> None:
     tempo_map = TempoMap.constant(100, 7, 8).scaled(0.5)
     assert tempo_map.bpm_at(0) == 50
     assert tempo_map.meter_at(0) == MeterChange(0, 7, 8)
+
+
+def test_pulses_are_what_a_foot_taps() -> None:
+    eighth = PPQ // 2
+    assert MeterChange(0, 7, 8, (3, 2, 2)).pulses == (
+        (0, 3 * eighth),
+        (3 * eighth, 5 * eighth),
+        (5 * eighth, 7 * eighth),
+    )
+    assert MeterChange(0, 6, 8).pulses == ((0, 3 * eighth), (3 * eighth, 6 * eighth))
+    assert MeterChange(0, 3, 4, (2, 1)).pulses == ((0, PPQ), (PPQ, 2 * PPQ), (2 * PPQ, 3 * PPQ))

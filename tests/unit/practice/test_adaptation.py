@@ -20,7 +20,7 @@ from station.music.judgement import Judgement, Label
 from station.practice.headless.virtual_session import VirtualSession, practise_adaptively
 from station.practice.records.mastery_report import with_mastery
 from station.practice.records.session_report import practice_document, report_text, with_truth
-from station.practice.session.adaptation import SILENT_TO_STOP, Adaptation, ScoreRow, lesson_bars
+from station.practice.session.adaptation import SILENT_TO_STOP, Adaptation, ScoreRow
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.session import Session
 from station.scoring.matching.hit_windows import Level
@@ -87,7 +87,7 @@ def test_bars_that_were_asked_for_are_the_item() -> None:
     adaptation, virtual = practised("sd_ms=10,seed=1", PlanOptions(bars=(3, 4), loops=2))
     assert [one.step.bars for one in adaptation.rounds] == [(2, 3), (2, 3)]
     assert virtual.result.plan.bars == (2, 3)
-    assert set(lesson_bars(virtual.result.plan)) == {2, 3}
+    assert set(virtual.result.plan.bar_names) == {2, 3}
 
 
 def test_wishes_that_cannot_be_are_refused() -> None:
@@ -154,7 +154,7 @@ def test_bars_of_a_chunk_keep_the_lesson_s_numbers() -> None:
     adaptation, virtual = practised("sd_ms=30,miss_pct=14,seed=2", PlanOptions(loops=24, level=Level.INTERMEDIATE))
     chunks = [one.step.bars for one in adaptation.rounds if one.step.kind is PassKind.CHUNK]
     assert chunks, "the seed was chosen for its weak bar"
-    names = np.array(lesson_bars(virtual.result.plan))[virtual.result.score.bar]
+    names = np.array(virtual.result.plan.bar_names)[virtual.result.score.bar]
     for one, start in zip(adaptation.rounds, adaptation.row().start_bars, strict=True):
         bars = virtual.result.score.bar
         mine = (bars >= start) & (bars < start + one.result.score.bar_count)

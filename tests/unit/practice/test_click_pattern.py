@@ -47,6 +47,8 @@ def test_the_plain_click() -> None:
         (ClickPattern(beats=ClickBeats.BACKBEAT), MeterChange(0, 6, 8), [3.0]),  # the second dotted quarter
         (ClickPattern(beats=ClickBeats.BACKBEAT), MeterChange(0, 12, 8), [3.0, 9.0]),
         (ClickPattern(beats=ClickBeats.BAR), MeterChange(0, 7, 8), [0.0]),
+        (ClickPattern(beats=ClickBeats.BACKBEAT), MeterChange(0, 7, 8, (3, 2, 2)), [3.0]),  # the second group
+        (ClickPattern(beats=ClickBeats.BACKBEAT), MeterChange(0, 5, 4, (3, 2)), [1.0, 3.0]),  # beats of quarters
         (ClickPattern(), MeterChange(0, 6, 8), [0.0, 1.0, 2.0, 3.0, 4.0, 5.0]),
         (ClickPattern(displacement=Displacement.E), FOUR, [0.25, 1.25, 2.25, 3.25]),
         (ClickPattern(displacement=Displacement.AND), FOUR, [0.5, 1.5, 2.5, 3.5]),
@@ -142,3 +144,33 @@ def test_no_pickup_no_change() -> None:
     assert end_tick == 8 * PPQ
     assert before.bpm_at(0) == pytest.approx(60.0)
     assert pickup_of(SLOW, 4 * PPQ) == 0  # a single bar is no pickup
+
+
+@pytest.mark.parametrize(
+    ("meter", "velocities"),
+    [
+        (MeterChange(0, 7, 8, (3, 2, 2)), [110, 90, 90, 100, 90, 100, 90]),
+        (MeterChange(0, 5, 4, (3, 2)), [110, 90, 90, 100, 90]),
+        (MeterChange(0, 6, 8), [110, 90, 90, 100, 90, 90]),
+        (MeterChange(0, 7, 8), [110, 90, 90, 90, 90, 90, 90]),
+    ],
+)
+def test_the_first_beats_of_groups_have_a_middle_accent(meter: MeterChange, velocities: list[int]) -> None:
+    assert [click.velocity for click in bar_clicks(meter, ClickPattern())] == velocities
+
+
+def test_who_asks_for_no_accents_gets_none_in_groups_either() -> None:
+    clicks = bar_clicks(MeterChange(0, 7, 8, (3, 2, 2)), ClickPattern(accents=()))
+    assert {click.velocity for click in clicks} == {90}
+
+
+def test_the_count_in_of_a_grouped_meter_accents_its_groups() -> None:
+    section = TempoMap.build([TempoChange.from_bpm(0, 60.0)], [MeterChange(0, 7, 8, (2, 2, 3))])
+    before, end_tick = count_in(section, 1)
+    assert click_cues(before, end_tick)["velocity"].tolist() == [110, 90, 100, 90, 100, 90, 90]
+
+
+def test_the_count_in_of_meters_in_turn_is_a_bar_of_the_first() -> None:
+    section = TempoMap.build([TempoChange.from_bpm(0, 60.0)], [MeterChange(0, 4, 4), MeterChange(4 * PPQ, 3, 4)])
+    before, end_tick = count_in(section, 2)
+    assert click_cues(before, end_tick)["at_ns"].tolist() == [beat * NS_PER_S for beat in range(8)]

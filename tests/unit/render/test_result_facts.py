@@ -136,7 +136,7 @@ def test_advice_that_has_no_room_is_left_out_as_whole_sentences() -> None:
     assert many - few < 5 * each
 
 
-def played(missed: int, passes: int = 1, pass_bars: int = 0, first_bar: int = 0) -> ResultFacts:
+def played(missed: int, passes: int = 1, starts: tuple[int, ...] = (), first_bar: int = 0) -> ResultFacts:
     score = rock().repeated(passes)
     label = np.full(len(score), Label.MATCH, np.uint8)
     label[:missed] = Label.MISS
@@ -146,7 +146,7 @@ def played(missed: int, passes: int = 1, pass_bars: int = 0, first_bar: int = 0)
         np.zeros(len(score), np.int64),
         label == Label.MATCH,
         np.empty(0),
-        ResultWords("", "", None, pass_bars=pass_bars, first_bar=first_bar),
+        ResultWords("", "", None, starts=starts, first_bar=first_bar),
     )
 
 
@@ -159,9 +159,9 @@ def test_the_headline_does_not_praise_what_was_not_played() -> None:
 
 def test_the_time_axis_counts_passes_or_the_lesson_s_bars() -> None:
     assert ticks(played(0, 3)) == ("bar", [(0, "1"), (1, "2"), (2, "3")])
-    assert ticks(played(0, 3, pass_bars=3, first_bar=4)) == ("bar", [(0, "5"), (1, "6"), (2, "7")])
-    assert ticks(played(0, 4, pass_bars=2, first_bar=4)) == ("pass", [(0, "1"), (2, "2")])
-    counted, marks = ticks(played(0, 64, pass_bars=2))
+    assert ticks(played(0, 3, starts=(0,), first_bar=4)) == ("bar", [(0, "5"), (1, "6"), (2, "7")])
+    assert ticks(played(0, 4, starts=(0, 2), first_bar=4)) == ("pass", [(0, "1"), (2, "2")])
+    counted, marks = ticks(played(0, 64, starts=tuple(range(0, 64, 2))))
     assert (counted, marks[:2], len(marks)) == ("pass", [(0, "1"), (4, "3")], 16)
 
 

@@ -69,8 +69,8 @@ def test_compound_time() -> None:
 
 
 def test_groups_of_meters() -> None:
-    def lengths(beats: int, unit: int) -> list[int]:
-        meter = MeterChange(0, beats, unit)
+    def lengths(beats: int, unit: int, groups: tuple[int, ...] = ()) -> list[int]:
+        meter = MeterChange(0, beats, unit, groups)
         return [(end - start) * 2 // Q for start, end in beat_groups(meter, meter.bar_ticks)]
 
     assert lengths(4, 4) == [2, 2, 2, 2]
@@ -78,6 +78,19 @@ def test_groups_of_meters() -> None:
     assert lengths(12, 8) == [3, 3, 3, 3]
     assert lengths(7, 8) == [2, 2, 3]
     assert lengths(5, 8) == [2, 3]
+    assert lengths(7, 8, (3, 2, 2)) == [3, 2, 2]
+    assert lengths(8, 8, (3, 3, 2)) == [3, 3, 2]
+    assert lengths(5, 4, (3, 2)) == [2, 2, 2, 2, 2]
+
+
+@pytest.mark.parametrize(("count", "base"), [(9, 32), (10, 32), (14, 32), (13, 32), (24, 64), (32, 128)])
+def test_many_strokes_to_a_beat_are_all_written(count: int, base: int) -> None:
+    """Nine, ten, fourteen take the place of eight thirty-seconds (Gould, Behind Bars, on tuplets)."""
+    onsets = [round(k * Q / count) for k in range(count)]
+    group = spell(onsets, 0, Q)
+    assert [stroke.tick for stroke in group.strokes] == onsets
+    assert {stroke.value.base for stroke in group.strokes} == {base}
+    assert group.tuplet == (count if count & (count - 1) else 0)
 
 
 def test_a_played_beat_is_written_as_what_was_meant() -> None:

@@ -308,7 +308,7 @@ def test_ornaments_of_other_kinds_are_no_flams() -> None:
 def test_the_page_of_faults_has_every_word_and_size() -> None:
     page = (Path(__file__).parents[3] / "docs" / "scoring.md").read_text()
     rows = [line for line in page.splitlines() if line.startswith("| `")]
-    for fault, kind in (FAULTS | STICK_FAULTS).items():
+    for fault, kind in {**FAULTS, **STICK_FAULTS}.items():
         shown = {"late_piece": "late_…", "early_piece": "early_…"}.get(fault, fault)
         (row,) = [line for line in rows if f"`{shown}`" in line]
         assert f"| {kind.group.name.lower()} | {kind.least:g} {kind.unit} |" in row

@@ -1,0 +1,43 @@
+"""Where two lessons differ, said for people: what tells that a text written anew is still the same lesson."""
+
+from dataclasses import fields
+
+import numpy as np
+
+from station.core.pieces import word
+from station.drills.lesson import Lesson
+from station.music.score import NOTE_DTYPE, Score
+
+_APART = ("score", "landing", "name", "text")
+"""Fields that are compared in their own way, or not: a lesson may be written to another file in another layout."""
+
+
+def first_difference(a: Lesson, b: Lesson) -> str:
+    """The first thing that `b` says or plays otherwise than `a`; empty if they are one lesson."""
+    if found := score_difference(a.score, b.score):
+        return found
+    if a.landing.tobytes() != b.landing.tobytes():
+        return "the landing differs"
+    for name in (each.name for each in fields(Lesson) if each.name not in _APART):
+        if getattr(a, name) != getattr(b, name):
+            return f"{name}: {getattr(a, name)} became {getattr(b, name)}"
+    return ""
+
+
+def score_difference(a: Score, b: Score) -> str:
+    """What the first stroke is that differs, for people; empty if the scores sound and read alike."""
+    if a.tempo_map != b.tempo_map or a.end_tick != b.end_tick:
+        return "tempo, meter or length differ"
+    if len(a) != len(b):
+        return f"{len(a)} strokes became {len(b)}"
+    for name in NOTE_DTYPE.names or ():
+        if name == "midi_note":
+            continue
+        left, right = a.notes[name], b.notes[name]
+        same = (left == right) | (np.isnan(left) & np.isnan(right))
+        if not np.all(same):
+            i = int(np.flatnonzero(~same)[0])
+            note = a[i]
+            place = a.tempo_map.position_at(note.tick)
+            return f"bar {place.bar + 1}, beat {place.beat + 1}, {word(note.piece)}: {name} {left[i]} became {right[i]}"
+    return ""

@@ -1,0 +1,187 @@
+"""The text of a lesson, kept as it was written: `show` lays out its lines, `with_value` sets one key.
+
+A teacher's comments, the order of keys and the spelling of values stay. What `show` changes is layout alone
+(docs/lesson-format.md, "What show changes"): within a grid the `=` and the strings stand under each other, bars and
+beats too, with the count above them; blanks at the ends of rows go. Showing what was shown changes nothing.
+
+Texts here are those of lessons without a fault; offsets and key paths are those of `core.toml_places`.
+"""
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import accumulate, pairwise
+
+from station.core.toml_places import KeyPath, Places
+from station.core.toml_source import load
+from station.core.toml_write import toml_value
+from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
+from station.drills.line_layout import Meters, bar_count, laid_out
+from station.drills.written_meters import written_meters
+
+_LINE_KEYS = frozenset({*LINE_PIECES, "sticking", "loudness"})
+_COUNT = re.compile(r"#[ ]{2,}1[\d&eat· ]*")
+"""A count that `show` or a teacher wrote above the lines: a 1 first, then digits and the syllables between them."""
+_BLANKS_AT_END = re.compile(r"[ \t]+(?=\n|$)")
+
+
+def show(text: str) -> str:
+    """The text of a lesson without fault with its lines laid out; the lesson that it says is the same."""
+    text = _plain(text)
+    raw, _, _ = load(text)
+    places = Places.of(text)
+    return _tidied(_edited(text, _edits(raw, places)))
+
+
+def with_value(text: str, key: str, value: object) -> str:
+    """The text with a key of its top table set to `value`: in its place, or after the last key of that table."""
+    text = _plain(text)
+    places = Places.of(text)
+    said = toml_value(value)
+    if (key,) in places.values:
+        return _edited(text, [(places.values[key,], places.ends[key,], said)])
+    first_header = min(places.headers, default=len(text) + 1)
+    last = max((end for end in places.ends.values() if end < first_header), default=None)
+    if last is None:
+        return f"{key} = {said}\n{text}"
+    at = _row_end(text, last)
+    return _edited(text, [(at, at, f"\n{key} = {said}")])
+
+
+def _plain(text: str) -> str:
+    return text.removeprefix("\ufeff").replace("\r\n", "\n")
+
+
+def _row_end(text: str, at: int) -> int:
+    """Offset of the line end of the row that holds `at`."""
+    end = text.find("\n", at)
+    return len(text) if end < 0 else end
+
+
+# --- edits ------------------------------------------------------------------------------------------------------------
+
+_Edit = tuple[int, int, str]
+"""From an offset to another, and what stands there instead."""
+
+
+def _edited(text: str, edits: Sequence[_Edit]) -> str:
+    for start, end, new in sorted(edits, reverse=True):
+        text = text[:start] + new + text[end:]
+    return text
+
+
+def _tidied(text: str) -> str:
+    """No blanks at the ends of rows, but for those within a string; one line end at the end."""
+    places = Places.of(text)
+    inside = [(places.values[path], places.ends[path]) for path in places.chars]
+    blanks = [m.span() for m in _BLANKS_AT_END.finditer(text)]
+    cut = [(a, b, "") for a, b in blanks if not any(start < a < end for start, end in inside)]
+    return _edited(text, cut).strip("\n") + "\n"
+
+
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    """A line of a grid in the text: from `row` to `row_end`, its key as it is spelt, its string, what follows that."""
+
+    row: int
+    row_end: int
+    key: str
+    quote: str
+    line: str
+    rest: str
+
+    @property
+    def has_rows(self) -> bool:
+        """Whether its string runs over several rows of the text."""
+        return "\n" in self.line.strip()
+
+    def edit(self, width: int, string: str) -> "_Edit":
+        """The whole row written anew: the key, `=` at column `width`, its string in quotes, and what followed."""
+        return self.row, self.row_end, f"{self.key:<{width}} = {string}{self.rest}"
+
+
+def _edits(raw: Mapping[str, object], places: Places) -> list[_Edit]:
+    """What changes in the blocks of lines of all grids; a block is what stands below one header."""
+    meters = written_meters(raw)
+    blocks: dict[tuple[KeyPath, int], list[_Entry]] = {}
+    for path, offset in places.values.items():
+        table = _table_of(path)
+        entry = None if table is None else _entry(raw, places, path)
+        if table is not None and entry:
+            header = max((h for h in places.headers if h < offset), default=0)
+            blocks.setdefault((table, header), []).append(entry)
+    width = max((len(entry.key) for block in blocks.values() for entry in block), default=0)
+    edits: list[_Edit] = []
+    for (table, _), block in blocks.items():
+        edits += _block_edits(places.text, block, width, meters.get(table))
+    return edits
+
+
+def _table_of(path: KeyPath) -> KeyPath | None:
+    """The path of the grid, cycle or landing whose line stands at `path`; None where no line does."""
+    if path[-1] not in _LINE_KEYS or path[0] not in ("grid", "landing") or "dynamics" in path:
+        return None
+    return path[:-2] if path[-2] in LIMB_TABLES else path[:-1]
+
+
+def _entry(raw: Mapping[str, object], places: Places, path: KeyPath) -> _Entry | None:
+    """The line at `path`; None where it has no row of its own, as in a table in braces."""
+    text, key, start, end = places.text, places.keys[path], places.values[path], places.ends[path]
+    row, row_end = text.rfind("\n", 0, key) + 1, _row_end(text, end)
+    line = _value_at(raw, path)
+    if text[row:key].strip() or "\n" in text[key:start] or not isinstance(line, str):
+        return None
+    return _Entry(
+        row, row_end, text[key : text.index("=", key)].rstrip(), text[start], line, text[end:row_end].rstrip()
+    )
+
+
+def _value_at(raw: object, path: KeyPath) -> object:
+    for key in path:
+        raw = raw[key]  # type: ignore[index] # the path is one of this value
+    return raw
+
+
+# --- a block of lines -------------------------------------------------------------------------------------------------
+
+
+def _block_edits(text: str, block: Sequence[_Entry], width: int, meters: Meters | None) -> list[_Edit]:
+    """The rows of one block, their `=` in column `width`; `meters` None where lines are single letters (a landing)."""
+    single = [entry for entry in block if not entry.has_rows]
+    lines, count = [entry.line.strip() for entry in single], ""
+    if meters:
+        lines, count = laid_out(lines, meters)
+    edits = [entry.edit(width, f"{entry.quote}{line}{entry.quote}") for entry, line in zip(single, lines, strict=True)]
+    for entry in block:
+        if entry.has_rows:
+            edits.append(entry.edit(width, f"{entry.quote * 3}\n{_rows(entry.line, meters)}{entry.quote * 3}"))
+    return edits + (_count_edits(text, single[0].row, f"#{'':{width + 3}}{count}") if count.strip() else [])
+
+
+def _count_edits(text: str, row: int, count: str) -> list[_Edit]:
+    """The count above the line that begins at `row`: in the place of an older one among the comments there, or new."""
+    start = row
+    while start and text[:start].rsplit("\n", 2)[-2].lstrip().startswith("#"):
+        start = text.rfind("\n", 0, start - 1) + 1
+        end = _row_end(text, start)
+        if _COUNT.fullmatch(text[start:end].strip()):
+            return [(start, end, count)]
+    return [(row, row, f"{count}\n")]
+
+
+def _rows(line: str, meters: Meters | None) -> str:
+    """The rows of a string of several; as they are where a bar goes on in the next row."""
+    rows = [row.strip() for row in line.strip().split("\n")]
+    said = [row for row in rows if row]
+    if meters and all(a.endswith("|") or b.startswith("|") for a, b in pairwise(said)):
+        laid = iter(_under_each_other(said, meters))
+        rows = [row and next(laid) for row in rows]
+    return "".join(f"{row}\n" for row in rows)
+
+
+def _under_each_other(rows: Sequence[str], meters: Meters) -> list[str]:
+    """The rows of one line with their bars under each other, where all bars are of one meter."""
+    if len(meters.in_turn) == 1:
+        return laid_out(rows, meters)[0]
+    starts = accumulate(map(bar_count, rows[:-1]), initial=0)
+    return [laid_out([row], meters.after(start))[0][0] for row, start in zip(rows, starts, strict=True)]
