@@ -144,7 +144,7 @@ def _like(word: str, names: list[str]) -> str:
 
 
 def shipped_lessons() -> list[Lesson]:
-    """All shipped lessons in the order of the list: grooves, fills, rudiments, each by level and name."""
+    """All shipped lessons in the order of the list: kind by kind, each by level and name."""
     return [lesson for _, lesson in _in_order()]
 
 
@@ -171,8 +171,20 @@ def _in_order() -> list[tuple[str, Lesson]]:
     return sorted(found, key=lambda one: (_rank(one[0]), one[1].level, one[1].name))
 
 
-_FOLDERS = ("grooves", "fills", "rudiments")
+_FOLDERS = (
+    "grooves",
+    "fills",
+    "trading",
+    "independence",
+    "polyrhythms",
+    "reading",
+    "hands",
+    "rudiments",
+    "rolls",
+    "orchestrated",
+)
+"""The kinds in the order of the list: music first, then what prepares for it. Others follow by name."""
 
 
-def _rank(folder: str) -> int:
-    return _FOLDERS.index(folder) if folder in _FOLDERS else len(_FOLDERS)
+def _rank(folder: str) -> tuple[int, str]:
+    return (_FOLDERS.index(folder) if folder in _FOLDERS else len(_FOLDERS), folder)
