@@ -3,11 +3,13 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from station.cli import lesson_list
 from station.cli.console import print_json, say, write
 from station.cli.input.read_captures import is_capture
 from station.cli.input.read_scores import existing, is_midi, load_score
 from station.cli.options.option_fields import (
     Command,
+    NoOptions,
     Verbs,
     argument,
     arguments,
@@ -20,15 +22,6 @@ from station.cli.options.option_fields import (
 )
 from station.core.errors import BadInput
 from station.core.files import write_whole
-
-SCHEMA = "drum-station/lessons/1"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LessonsOptions:
-    """How the lessons are listed."""
-
-    json: bool = flag("print one JSON document")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,46 +67,6 @@ class ExportOptions(LessonOptions):
     out: Path = required("FILE", "the file to write", Path)
 
 
-def _list(options: LessonsOptions) -> int:
-    from station.drills.difficulty import goal_difficulty
-    from station.drills.lesson import LEVELS
-    from station.drills.library import find_lesson, lesson_rows, shipped_courses
-
-    rows = lesson_rows()
-    if options.json:
-        lessons = [
-            {
-                "name": row.name,
-                "title": row.title,
-                "kind": row.folder,
-                "level": row.level,
-                "beats_a_minute": row.beats_a_minute,
-                "meter": row.meter,
-                "bars": row.bars,
-                "difficulty": goal_difficulty(find_lesson(row.name)),
-            }
-            for row in rows
-        ]
-        courses = [
-            {"name": one.name, "title": one.title, "level": one.level, "lessons": list(one.lessons)}
-            for one in shipped_courses()
-        ]
-        print_json({"schema": SCHEMA, "lessons": lessons, "courses": courses})
-        return 0
-    folder = None
-    for row in rows:
-        if row.folder != folder:
-            write(f"{'' if folder is None else chr(10)}{row.folder}")
-            folder = row.folder
-        bars = f"{row.bars:2} bar{' ' if row.bars == 1 else 's'}"
-        facts = f"{row.meter}  {row.beats_a_minute:5g} bpm  {bars}  {LEVELS[row.level]:12}"
-        write(f"  {row.name:26}{facts}  {row.title}")
-    write("\ncourses")
-    for course in shipped_courses():
-        write(f"  {course.title}: {', '.join(course.lessons)}")
-    return 0
-
-
 def _show(options: LessonOptions) -> int:
     from station.drills.lesson_text import show
     from station.drills.library import find_lesson
@@ -145,6 +98,13 @@ def _new(options: NewOptions) -> int:
     _check_free(options.out, options.overwrite)
     write_whole(options.out, text.encode())
     say(f"lesson   {options.out}")
+    return 0
+
+
+def _schema(_: NoOptions) -> int:
+    from station.drills.lesson_schema import lesson_schema
+
+    print_json(lesson_schema())
     return 0
 
 
@@ -203,7 +163,7 @@ def _export(options: ExportOptions) -> int:
 
 COMMAND = Verbs(
     (
-        ("list", "the lessons and courses that are shipped", Command(LessonsOptions, _list)),
+        ("list", "the lessons and courses, and how far you are with them", lesson_list.COMMAND),
         (
             "show",
             "a lesson as it was written, its lines aligned below the count",
@@ -215,6 +175,7 @@ COMMAND = Verbs(
             Command(PathsOptions, _check),
         ),
         ("new", "a lesson to start from, or a drill of a family", Command(NewOptions, _new)),
+        ("schema", "print the JSON Schema of lessons, for editors", Command(NoOptions, _schema)),
         ("import", "write a lesson from a MIDI file or a take", Command(ImportOptions, _import)),
         ("export", "write a lesson as a MIDI file", Command(ExportOptions, _export)),
     )

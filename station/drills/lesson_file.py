@@ -1,135 +1,50 @@
 """Lesson files: TOML read into a `Lesson`, with every fault named by line and column.
 
-The format is described for teachers in docs/lessons.md. Whatever a file leaves out has a default; a key that nobody
-knows is a fault. Faults of all kinds are collected in one reading: syntax, values, letters of the grid, bars that do
-not fit, stickings that do not match, and music that two hands and two feet cannot play.
+The format is described for teachers in docs/lessons.md, and key by key in docs/lesson-format.md. Faults of all kinds
+are collected in one reading: syntax, values, letters of the grid, bars that do not fit, stickings that do not match,
+and music that two hands and two feet cannot play. `lesson_fields` has the top table's schema, `form` says what is
+played, `grid` reads it, `stretches` lays it out; here it is put together.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.files import read_regular
-from station.core.schema import (
-    Field,
-    Fields,
-    Reader,
-    anything,
-    checked_values,
-    choice,
-    list_of,
-    number,
-    optional,
-    prose,
-    read,
-    reading,
-    record,
-    row_of,
-    said,
-    title,
-    whole,
-)
+from station.core.schema import Reader, checked_values, read, reading, row_of, whole
 from station.core.toml_faults import Fault, Faults, wrong
-from station.core.toml_places import KeyPath
 from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ
+from station.drills.bar_cues import GridShape, read_cues
+from station.drills.form import WrittenGrid, home_of, played_order, told_at_home, written_grids
 from station.drills.grid.cell_strokes import Origin, WrittenCell, expand
-from station.drills.grid.grid_reader import GridSection, read_grid
-from station.drills.grid.grid_timing import TIMING, GridTiming, timing_of
-from station.drills.grid.swing import MAX_RATIO
+from station.drills.grid.grid_reader import read_grid
+from station.drills.grid.grid_timing import GridTiming, timing_of
+from station.drills.grid.landing import read_landing
 from station.drills.grid.voice import MAX_BARS, MAX_CELLS
-from station.drills.lesson import (
-    DEFAULT_DEMONSTRATIONS,
-    DEFAULT_PASSES,
-    LEVELS,
-    Goals,
-    Lesson,
-    Section,
+from station.drills.lesson import Goals, Lesson
+from station.drills.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
+from station.drills.stretches import (
+    ReadGrid,
+    Stretch,
+    check_size,
+    cues_of,
+    laid_out,
+    meters_of,
+    sections_of,
+    tempos_of,
 )
-from station.motion.feasibility.playable import impossible
-from station.music.score import Score
-from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange, TempoChange, TempoMap
-from station.scoring.analysis.fault_table import MUTE, Asked
-from station.scoring.analysis.fault_table import WORDS as FAULT_WORDS
-from station.scoring.matching.hit_windows import OUR_LEVELS, Level
+from station.drills.unplayable import LANDING, note_unplayable
+from station.music.score import NOTE_DTYPE, Score
+from station.music.tempo import TempoMap
 
 _MIDI = b"MThd"
 """How a MIDI file begins."""
-MAX_PASSES = 1000
-MAX_COUNT_IN_BARS = 8
-MAX_DEMONSTRATIONS = 20
-MAX_STROKES = 20_000
-"""Half an hour at ten strokes a second; a session with more takes longer to prepare than anyone waits (our choice)."""
-DEFAULT_TIMING = GridTiming(80.0, (MeterChange(0, 4, 4),), PPQ)
-"""Where a file says no tempo: a slow walk, our choice."""
-
-
-# --- the schema -------------------------------------------------------------------------------------------------------
-
-
-def _tag(value: object) -> str:
-    tag = prose(value)
-    if not tag:
-        raise wrong('expected a word such as "rock"')
-    return tag
-
-
-_LEVEL = choice(OUR_LEVELS, "level")
-
-_SMALLEST_FAULT, _LARGEST_FAULT = 0.1, 1000.0
-"""Bounds of the sizes of faults, in whatever unit: nobody hears less, and nobody plays so far off (our choice)."""
-
-
-def _fault_size(value: object) -> float | None:
-    """From which size a fault counts; None for `MUTE`."""
-    if isinstance(value, str) and value != MUTE:
-        raise wrong(f'expected a size, or "{MUTE}", found "{value}"')
-    return None if value == MUTE else number(_SMALLEST_FAULT, _LARGEST_FAULT)(value)
-
-
-_FAULT_SIZES: Fields = {word: optional(_fault_size) for word in sorted(FAULT_WORDS)}
-
-
-def _asked(raw: object) -> Asked:
-    return Asked(MappingProxyType(said(_FAULT_SIZES, "fault")(raw)))
-
-
-_GOALS: Fields = {
-    "level": optional(_LEVEL),
-    "strictest_level": Field(_LEVEL, Level.STUDIO),
-    "min_accuracy": optional(number(0, 1)),
-    "max_sd_ms": optional(number(1, 1000)),
-    "max_lean_ms": optional(number(0, 1000)),
-    "max_swing_error": optional(number(0, MAX_RATIO)),
-    "target_tempo_bpm": optional(number(MIN_BPM, MAX_BPM)),
-    "min_score": optional(number(0, 100)),
-    "faults": Field(_asked, Asked()),
-}
-FIELDS: Fields = {
-    "title": Field(title, "", 'a name such as title = "Rock 1"'),
-    "author": Field(prose, ""),
-    "level": Field(whole(min(LEVELS), max(LEVELS)), 1),
-    "tags": Field(list_of(_tag, 'a list of words, such as ["rock", "groove"]'), ()),
-    "about": Field(prose, ""),
-    "kit": Field(prose, ""),
-    **TIMING,
-    "loop": optional(anything),  # read when the bars are known
-    "passes": Field(whole(1, MAX_PASSES), DEFAULT_PASSES),
-    "count_in_bars": Field(whole(0, MAX_COUNT_IN_BARS), 1),
-    "demonstrations": Field(whole(0, MAX_DEMONSTRATIONS), DEFAULT_DEMONSTRATIONS),
-    "goals": Field(record(Goals, _GOALS), Goals()),
-    "grid": Field(anything, None, "a table [grid] with the lines to play"),
-}
-"""The schema of the top table, in the order in which a message lists its keys."""
-_AS_THEY_ARE = ("title", "author", "level", "tags", "about", "kit", "passes", "count_in_bars", "demonstrations")
-
-
-# --- reading ----------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,55 +85,47 @@ def lesson_reader(name: str) -> Reader[Lesson]:
 def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     """The lesson that these values make; raises `Wrong` for their `faults` and all that is found on the way."""
     timing = timing_of(values, DEFAULT_TIMING, faults)
-    nothing: list[GridSection] = []
-    sections = faults.attempt(lambda grids: _sections(grids, timing, faults), values["grid"], nothing)
-    score, origins = _score(sections)
-    goals: Goals = values["goals"]
-    if goals.level is not None and goals.level.rank > goals.strictest_level.rank:
-        faults.add(("goals", "level"), f"{goals.level} is stricter than the strictest_level, {goals.strictest_level}")
-    target = goals.target_tempo_bpm
+    before = len(faults)
+    written = [] if values["grid"] is None else _written(values["grid"], faults)
+    no_grids: list[ReadGrid] = []
+    grids = faults.attempt(lambda _: _read_grids(written, timing, faults), written, no_grids)
+    order = played_order(values["form"], written, faults)
+    nothing: list[Stretch] = []
+    stretches = faults.attempt(lambda _: laid_out(order, grids), grids, nothing) if grids else nothing
+    are_sure = timing.is_sure and len(faults) == before  # else there may be more bars than could be read
+    score, origins = _score(stretches, written, faults)
     lesson = Lesson(
         name=name,
         score=replace(score, title=values["title"]),
-        loop=_loop(values["loop"], score.bar_count, faults),
-        goals=replace(goals, target_tempo_bpm=None if target is None else target * timing.beat_ticks / PPQ),
-        swing=sections[0].timing.swing if sections else timing.swing,
+        loop=_loop(values["loop"], score.bar_count if are_sure else MAX_BARS, faults),
+        swing=stretches[0].grid.section.timing.swing if stretches else timing.swing,
         beat_ticks=timing.beat_ticks,
-        sections=_spans(sections),
+        sections=sections_of(stretches),
         velocities=timing.velocities,
-        **{key: values[key] for key in _AS_THEY_ARE},
+        cues=cues_of(stretches),
+        landing=_landing(values[LANDING], timing, faults),
+        **{key: values[key] for key in AS_THEY_ARE},
     )
-    _note_impossible(lesson, origins, faults)
+    lesson = replace(lesson, goals=_goals(values["goals"], lesson, faults))
+    _check_prerequisites(lesson, faults)
+    beats = _Beats(stretches, lesson.beat_ticks)
+    note_unplayable(lesson, origins, beats.ticks_at, faults)
     faults.check()
     return lesson
 
 
-def _sections(grids: object, timing: GridTiming, faults: Faults) -> list[GridSection]:
-    """The grids of the file, one after the other; there may be one `[grid]` or several `[[grid]]`.
+# --- the grids --------------------------------------------------------------------------------------------------------
 
-    Raises `Wrong` where there is more than anyone practises, before much time is spent on it.
-    """
-    if grids is None:
-        return []
-    several = isinstance(grids, list)
-    if grids == []:
+
+def _written(raw: object, faults: Faults) -> list[WrittenGrid]:
+    """The grids as the file has them; raises `Wrong` where there is more to read than anyone practises."""
+    if raw == []:
         faults.add(("grid",), "no grid to play; expected a table [grid] with lines in it")
-    if (cells := _cell_count(grids)) > MAX_CELLS:
-        raise wrong(f"{cells} letters; a lesson has at most {MAX_CELLS}", "grid")
-    sections: list[GridSection] = []
-    bars = strokes = 0
-    for i, raw in enumerate(grids if isinstance(grids, list) else [grids]):
-        path: KeyPath = ("grid", i) if several else ("grid",)
-        sections.append(read_grid(raw, path, sections[-1].timing if sections else timing, faults))
-        bars += sections[-1].bar_count * sections[-1].times
-        strokes += sum(map(len, sections[-1].parts))
-        if bars > MAX_BARS:
-            raise wrong(f"{bars} bars up to here; a lesson has at most {MAX_BARS}", *path)
-        if strokes > MAX_STROKES:
-            raise wrong(f"{strokes} strokes up to here; a lesson has at most {MAX_STROKES}", *path)
-    if sections and not any(any(s.parts) for s in sections) and not faults:
-        faults.add(("grid",), "nothing to play: every cell is a rest", at_key=True)
-    return sections
+    grids = written_grids(raw, faults)
+    if (cells := sum(_cell_count(grid.raw) for grid in grids)) > MAX_CELLS:
+        faults.add(("grid",), f"{cells} letters; a lesson has at most {MAX_CELLS}")
+        return []
+    return grids
 
 
 def _cell_count(raw: object) -> int:
@@ -227,6 +134,71 @@ def _cell_count(raw: object) -> int:
         return len(raw)
     parts = raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ()
     return sum(map(_cell_count, parts))
+
+
+def _read_grids(written: Sequence[WrittenGrid], timing: GridTiming, faults: Faults) -> list[ReadGrid]:
+    """The grids, each after what was said before it; raises `Wrong` where they are more than anyone practises."""
+    grids: list[ReadGrid] = []
+    bars = strokes = 0
+    for each in written:
+        before = timing if not grids else grids[-1 if each.like is None else each.like].section.timing
+        found = Faults()
+        section = read_grid(each.raw, each.path, before, found)
+        is_sure = section.timing.is_sure and not found
+        shape = GridShape(section.meters, section.times, section.timing.beat_ticks, is_sure)
+        at_bars = Faults()
+        cues = read_cues(each.at, shape, at_bars)
+        found.merge(at_bars, *each.path)
+        faults.noted += told_at_home(found, each, written, faults)
+        grids.append(ReadGrid(each, section, cues))
+        bars, strokes = bars + section.bar_count * section.times, strokes + sum(map(len, section.parts))
+        check_size(bars, strokes, each)
+    if grids and not any(any(grid.section.parts) for grid in grids) and not faults:
+        faults.add(("grid",), "nothing to play: every cell is a rest", at_key=True)
+    return grids
+
+
+def _score(stretches: Sequence[Stretch], written: Sequence[WrittenGrid], faults: Faults) -> tuple[Score, list[Origin]]:
+    """The score of all stretches, and the letter of the file that wrote each of its rows."""
+    strokes: list[WrittenCell] = [stroke for stretch in stretches for stroke in stretch.strokes]
+    rows, origins = expand(strokes)
+    order = np.lexsort((rows["piece"], -rows["lead_ms"], rows["tick"]))
+    tempo_map = TempoMap.build(faults.attempt(lambda _: tempos_of(stretches), None, []), meters_of(stretches))
+    end = stretches[-1].end_tick if stretches else tempo_map.bar_start(1)
+    by_path = {grid.path: grid for grid in written}
+    homes = {
+        origin.path: home_of(origin.path, by_path[_grid_path(origin)], written)
+        for origin in {(o.path): o for o in origins}.values()
+    }
+    at_home = [Origin(homes[origin.path], origin.char) for origin in origins]
+    return Score.from_array(rows[order], tempo_map, end), [at_home[i] for i in order]
+
+
+def _grid_path(origin: Origin) -> tuple[str | int, ...]:
+    """The path of the grid that a letter stands in: `grid`, and its index where there are several."""
+    return origin.path[: 2 if isinstance(origin.path[1], int) else 1]
+
+
+@dataclass(frozen=True, slots=True)
+class _Beats:
+    """The beat that a teacher counts at each place: that of its grid, `usual` where there is none."""
+
+    stretches: Sequence[Stretch]
+    usual: int
+
+    def ticks_at(self, tick: int) -> int:
+        """Length of the beat at `tick`."""
+        here = (s for s in reversed(self.stretches) if s.start_tick <= tick)
+        found = next(here, None)
+        return self.usual if found is None else found.grid.section.timing.beat_ticks
+
+
+def _landing(raw: object, timing: GridTiming, faults: Faults) -> NDArray[np.void]:
+    """The strokes of the landing; none where the file has none."""
+    return np.zeros(0, NOTE_DTYPE) if raw is None else read_landing(raw, timing, faults, (LANDING,))
+
+
+# --- how it is practised ----------------------------------------------------------------------------------------------
 
 
 def _loop(raw: object, bar_count: int, faults: Faults) -> tuple[int, int]:
@@ -243,45 +215,26 @@ def _loop(raw: object, bar_count: int, faults: Faults) -> tuple[int, int]:
     return whole_lesson if raw is None else faults.attempt(read_loop, raw, whole_lesson, "loop")
 
 
-def _note_impossible(lesson: Lesson, origins: Sequence[Origin], faults: Faults) -> None:
-    """Note what cannot be played at the faster of written and target tempo, nor as the loop starts again."""
-    if not len(lesson.score):
-        return
-    score = lesson.score.at_speed(max(1.0, lesson.target_tempo_bpm / lesson.tempo_bpm))
-    first, last = lesson.loop
-    in_loop = np.flatnonzero((score.bar >= first) & (score.bar <= last)).tolist()
-    twice = impossible(score.bars(first, last).repeated(2)) if in_loop else []
-    found = {(in_loop[i.note], i.text) for i in twice if i.note < len(in_loop)}
-    if len(in_loop) < len(score):
-        found |= {(i.note, i.text) for i in impossible(score)}
-    again = {(in_loop[i.note - len(in_loop)], i.text) for i in twice if i.note >= len(in_loop)} - found
-    at_restart = {(note, f"{words} (as the loop starts again)") for note, words in again}
-    for note, words in found | at_restart:
-        faults.add(origins[note].path, words, origins[note].char)
+def _goals(goals: Goals, lesson: Lesson, faults: Faults) -> Goals:
+    """The goals with their tempo in quarter notes a minute; notes what does not suit the lesson."""
+    for i, part in enumerate(goals.bars):
+        if part.last_bar >= lesson.score.bar_count and not faults:
+            bars = lesson.score.bar_count
+            text = f"expected a whole number from 1 to {bars}, for so many bars are played; found {part.last_bar + 1}"
+            faults.add(("goals", "bars", i, "bars", 1), text)
+    target = goals.target_tempo_bpm
+    if target is None:
+        return goals
+    target_bpm = target * lesson.beat_ticks / PPQ
+    if target_bpm < lesson.tempo_bpm:
+        text = f"{target:g} is below the tempo, {lesson.beats_a_minute:g}; expected that or more, or a slower tempo_bpm"
+        faults.add(("goals", "target_tempo_bpm"), text)
+    return replace(goals, target_tempo_bpm=target_bpm)
 
 
-def _score(sections: Sequence[GridSection]) -> tuple[Score, list[Origin]]:
-    """The score of all sections, and the letter that wrote each of its rows."""
-    strokes: list[WrittenCell] = []
-    tempos: list[TempoChange] = []
-    meters: list[MeterChange] = []
-    tick = 0
-    for section in sections:
-        tempos.append(TempoChange.from_bpm(tick, section.timing.tempo_bpm))
-        strokes += section.at(tick)
-        for _ in range(section.times):
-            meters += section.bars_at(tick)
-            tick += section.length_ticks
-    rows, origins = expand(strokes)
-    order = np.lexsort((rows["piece"], -rows["lead_ms"], rows["tick"]))
-    tempo_map = TempoMap.build(tempos, meters)
-    return Score.from_array(rows[order], tempo_map, tick or tempo_map.bar_start(1)), [origins[i] for i in order]
-
-
-def _spans(sections: Sequence[GridSection]) -> tuple[Section, ...]:
-    spans: list[Section] = []
-    for section in sections:
-        first = spans[-1].last_bar + 1 if spans else 0
-        last = first + section.bar_count * section.times - 1
-        spans.append(Section(section.name, first, last, section.timing.swing))
-    return tuple(spans)
+def _check_prerequisites(lesson: Lesson, faults: Faults) -> None:
+    for i, name in enumerate(lesson.prerequisites):
+        if name == lesson.name:
+            faults.add(("prerequisites", i), f"{name} is this lesson itself; expected another")
+        elif name in lesson.prerequisites[:i]:
+            faults.add(("prerequisites", i), f"{name} stands here twice")

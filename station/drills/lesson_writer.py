@@ -5,17 +5,19 @@ back (all strokes but the MIDI numbers that they once came from).
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 
 from station.core.errors import BadInput
 from station.core.pieces import word
 from station.core.units import PPQ
 from station.drills.grid.grid_writer import GridSetting, frame_of, with_repeats, write_lines
-from station.drills.grid.lines_from_score import WrittenStroke, lines_of, strokes_by_bar
-from station.drills.grid.touch import Velocities
+from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines_of, strokes_by_bar
+from station.drills.grid.touch import Graces, Velocities
 from station.drills.lesson import Goals, Lesson, Section, tidy_bpm
 from station.drills.lesson_difference import score_difference
 from station.drills.lesson_file import parse_lesson
 from station.drills.lesson_text import show
+from station.music.score import Score
 from station.scoring.analysis.fault_table import MUTE
 
 _DYNAMICS = ("ghost", "normal", "accent")
@@ -27,7 +29,19 @@ def write_lesson(lesson: Lesson) -> str:
     Raises `BadInput` for music that the grid cannot write (times between its cells, velocities beside the lesson's
     dynamics, strokes without a letter): see `quantise.quantise_score`, which brings any score onto the grid.
     """
-    text = "\n".join([*_head(lesson), "", *_dynamics(lesson.velocities), *_goals(lesson), *_grids(lesson)]) + "\n"
+    text = (
+        "\n".join(
+            [
+                *_head(lesson),
+                "",
+                *_dynamics(lesson.velocities),
+                *_graces(lesson.score),
+                *_goals(lesson),
+                *_grids(lesson),
+            ]
+        )
+        + "\n"
+    )
     read = parse_lesson(text, lesson.name, lesson.name)
     if read.lesson is None:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {read.faults[0].text}")
@@ -68,6 +82,13 @@ def _dynamics(velocities: Velocities) -> list[str]:
     for piece, own in velocities.of_piece.items():
         lines += [f"[dynamics.{word(piece)}]", *_three(own, velocities.usual), ""]
     return lines
+
+
+def _graces(score: Score) -> list[str]:
+    """The grace strokes where they are not the usual ones."""
+    graces, usual = asdict(graces_of(score)), asdict(Graces())
+    said = [f"{key} = {number(value)}" for key, value in graces.items() if value != usual[key]]
+    return ["[graces]", *said, ""] if said else []
 
 
 def _three(values: tuple[int, int, int], usual: tuple[int, int, int]) -> list[str]:
@@ -114,8 +135,7 @@ def _changes(lesson: Lesson, section: Section) -> list[str]:
     tempo_map = lesson.score.tempo_map
     start = tempo_map.bar_start(section.first_bar)
     meter, before = tempo_map.meter_at(start), tempo_map.meter_at(start - 1)
-    changed = (meter.beats, meter.unit) != (before.beats, before.unit)
-    lines = [f'meter = "{meter.beats}/{meter.unit}"'] if changed else []
+    lines = [f"meter = {quoted(str(meter))}"] if str(meter) != str(before) else []
     here = next((t for t in tempo_map.tempos if t.tick == start), None)
     return lines + ([f"tempo_bpm = {number(tidy_bpm(here.us_per_quarter, lesson.beat_ticks))}"] if here else [])
 

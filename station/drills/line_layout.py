@@ -183,7 +183,6 @@ def counted(text: str, frame: GridFrame) -> str:
 
 
 def _numbers(meter: MeterChange) -> list[str]:
-    """The digit of each beat of the bar; written groups begin again at 1."""
-    if meter.groups:
-        return [str((beat + 1) % 10) for group in meter.groups for beat in range(group)]
-    return [str((beat + 1) % 10) for beat in range(meter.beats)]
+    """The digit of each beat of the bar; in written groups of eighths and shorter it begins again at 1."""
+    groups = meter.groups if meter.unit >= _EIGHTH and meter.groups else (meter.beats,)
+    return [str((beat + 1) % 10) for group in groups for beat in range(group)]

@@ -1,36 +1,45 @@
 """The meters that the grids of a lesson are written in, by the path of each table: what the layout of its lines needs.
 
-`raw` is what a lesson's text says, without fault.
+`raw` is what a lesson's text says, without fault. What a grid takes over from the one that it is like, or from the one
+before it, is the reader's business: it is asked here.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from typing import Any
 
+from station.core.schema import checked_values
+from station.core.toml_faults import Faults
 from station.core.toml_places import KeyPath
-from station.core.units import PPQ
-from station.drills.grid.grid_timing import meters, note_length
+from station.drills.form import written_grids
+from station.drills.grid.grid_timing import TIMING, GridTiming, meter, timing_of
+from station.drills.lesson_fields import DEFAULT_TIMING
 from station.drills.line_layout import Meters
-from station.music.tempo import MeterChange
-
-_UNSAID = Meters((MeterChange(0, 4, 4),), PPQ)
 
 
 def written_meters(raw: Mapping[str, object]) -> dict[KeyPath, Meters]:
     """The meters in turn of each grid and each cycle."""
-    grids = raw["grid"]
     found: dict[KeyPath, Meters] = {}
-    last = _said(raw, _UNSAID)
-    named: dict[object, Meters] = {}
-    for i, grid in enumerate(grids if isinstance(grids, list) else [grids]):
-        path: KeyPath = ("grid", i) if isinstance(grids, list) else ("grid",)
-        last = found[path] = _said(grid, named.get(grid.get("like"), last))
-        named[grid.get("name")] = last
-        for j, cycle in enumerate(grid.get("cycle", ())):
-            found[*path, "cycle", j] = _said(cycle, last)
+    timings: list[GridTiming] = []
+    lesson = _timing(raw, DEFAULT_TIMING)
+    for grid in written_grids(raw["grid"], Faults()):
+        assert isinstance(grid.raw, dict), "a lesson without fault"
+        before = lesson if not timings else timings[-1 if grid.like is None else grid.like]
+        timings.append(_timing(grid.raw, before))
+        found[grid.path] = Meters(timings[-1].meters, timings[-1].beat_ticks)
+        for path, cycle in _cycles(grid.raw, grid.path):
+            found[path] = Meters((meter(cycle["meter"]),), timings[-1].beat_ticks)
     return found
 
 
-def _said(table: Mapping[str, object], before: Meters) -> Meters:
-    """Meters and beat as a table says them, and as they were `before` where it does not."""
-    said, beat = table.get("meter"), table.get("beat")
-    in_turn = before.in_turn if said is None else meters(said)
-    return Meters(in_turn, before.beat_ticks if beat is None else note_length(beat))
+def _cycles(grid: Mapping[str, Any], path: KeyPath) -> Iterator[tuple[KeyPath, Mapping[str, object]]]:
+    """The one cycle of a grid, or the several."""
+    cycles = grid.get("cycle", [])
+    if isinstance(cycles, list):
+        yield from (((*path, "cycle", i), cycle) for i, cycle in enumerate(cycles))
+    else:
+        yield (*path, "cycle"), cycles
+
+
+def _timing(raw: Mapping[str, object], before: GridTiming) -> GridTiming:
+    values, _ = checked_values({key: value for key, value in raw.items() if key in TIMING}, TIMING)
+    return timing_of(values, before, Faults())

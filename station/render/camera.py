@@ -1,10 +1,10 @@
 """Viewpoints: what the named ones are called, and orbiting, panning and zooming; `framing` says where they stand."""
 
 from dataclasses import dataclass, replace
-from enum import IntEnum
 
 import numpy as np
 
+from station.core.named_view import NamedView as NamedView  # noqa: PLC0414  whoever has a camera has its views
 from station.render.geometry.transforms import Matrix, look_at, perspective
 
 NARROW = 1.5
@@ -13,19 +13,6 @@ _NEAR_M, _FAR_M = 0.06, 16.0
 _MIN_DISTANCE_M, _MAX_DISTANCE_M = 0.5, 4.4
 """Orbiting stays within the room."""
 _LOWEST_M, _HIGHEST_RAD, _LOWEST_RAD = 0.15, 1.53, -0.35
-
-
-class NamedView(IntEnum):
-    """The named views."""
-
-    FRONT = 0
-    SHOULDER = 1
-    EYES = 2
-    TOP = 3
-    HANDS = 4
-    FEET = 5
-    LEFT_HAND = 6
-    RIGHT_HAND = 7
 
 
 VIEW_NAMES = {

@@ -18,7 +18,8 @@ from station.drills.grid.swing import MAX_RATIO, Swing
 from station.drills.grid.tab_symbols import LINE_PIECES, SYMBOLS, family_of
 from station.drills.lesson import Goals, Lesson
 from station.drills.lesson_difference import first_difference, score_difference
-from station.drills.lesson_file import FIELDS, parse_lesson
+from station.drills.lesson_fields import FIELDS
+from station.drills.lesson_file import parse_lesson
 from station.drills.lesson_text import show
 from station.drills.lesson_writer import write_lesson
 from station.drills.quantise import lesson_of, quantise_score

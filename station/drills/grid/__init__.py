@@ -1,7 +1,8 @@
 """The grid: one line of characters a piece, one character a cell, `|` between bars.
 
-In: the text of a `[grid]` table. Out: strokes of a score; and the way back.
-`tab_symbols` says what each character plays, `cell_strokes` turns cells into strokes, `grid_reader` reads a table,
-`grid_writer` writes one.
-Read `grid`, then `tab_symbols`.
+In: the table of a `[grid]`. Out: a `GridSection`, the strokes of each repetition; and the way back.
+`grid` cuts lines into cells, `tab_symbols` says what each character plays, `cell_strokes` turns cells into strokes,
+`voice` puts lines and hands together, `cycles` and `loudness` run beside them, `grid_timing` holds what one grid hands
+to the next, `grid_reader` reads the whole table, `grid_writer` and `lines_from_score` write one.
+Read `grid`, then `tab_symbols`, then `grid_reader`.
 """

@@ -15,7 +15,7 @@ from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.voice import agreed_bars, check_cells, parsed, voice_strokes
 from station.music.tempo import MeterChange
 
-_CYCLE: Fields = {"meter": needed(meter, 'the meter of the cycle, such as meter = "5/8"'), **LINES}
+CYCLE: Fields = {"meter": needed(meter, 'the meter of the cycle, such as meter = "5/8"'), **LINES}
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +25,7 @@ class Cycle:
     meter: MeterChange
     lines: Sequence[RawLine]
     sticking: RawLine | None
+    are_all: bool = True
 
 
 def read_cycles(raw: object, path: KeyPath, faults: Faults) -> list[Cycle]:
@@ -38,14 +39,15 @@ def read_cycles(raw: object, path: KeyPath, faults: Faults) -> list[Cycle]:
 
 def _read_cycle(raw: object, path: KeyPath, faults: Faults) -> list[Cycle]:
     """One cycle, or none where it cannot be read."""
-    values, found = checked_values(raw, _CYCLE, "line")
+    values, found = checked_values(raw, CYCLE, "line")
     lines = lines_of_table(values, path, found)
     if not lines and not found:
         found.add((), 'no line to play; expected one such as cowbell = "x--x-"', at_key=True)
+    are_all = not found
     faults.merge(found, *path)
     if not lines or values["meter"] is None:
         return []
-    return [Cycle(values["meter"], lines, plain_line(values, STICKING, path))]
+    return [Cycle(values["meter"], lines, plain_line(values, STICKING, path), are_all)]
 
 
 def cycle_strokes(cycle: Cycle, beat_ticks: int, clock: BarClock, end_tick: int, faults: Faults) -> list[WrittenCell]:
@@ -60,7 +62,7 @@ def cycle_strokes(cycle: Cycle, beat_ticks: int, clock: BarClock, end_tick: int,
     strokes: list[WrittenCell] = []
     for number in range(rounds):
         starts = [(number * bars + bar) * length for bar in range(bars)]
-        strokes += voice_strokes(lines, under, starts, clock, faults)
+        strokes += voice_strokes(lines, under, starts, clock, faults, are_all=cycle.are_all)
     return [_cut(stroke, end_tick) for stroke in strokes if stroke.place.straight < end_tick]
 
 

@@ -4,11 +4,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from station.core.schema import Field, Fields, anything, checked_values, number, optional, title, whole
+from station.core.expected import either_of, later, list_like
+from station.core.schema import Field, Fields, anything, checked_values, number, optional, table_like, title, whole
 from station.core.toml_faults import Faults
 from station.core.toml_places import KeyPath
 from station.drills.grid.cell_strokes import BarClock, WrittenCell
-from station.drills.grid.cycles import Cycle, by_repetition, cycle_strokes, read_cycles
+from station.drills.grid.cycles import CYCLE, Cycle, by_repetition, cycle_strokes, read_cycles
 from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, cells, lines_of_table, plain_line
 from station.drills.grid.grid_timing import TIMING, GridTiming, timing_of
@@ -64,7 +65,7 @@ class GridSection:
         return [stroke for i, start in enumerate(starts) for stroke in self.repetition(i, start)]
 
 
-_GRID: Fields = {
+GRID: Fields = {
     "name": Field(title, ""),
     "like": optional(anything),  # what the form says is read by its own readers
     "ending": optional(anything),
@@ -75,20 +76,29 @@ _GRID: Fields = {
     "bars": optional(whole(1, MAX_BARS)),
     LOUDNESS: optional(cells),
     **LINES,
-    "cycle": optional(anything),
+    "cycle": optional(later(either_of(table_like(CYCLE), list_like(table_like(CYCLE))))),
 }
+"""The keys of a grid."""
 
 
 def read_grid(raw: object, path: KeyPath, before: GridTiming, faults: Faults) -> GridSection:
     """One grid, after what was said `before` it: the lesson's own timing, or that of the grid that precedes it."""
-    values, found = checked_values(raw, _GRID, "line")
+    values, found = checked_values(raw, GRID, "line")
     timing = timing_of(values, before, found, path)
     lines = lines_of_table(values, path, found)
     if not lines and values["cycle"] is None and not found:
         found.add((), 'no line to play; expected one such as snare = "----o-------o---"', at_key=True)
+    are_all = not found
     faults.merge(found, *path)
+    if not timing.is_sure:
+        return _unread(values, timing)
     cycles = read_cycles(values["cycle"], (*path, "cycle"), faults)
-    return _Builder(values, path, timing, lines, cycles, faults).section()
+    return _Builder(values, path, timing, lines, cycles, faults, are_all).section()
+
+
+def _unread(values: Mapping[str, Any], timing: GridTiming) -> GridSection:
+    """A grid whose lines cannot be read, for nobody knows in what meter they are: a bar of rest."""
+    return GridSection(values["name"], timing, _bars(timing.meters, 1), ((),) * values["times"])
 
 
 @dataclass(slots=True)
@@ -101,6 +111,7 @@ class _Builder:
     lines: Sequence[RawLine]
     cycles: Sequence[Cycle]
     faults: Faults
+    are_all: bool
 
     def section(self) -> GridSection:
         times: int = self.values["times"]
@@ -113,7 +124,7 @@ class _Builder:
         length = bars[-1].tick + bars[-1].bar_ticks
         clock = BarClock(bars, self.timing.swing)
         self._must_not_cross(lines, bars)
-        own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults)
+        own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults, are_all=self.are_all)
         level = self._loudness(loudness, bars)
         parts = [self._struck([*own, *more], level) for more in self._cycled(bars, length, times)]
         return GridSection(self.values["name"], self.timing, bars, tuple(parts))
@@ -149,7 +160,7 @@ class _Builder:
         return by_repetition(strokes, length, times)
 
     def _loudness(self, line: ParsedLine | None, bars: Sequence[MeterChange]) -> Loudness:
-        if line is None or not all(bar.sound for bar in line.bars):
+        if line is None or not (line.aligned and all(bar.sound for bar in line.bars)):
             return Loudness()
         starts = [bar.tick for bar in bars]
         return read_loudness(zip(starts, line.bars, strict=False), line.reporter(self.faults))

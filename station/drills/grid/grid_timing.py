@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
 
+from station.core.expected import either_of, expected_by, expects, list_like
 from station.core.schema import Fields, list_of, number, optional, said, shown, whole
 from station.core.toml_faults import Faults, wrong
 from station.core.toml_places import KeyPath
@@ -29,7 +30,8 @@ class GridTiming:
 
     `tempo_bpm` in quarter notes a minute; `tempo_to_bpm` the tempo at which this grid arrives, None where it keeps
     its own (the next grid does not inherit it); `meters` are taken in turn, bar by bar, their ticks 0; `beat_ticks`
-    is the beat that `tempo_bpm` counts in the file and that `(…)` fills; `swing_path` is where the swing is written.
+    is the beat that `tempo_bpm` counts in the file and that `(…)` fills; `swing_path` is where the swing is
+    written. Where the file's meter or beat is wrong, `is_sure` is False up to the next meter.
     """
 
     tempo_bpm: float
@@ -39,6 +41,7 @@ class GridTiming:
     touch: Touch = field(default_factory=Touch)
     tempo_to_bpm: float | None = None
     swing_path: KeyPath = ("swing_ratio",)
+    is_sure: bool = True
 
     @property
     def velocities(self) -> Velocities:
@@ -54,6 +57,7 @@ class GridTiming:
 # --- the schema -------------------------------------------------------------------------------------------------------
 
 
+@expects({"type": "string", "pattern": r"^ *\d+( *\+ *\d+)* */ *\d+ *$"})
 def meter(value: object) -> MeterChange:
     """A meter such as "6/8", or "3+2+2/8" with its groups; its tick is 0."""
     top, slash, unit = value.partition("/") if isinstance(value, str) else ("", "", "")
@@ -70,6 +74,7 @@ def _is_short_number(word: str) -> bool:
     return word.isascii() and word.isdecimal() and len(word) < 4
 
 
+@expects(either_of(expected_by(meter), list_like(expected_by(meter), 1)))
 def meters(value: object) -> tuple[MeterChange, ...]:
     """One meter, or a list of meters that are taken in turn, bar by bar."""
     if not isinstance(value, list):
@@ -79,6 +84,7 @@ def meters(value: object) -> tuple[MeterChange, ...]:
     return list_of(meter, 'meters such as ["4/4", "3/4"]')(value)
 
 
+@expects({"type": "string", "pattern": r"^ *\d+ */ *\d+ *$"})
 def note_length(value: object) -> int:
     """Ticks of a note length such as "1/4" or "3/8"."""
     top, slash, bottom = value.partition("/") if isinstance(value, str) else ("", "", "")
@@ -117,6 +123,7 @@ def timing_of(values: Mapping[str, Any], before: GridTiming, faults: Faults, pat
 
     Faults count from that table.
     """
+    is_wrong = any(fault.path[:1] in (("meter",), ("beat",)) for fault in faults.noted)
     beat_ticks = before.beat_ticks if values["beat"] is None else values["beat"]
     ratio, unit = values["swing_ratio"], values["swing_unit"]
     was, changes = before.velocities, values["dynamics"] or {}
@@ -130,6 +137,7 @@ def timing_of(values: Mapping[str, Any], before: GridTiming, faults: Faults, pat
         touch,
         _tempo(values, "tempo_to_bpm", beat_ticks, faults),
         before.swing_path if ratio is unit is None else (*path, "swing_ratio" if unit is None else "swing_unit"),
+        not is_wrong and (before.is_sure or values["meter"] is not None),
     )
 
 
@@ -163,5 +171,7 @@ def _rising(before: Sequence[int], changes: Mapping[str, Any], *path: str) -> tu
     """Ghost, normal and accent velocities, as `before` but for the changes of the table at `path`."""
     ghost, normal, accent = (changes.get(key, was) for key, was in zip(_VELOCITIES, before, strict=True))
     if not ghost <= normal <= accent:
-        raise wrong(f"ghost {ghost}, normal {normal}, accent {accent}: expected rising velocities", *path)
+        said_first = next(key for key in changes if key in _VELOCITIES)
+        text = f"ghost {ghost}, normal {normal}, accent {accent}: expected rising velocities"
+        raise wrong(text, *path, said_first)
     return ghost, normal, accent

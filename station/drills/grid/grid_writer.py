@@ -18,7 +18,9 @@ from station.music.tempo import MeterChange
 PLAIN_CELLS = (1, 2, 3, 4, 6, 8)
 """Cells a beat of the meter, in the order in which they are tried."""
 _PLAIN_BESIDE_TUPLETS = (1, 2, 4, 8, 16)
-TUPLET_CELLS = (3, 6, 5, 7, 2, 4, 9, 10, 12, 8, 14, 15, 16, 20, 21, 24, 28, 30, 32, 35, 40, 42, 48, 56, 60, 64)
+TUPLET_CELLS = (3, 6, 5, 7, 2, 4, 9, 10, 12, 8, 14, 11, 13, *range(15, 25), 28, 30, 32, 35, 40, 42, 48, 56, 60, 64)
+"""Cells in `(…)`, in the order in which they are tried. The reader takes any number to 64; of the finer ones those are
+left out that nobody counts, for they would hold strokes that were meant elsewhere (our choice)."""
 _RARE_CELLS = (12, 16, 5, 7, 10, 24, 32)
 MOST_SHARED_CELLS = 12
 """Beyond so many cells a beat each line is cut for itself: finer bars are hard to read. Our choice."""
@@ -180,24 +182,27 @@ def _plain(frame: GridFrame, cells: int) -> str | None:
 
 
 def _spaced(words: Sequence[str], lengths: Sequence[int], frame: GridFrame) -> str:
-    """The words with a blank before each that starts on a beat."""
+    """The words with a blank before each that starts on a beat or group that is counted."""
+    starts = _counted_starts(frame)
     out, tick = "", 0
     for word, length in zip(words, lengths, strict=True):
-        out += (" " if out and tick % _group_ticks(frame) == 0 else "") + word
+        out += (" " if out and tick in starts else "") + word
         tick += length
     return out
 
 
-def _group_ticks(frame: GridFrame) -> int:
-    """The beat that is counted where it is made of the meter's beats; else the meter's beat."""
+def _counted_starts(frame: GridFrame) -> set[int]:
+    """Where the groups start, the beats that are counted where these are made of the meter's, or the meter's beats."""
     unit = frame.meter.beat_ticks
-    return frame.beat_ticks if frame.beat_ticks % unit == 0 else unit
+    if frame.meter.groups:
+        return {start for start, _ in frame.spans}
+    return set(range(0, frame.meter.bar_ticks, frame.beat_ticks if frame.beat_ticks % unit == 0 else unit))
 
 
 def _with_tuplets(points: Sequence[_Point], setting: GridSetting, most: int) -> str | None:
     """Plain cells with `(…)` in those beats that they do not suit; as few of these as can be."""
     frame = setting.frame
-    if frame.meter.bar_ticks % frame.beat_ticks:
+    if sum(length for _, length in frame.spans) != frame.meter.bar_ticks:
         return None
     options = [_tupled(points, setting, cells, most) for cells in _PLAIN_BESIDE_TUPLETS]
     found = [s for s in options if s]
@@ -208,18 +213,18 @@ def _tupled(points: Sequence[_Point], setting: GridSetting, cells: int, most: in
     """A bar of `cells` plain cells a beat of the meter, and tuplets where these do not fit; None if neither does."""
     frame = setting.frame
     plain = _plain(frame, cells)
-    length = frame.meter.beat_ticks // cells
-    if plain is None or frame.beat_ticks % length:
+    cell_ticks = frame.meter.beat_ticks // cells
+    spans = frame.spans
+    if plain is None or any(length % cell_ticks for _, length in spans):
         return None
-    beats = frame.meter.bar_ticks // frame.beat_ticks
     words: list[str] = []
-    for beat in range(beats):
-        here = [p for p in points if beat * frame.beat_ticks <= p[0] < (beat + 1) * frame.beat_ticks]
-        tuplets = (f"({REST * n})" for n in TUPLET_CELLS if n <= most and frame.beat_ticks % n == 0)
-        rest = f"({REST})"
-        word = REST * (frame.beat_ticks // length)
+    for i, (start, length) in enumerate(spans):
+        here = [p for p in points if start <= p[0] < start + length]
+        word = REST * (length // cell_ticks)
         if not _holds_all(plain, here, setting):
-            alone = (t for t in tuplets if _holds_all(rest * beat + t + rest * (beats - beat - 1), here, setting))
+            rests = [f"({REST})"] * len(spans)
+            tuplets = (f"({REST * n})" for n in TUPLET_CELLS if n <= most)
+            alone = (t for t in tuplets if _holds_all("".join([*rests[:i], t, *rests[i + 1 :]]), here, setting))
             word = next(alone, "")
         if not word:
             return None

@@ -33,6 +33,7 @@ def read_landing(raw: object, timing: GridTiming, faults: Faults, path: KeyPath 
     lines = lines_of_table(values, path, found)
     if not lines and not found:
         found.add((), 'nothing to land on; expected a line such as crash = "X"', at_key=True)
+    are_all = not found
     faults.merge(found, *path)
     frames = [GridFrame(_BEAT, _BEAT.beat_ticks)]
     under = plain_line(values, STICKING, path)
@@ -42,7 +43,7 @@ def read_landing(raw: object, timing: GridTiming, faults: Faults, path: KeyPath 
         under = None
     voices = [parsed(line, frames, faults) for line in sound]
     hands = parsed(under, frames, faults) if under and len(sound) == len(lines) else None
-    strokes = voice_strokes(voices, hands, [0], BarClock([_BEAT], timing.swing), faults)
+    strokes = voice_strokes(voices, hands, [0], BarClock([_BEAT], timing.swing), faults, are_all=are_all)
     rows, _ = expand([replace(stroke, touch=timing.touch) for stroke in strokes])
     return rows[np.lexsort((rows["piece"], -rows["lead_ms"]))] if len(rows) else np.zeros(0, NOTE_DTYPE)
 

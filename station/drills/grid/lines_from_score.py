@@ -5,7 +5,9 @@ others go to `right_hand.…` and `left_hand.…` lines. Whatever has no letter 
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Ornament, Piece, word
@@ -87,14 +89,36 @@ def lines_of(by_bar: Mapping[int, Sequence[WrittenStroke]], first_bar: int, last
     return sorted(lines.values(), key=_height)
 
 
+def graces_of(score: Score) -> Graces:
+    """The grace strokes of flams and drags as the first of each has them; the usual ones where there are none."""
+    flams = [n.lead_ms for n in score if n.ornament is Ornament.FLAM and n.lead_ms]
+    drags = [n.lead_ms for n in score if n.ornament is Ornament.DRAG and n.lead_ms]
+    usual = Graces()
+    spaced = Graces(
+        _tidy_ms(flams[0]) if flams else usual.flam_ms, _tidy_ms(max(drags[:2]) / 2) if drags else usual.drag_ms
+    )
+    mains = {(n.tick, n.piece): n.velocity for n in score if not n.lead_ms}
+    pairs = [(n.velocity, mains[n.tick, n.piece]) for n in score if n.lead_ms and (n.tick, n.piece) in mains]
+    if all(soft == spaced.velocity(main) for soft, main in pairs):
+        return spaced
+    soft, main = max(pairs, key=lambda pair: pair[1])
+    return replace(spaced, share=round(soft / main, 3))
+
+
+def _tidy_ms(lead_ms: float) -> float:
+    """The time with the fewest decimals that scores, which keep it in 32 bits, hold alike."""
+    return next((t for d in range(7) if np.float32(t := round(lead_ms, d)) == np.float32(lead_ms)), lead_ms)
+
+
 def _strokes(score: Score) -> Iterable[WrittenStroke]:
     """The main strokes of a score, those of diddles paired; grace strokes follow from the letter."""
     bars, starts = score.bar, [score.tempo_map.bar_start(b) for b in range(score.bar_count)]
     half: dict[Piece, WrittenStroke] = {}
+    graces = graces_of(score)
     for i, note in enumerate(score):
         bar = int(bars[i])
         if note.lead_ms > 0:
-            if note.lead_ms not in Graces().leads_ms(note.ornament):
+            if not np.isin(note.lead_ms, np.array(graces.leads_ms(note.ornament), np.float32)):
                 raise BadInput("score", f"bar {bar + 1}", f"a grace stroke {note.lead_ms:g} ms before its note")
             continue
         stroke = WrittenStroke(note, bar, starts[bar])

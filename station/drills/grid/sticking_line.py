@@ -59,6 +59,8 @@ def apply_sticking(
             if cell.letter in RESTS:
                 continue
             here = by_tick.get(start + cell.tick, [])
+            if len(here) > len(HANDS):
+                continue  # nobody can play it, whoever's hands they are: `motion.feasibility` says so
             lacking, fault = _lacking(cell.letter, here), _fault(cell.letter, here)
             if fault or (lacking and number not in unsure_bars):
                 report(cell.char, fault or lacking)
@@ -80,8 +82,6 @@ def _fault(letter: str, here: Sequence[WrittenCell]) -> str:
     """What else is wrong with this letter over these strokes; empty if nothing."""
     if letter not in HANDS and letter != BOTH:
         return f"{letter!r} is no sticking; expected R, L, B (both hands) or -"
-    if len(here) > len(HANDS):
-        return f"{len(here)} strokes for two hands here ({_names(here)}); expected two at most"
     if letter in HANDS and len(here) > 1:
         return f"two strokes here ({_names(here)}); expected B, or write right_hand.… and left_hand.… lines"
     if letter == BOTH and len(here) == 1:

@@ -2,8 +2,7 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from itertools import chain
+from dataclasses import dataclass, field
 
 from station.core.toml_faults import Faults, wrong
 from station.drills.grid.cell_strokes import BarClock, WrittenCell, line_strokes
@@ -29,11 +28,15 @@ class Voice:
 
 @dataclass(slots=True)
 class ParsedLine:
-    """The bars of one line, and the characters of it that were at fault."""
+    """The bars of one line, and the characters of it that were at fault.
+
+    A line that is not `aligned` has more or fewer bars than the others: nobody knows which of theirs its bars go with.
+    """
 
     raw: RawLine
     bars: list[Bar]
     bad_chars: set[int] = field(default_factory=set)
+    aligned: bool = True
 
     def reporter(self, faults: Faults) -> Report:
         """Where the faults of this line go; each is told once, however often the line is played."""
@@ -47,7 +50,7 @@ class ParsedLine:
 
     def is_unsure(self, bar: int) -> bool:
         """Whether what it plays in `bar`, from 0, is not known."""
-        if bar >= len(self.bars) or not self.bars[bar].sound:
+        if not self.aligned or not self.bars[bar].sound:
             return True
         return any(cell.char in self.bad_chars for cell in self.bars[bar].cells)
 
@@ -70,9 +73,7 @@ def agreed_bars(lines: Sequence[ParsedLine], faults: Faults) -> int:
             text = f"{have} bar{'s' * (have != 1)}, but {model.path[-1]} has {count}"
             remedy = "% repeats a bar, - is a bar's rest" if have < count else "is a bar line too many?"
             faults.add(line.raw.line.path, f"{text}; {remedy}", len(line.raw.text))
-            line.bars += [Bar((), sound=False)] * (count - have)
-            line.bars[count:] = []
-            line.bars[:] = [replace(bar, sound=False) for bar in line.bars]
+            line.aligned = False
     return count
 
 
@@ -84,16 +85,24 @@ def check_cells(lines: Sequence[ParsedLine], times: int) -> None:
 
 
 def voice_strokes(
-    lines: Sequence[ParsedLine], under: ParsedLine | None, starts: Sequence[int], clock: BarClock, faults: Faults
+    lines: Sequence[ParsedLine],
+    under: ParsedLine | None,
+    starts: Sequence[int],
+    clock: BarClock,
+    faults: Faults,
+    *,
+    are_all: bool = True,
 ) -> list[WrittenCell]:
-    """The strokes of lines whose bars begin at `starts`, with the hands that the sticking line `under` them says."""
-    strokes = list(
-        chain.from_iterable(
-            line_strokes(zip(starts, line.bars, strict=False), line.raw.line, clock, line.reporter(faults))
-            for line in lines
-        )
-    )
-    if under is None:
+    """The strokes of lines whose bars begin at `starts`, with the hands that the sticking line `under` them says.
+
+    `are_all` tells whether all lines of the table could be read; if not, a stroke may be missing anywhere.
+    """
+    strokes: list[WrittenCell] = []
+    for line in lines:
+        own = line_strokes(zip(starts, line.bars, strict=False), line.raw.line, clock, line.reporter(faults))
+        strokes += own if line.aligned else []
+    if under is None or not under.aligned:
         return strokes
-    unsure = frozenset(bar for bar in range(len(starts)) if any(line.is_unsure(bar) for line in lines))
+    bars = range(len(starts))
+    unsure = frozenset(bar for bar in bars if not are_all or any(line.is_unsure(bar) for line in lines))
     return apply_sticking(zip(starts, under.bars, strict=False), strokes, under.reporter(faults), unsure)

@@ -3,6 +3,9 @@
 Judged by the moments at which strokes sound, grace strokes included, at the tempo given. A limb's speed is bounded by
 spans: so many strokes of one limb need at least so long. Two hands that share a passage in any way can play at most
 2n − 1 strokes in less than the time that one hand needs for n.
+
+What is too fast is asked at slower speeds, too: the fastest that will do is told, as a share of the speed given. Grace
+strokes keep their milliseconds at every speed, so the share is no mere quotient; bisection finds it.
 """
 
 from collections.abc import Mapping, Sequence
@@ -14,14 +17,8 @@ from numpy.typing import NDArray
 
 from station.core.labels import limb_name
 from station.core.pieces import HALF_OPEN, HAND_PIECES, Articulation, Limb, Ornament, Piece, word
+from station.motion.feasibility.limb_speeds import SPANS_S
 from station.music.score import Score
-
-HAND_SPANS_S: Mapping[int, float] = {2: 0.045, 3: 0.13, 4: 0.20, 9: 0.62}
-"""Strokes of one hand -> the least time from first to last. The second bounce of a double comes after 50–90 ms, a
-champion's single strokes at 10 Hz (HUMANS, Heights); fast double rolls keep each hand at 12.5 Hz. Our choice within."""
-FOOT_SPANS_S: Mapping[int, float] = {2: 0.07, 9: 0.72}
-"""The same for a foot: champions reach 11 Hz (HUMANS, Heights); the doubles of the Groove MIDI Dataset's drummers come
-down to 75 ms, and what is closer there looks like a bouncing beater. Our choice."""
 
 MAX_HANDS = 2
 _HANDS_STRIKE = np.array(sorted(HAND_PIECES), np.uint8)
@@ -29,10 +26,17 @@ _HANDS_STRIKE = np.array(sorted(HAND_PIECES), np.uint8)
 
 @dataclass(frozen=True, slots=True)
 class Impossible:
-    """Row `note` of the score cannot be played; `text` says why."""
+    """Row `note` of the score cannot be played; `text` says why.
+
+    `too_fast_for` is who would have to be quicker than people are, such as "the right hand", and `playable_at` the
+    largest share of the score's speed at which they could play all that is theirs, below 1. Both are left out where
+    no speed mends it.
+    """
 
     note: int
     text: str
+    too_fast_for: str = ""
+    playable_at: float | None = None
 
 
 def impossible(score: Score) -> list[Impossible]:
@@ -41,6 +45,33 @@ def impossible(score: Score) -> list[Impossible]:
     named = {i.note for i in found}
     found += [i for i in _too_fast(score) if i.note not in named]
     return sorted(found, key=lambda i: i.note)
+
+
+def unplayable_rows(score: Score) -> NDArray[np.int64]:
+    """The rows to leave out so that nothing impossible is left; of strokes that come too soon, the later ones."""
+    left_out = {i.note for i in (*_crowded_moments(score), *_open_and_shut(score))}
+    for crew in reversed(_crews(score)):  # each limb first: what it leaves out spares both hands together
+        rows = np.flatnonzero(crew.rows)
+        rows = rows[np.argsort(score.onset_ns[rows], kind="stable")]
+        rows = rows[~np.isin(rows, sorted(left_out))]
+        left_out |= set(rows[_too_soon(score.onset_s[rows], crew.spans_s)].tolist())
+    return np.array(sorted(left_out), np.int64)
+
+
+def _too_soon(times_s: NDArray[np.float64], spans_s: Mapping[int, float]) -> NDArray[np.bool_]:
+    """Which strokes (n,), in order of time, come too soon after those that are left before them."""
+    kept: list[float] = []
+    is_late = np.zeros(len(times_s), np.bool_)
+    for i, time_s in enumerate(times_s.tolist()):
+        is_late[i] = any(
+            len(kept) >= strokes - 1
+            and time_s - kept[1 - strokes] < least_s - _GRAIN_S
+            and not (strokes == 2 and time_s == kept[-1])
+            for strokes, least_s in spans_s.items()
+        )
+        if not is_late[i]:
+            kept.append(time_s)
+    return is_late
 
 
 def _is_hand(notes: NDArray[np.void]) -> NDArray[np.bool_]:
@@ -87,36 +118,82 @@ def _open_and_shut(score: Score) -> list[Impossible]:
 
 def _too_fast(score: Score) -> list[Impossible]:
     """The first place of each limb, or of both hands together, that is faster than people are."""
-    notes, onset = score.notes, score.onset_s
-    hands = _is_hand(notes)
-    both_hands = {2 * n - 1: span for n, span in HAND_SPANS_S.items()}
-    crews = [
-        ("the hands need", hands, both_hands),
+    return [found for crew in _crews(score) if (found := _first_too_fast(crew, score))]
+
+
+@dataclass(frozen=True, slots=True)
+class _Crew:
+    """Whose strokes share a speed limit: a `name` and its `verb`, `rows` of the score (n,), spans in seconds."""
+
+    name: str
+    verb: str
+    rows: NDArray[np.bool_]
+    spans_s: Mapping[int, float]
+
+
+def _crews(score: Score) -> list[_Crew]:
+    """Both hands together, then each limb."""
+    together = {2 * n - 1: span for n, span in SPANS_S[Limb.RIGHT_HAND].items()}
+    return [
+        _Crew("the hands", "need", _is_hand(score.notes), together),
         *(
-            (f"the {word(limb).replace('_', ' ')} needs", notes["limb"] == limb, spans)
-            for limb, spans in (
-                (Limb.RIGHT_HAND, HAND_SPANS_S),
-                (Limb.LEFT_HAND, HAND_SPANS_S),
-                (Limb.RIGHT_FOOT, FOOT_SPANS_S),
-                (Limb.LEFT_FOOT, FOOT_SPANS_S),
-            )
+            _Crew(f"the {limb_name(limb)}", "needs", score.notes["limb"] == limb, spans)
+            for limb, spans in SPANS_S.items()
         ),
     ]
-    found = [_first_too_fast(name, np.flatnonzero(rows), onset, spans) for name, rows, spans in crews]
-    return [f for f in found if f]
 
 
-def _first_too_fast(
-    limb: str, rows: NDArray[np.int64], onset_s: NDArray[np.float64], spans: Mapping[int, float]
-) -> Impossible | None:
-    rows = rows[np.argsort(onset_s[rows], kind="stable")]
-    times = onset_s[rows]
-    for strokes, least_s in spans.items():
-        lasts = times[strokes - 1 :] - times[: 1 - strokes]
+def _first_too_fast(crew: _Crew, score: Score) -> Impossible | None:
+    rows = np.flatnonzero(crew.rows)
+    beat_s = score.tempo_map.seconds_at(score.notes["tick"][rows])
+    lead_s = score.notes["lead_ms"][rows].astype(np.float64) / 1000
+    order = np.argsort(beat_s - lead_s, kind="stable")
+    short = _first_short(np.asarray(beat_s - lead_s)[order], crew.spans_s)
+    if short is None:
+        return None
+    last, strokes, lasts_s, least_s = short
+    fastest = _playable_share(beat_s, lead_s, crew.spans_s)
+    anyway = "" if fastest else " at any tempo"
+    needs = f"{crew.name} {crew.verb} {strokes} strokes in {1000 * lasts_s:.0f} ms"
+    text = f"{needs}; people need {1000 * least_s:.0f}{anyway}"
+    return Impossible(int(rows[order[last]]), text, crew.name if fastest else "", fastest)
+
+
+def _first_short(times_s: NDArray[np.float64], spans_s: Mapping[int, float]) -> tuple[int, int, float, float] | None:
+    """The last of the first strokes that lie too close, how many they are, how long they last and should last."""
+    for strokes, least_s in spans_s.items():
+        lasts = times_s[strokes - 1 :] - times_s[: 1 - strokes]
         at_once = lasts == 0 if strokes == 2 else np.zeros(len(lasts), np.bool_)
-        short = np.flatnonzero((lasts < least_s) & ~at_once)  # two at once are named by `_crowded_moments`
+        short = np.flatnonzero((lasts < least_s - _GRAIN_S) & ~at_once)  # two at once are named by `_crowded_moments`
         if len(short):
             at = int(short[0])
-            text = f"too fast: {limb} {strokes} strokes in {1000 * lasts[at]:.0f} ms; people need {1000 * least_s:.0f}"
-            return Impossible(int(rows[at + strokes - 1]), text)
+            return at + strokes - 1, strokes, float(lasts[at]), least_s
     return None
+
+
+_GRAIN_S = 1e-8
+"""Some nanoseconds, the grain of the music's times: a span that is kept exactly is kept."""
+_HALVINGS = 40
+"""So the share is known to a millionth of a millionth; it costs some milliseconds, and only where there is a fault."""
+_SLOWEST = 0.001
+"""The least share that is looked at: nobody slows music down so far (our choice)."""
+
+
+def _playable_share(
+    beat_s: NDArray[np.float64], lead_s: NDArray[np.float64], spans_s: Mapping[int, float]
+) -> float | None:
+    """The largest share of the speed at which strokes `beat_s` (n,), each `lead_s` early, keep every span.
+
+    None where none does: two grace strokes of one hand are as near to each other at any speed.
+    """
+
+    def fits(share: float) -> bool:
+        return _first_short(np.sort(beat_s / share - lead_s), spans_s) is None
+
+    slow, fast = _SLOWEST, 1.0
+    if not fits(slow):
+        return None
+    for _ in range(_HALVINGS):
+        middle = (slow + fast) / 2
+        slow, fast = (middle, fast) if fits(middle) else (slow, middle)
+    return slow

@@ -105,7 +105,8 @@ name = "B"
 meter = "4/4"
 like = "A"
 times = 1
-snare = "---- w--- -z-- u---"
+at = []
+snare = "---- O--u -v-- z---"
 [grid.dynamics]
 accent = 120
 [grid.graces]
@@ -151,18 +152,18 @@ FAULTS = (
     Planted('author = "A teacher"', 'author = "A teacher▶', "closing quote"),
     # form, prerequisites
     Planted('"odd", "B"', '"odd", ▶"b"', "B"),
-    Planted('"odd", "B", "out"]', '"odd", "out"]', "form"),
+    Planted('ride = "xxx|x-x"', 'ride = "xxx|x-x"\n[[grid]]\nname = ▶"coda"\nsnare = "o"', "expected coda in form"),
     Planted('form = ["intro", "A", "A", "odd", "B", "out"]', "form = ▶[]", '["A", "A", "B"]'),
     Planted('"rock-1", "single-paradiddle"', '"rock-1", ▶"rock-1"', "rock-1"),
     Planted('"rock-1", "single-paradiddle"', '"rock-1", ▶"rich"', "itself"),
     # dynamics, graces, landing, hints
     Planted("normal = 80\naccent", "normal = ▶128\naccent", "from 1 to 127"),
-    Planted("kick = {normal = 90}", "kick = ▶{normal = 20}", "rising"),
+    Planted("kick = {normal = 90}", "kick = {normal = ▶20}", "rising"),
     Planted("flam_ms = 25", "flam_ms = ▶5", "from 10 to 80"),
     Planted("drag_ms = 50", "drag_ms = ▶200", "from 20 to 120"),
     Planted("share = 0.5", "share = ▶2", "from 0.1 to 1"),
     Planted("flam_ms = 25", "▶flam = 25", "did you mean flam_ms"),
-    Planted('crash = "X"', 'crash = ▶"XX"', "one letter"),
+    Planted('crash = "X"', 'crash = "▶XX"', "one letter"),
     Planted('crash = "X"', 'crash = "▶q"', "no letter for a crash"),
     Planted('crash = "X"', '▶crahs = "X"', "did you mean crash"),
     Planted("weak_left =", "▶weak_lefft =", "did you mean weak_left"),
@@ -181,13 +182,13 @@ FAULTS = (
     Planted("max_tempo_error_pct = 3", "max_tempo_error_pct = ▶80", "from 0.1 to 50"),
     Planted("[[goals.bars]]\nbars = [3, 4]", "▶[[goals.bars]]", "bars is missing"),
     # grids
-    Planted('name = "B"', 'name = ▶"A"', "another name"),
+    Planted("ending = 1\n", 'name = ▶"A"\nending = 1\n', "another name"),
     Planted('like = "A"', 'like = ▶"C"', "no such grid"),
     Planted('like = "A"', 'like = ▶"out"', "above"),
     Planted("times = 1\n", "times = ▶0\n", "from 1 to 100"),
     Planted("ending = 2", "ending = ▶1", "one at most"),
     Planted("ending = 2", "ending = ▶[2, 3]", "2 times"),
-    Planted('name = "intro"', 'name = "intro"\nending = ▶1', "before"),
+    Planted('[[grid]]\nname = "intro"', '[[grid]]\nending = ▶1\nsnare = "o"\n[[grid]]\nname = "intro"', "before"),
     Planted("tempo_to_bpm = 60", "tempo_to_bpm = ▶5", "from 10 to 1000"),
     Planted("bars = 3\n", "bars = ▶0\n", "from 1 to 2000"),
     Planted('bar = 1, say = "Ghosts low"', 'bar = ▶2, say = "Ghosts low"', "1 bar"),
@@ -199,11 +200,11 @@ FAULTS = (
     Planted("bar = 3, beat = 2", "bar = 3, beat = ▶5", "4 beats"),
     Planted('"3+2+2/8", "4/4"', '▶"3+2+2/7", "4/4"', "6/8"),
     # lines
-    Planted("o-o- o-o- o-o- oooo", "▶o-o- o-o- o-o- ooo", "15 cells do not fill a 4/4 bar"),
+    Planted("o-o- o-o- o-o- oooo", "o-o- o-o- o-o- ▶ooo", "15 cells do not fill a 4/4 bar"),
     Planted("x-x- x-x- x-x- x-x-", "x-x- x-x- x-▶q- x-x-", "no letter for a hihat"),
     Planted("o--- ---- o-o- ----", "▶v--- ---- o-o- ----", "no letter for a kick"),
     Planted("R-R- B-RL RLR- B-R-", "R-R- ▶Q-RL RLR- B-R-", "R, L, B"),
-    Planted("xxx (xxx) xx", "x▶(xxx) xx xx", "group"),
+    Planted("xxx (xxx) xx", "▶x(xxx) xx xx", "group"),
     Planted("(ooo) f---", f"▶({'o' * 65}) f---", "1 to 64"),
     Planted('kick = "o-o-|%2"', 'kick = "▶%|o-o-|%"', "repeats the bar before it"),
     Planted("left_foot.hihat_pedal", "▶left_foot.hihat_peddal", "did you mean hihat_pedal"),
@@ -215,6 +216,8 @@ FAULTS = (
     Planted("xxx|x-x", "▶xx|x-x", "3/4"),
     Planted('meter = "3/4"\nride', 'meter = ▶"0/4"\nride', "1 to 32 beats"),
     Planted('ride = "xxx|x-x"', '▶rdie = "xxx|x-x"', "did you mean ride"),
+    Planted('hihat = "x-x- x-x- x-x- x-x-"', '▶hiahat = "x-x- x-x- x-x- x-x-"', "did you mean hihat"),
+    Planted('meter = "4/4"\nbeat = "1/4"', 'meter = ▶"4/5"\nbeat = "1/4"', "1/32"),
     # what nobody can play
     Planted('kick = "o--- ---- o-o- ----"', 'tom_1 = "---- ▶o--- ---- ----"', "hands"),
 )

@@ -182,3 +182,28 @@ def test_both_hands_may_strike_one_drum() -> None:
 
 def test_eighths_are_half_a_quarter() -> None:
     assert 2 * EIGHTH == QUARTER
+
+
+def test_soft_flams_drags_and_diddles_are_as_soft_as_ghosts() -> None:
+    """Grace strokes at 0.4 of 32: 12.8."""
+    found = notes('snare = "vwu-"\nsticking = "RLR-"')
+    assert [(n.ornament, n.lead_ms, n.velocity) for n in found] == [
+        *((Ornament.FLAM, 30, 13), (Ornament.FLAM, 0, GHOST)),
+        *((Ornament.DRAG, 110, 13), (Ornament.DRAG, 55, 13), (Ornament.DRAG, 0, GHOST)),
+        *((Ornament.DIDDLE, 0, GHOST), (Ornament.DIDDLE, 0, GHOST)),
+    ]
+    assert {n.dynamic for n in found} == {Dynamic.GHOST}
+
+
+def test_a_soft_buzz_goes_on_as_any_buzz() -> None:
+    (note,) = notes('tom_1 = "z~--"')
+    assert (note.articulation, note.velocity, note.duration_ticks) == (Articulation.BUZZ, GHOST, 2 * QUARTER)
+
+
+def test_soft_diddles_that_touch_are_a_soft_roll() -> None:
+    assert [(n.ornament, n.velocity) for n in notes('snare = "uuu- ----"')] == [(Ornament.ROLL, GHOST)] * 6
+
+
+def test_a_diddle_shares_a_cell_that_divides_no_beat_exactly() -> None:
+    """The second of nine cells reaches from round(11946.67) to round(23893.33); its middle is half of 11946 later."""
+    assert [n.tick for n in notes('snare = "(-t-------) ---"', "tempo_bpm = 20")] == [11947, 11947 + 5973]

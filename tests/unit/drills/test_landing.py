@@ -49,6 +49,7 @@ def test_a_flam_lands_with_its_grace_stroke() -> None:
         ({"snare": "q"}, ("landing", "snare"), "'q' is no letter for a snare line"),
         ({"snare": "o", "sticking": "RL"}, ("landing", "sticking"), "expected one letter: R, L or B"),
         ({"snare": "o", "sticking": "B"}, ("landing", "sticking"), "B says both hands, but one strikes here"),
+        ({"snair": "o", "ride": "x", "sticking": "B"}, ("landing", "snair"), "no such line: snair"),
         ({"snair": "o"}, ("landing", "snair"), "no such line: snair; did you mean snare?"),
         ({"left_foot": {"snare": "o"}}, ("landing", "left_foot", "snare"), "a foot plays no snare"),
         ({}, ("landing",), 'nothing to land on; expected a line such as crash = "X"'),

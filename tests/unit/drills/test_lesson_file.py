@@ -126,7 +126,7 @@ GRID = '\n[grid]\nsnare = "oooo"\n'
         ('title = "T"\n[goals.faults]\nlate_kik = 9' + GRID, 3, 1, "no such fault: late_kik; did you mean late_kick?"),
         ('title = "T"\n[goals.faults]\nlate_kick = "no"' + GRID, 3, 13, 'expected a size, or "mute", found "no"'),
         ('title = "T"\ngoals = 3' + GRID, 2, 9, "goals: expected a table, found 3"),
-        ('title = "T"\n[dynamics]\nghost = 90' + GRID, 2, 1, "expected rising velocities"),
+        ('title = "T"\n[dynamics]\nghost = 90' + GRID, 3, 9, "expected rising velocities"),
         ('title = "T"\n[dynamics]\naccent = 128' + GRID, 3, 10, "expected a whole number from 1 to 127"),
         ('title = "T"\n[dynamics.snair]\naccent = 12' + GRID, 2, 1, "no such key: snair; did you mean snare?"),
         ('title = "T"\ngrid = 3', 2, 8, "expected a table"),

@@ -126,7 +126,10 @@ SNARE = Note(0, Piece.SNARE)
         ([Note(TRIPLET // 11, Piece.SNARE)], "bar 1: strokes lie between the cells"),
         ([Note(WHOLE, Piece.SNARE, Zone.BELL)], "bar 2: no letter of the grid plays this stroke"),
         ([Note(0, Piece.SNARE, velocity=81)], "bar 1, beat 1, snare: velocity 81 became 80"),
-        ([Note(0, Piece.SNARE, lead_ms=20, ornament=Ornament.FLAM), SNARE], "a grace stroke 20 ms before its note"),
+        (
+            [Note(t, Piece.SNARE, lead_ms=ms, ornament=Ornament.FLAM) for t, ms in ((0, 30), (QUARTER, 20))],
+            "bar 1: a grace stroke 20 ms before its note",
+        ),
         ([Note(0, Piece.SNARE, ornament=Ornament.DIDDLE)], "a diddle of one stroke"),
         ([Note(0, Piece.KICK)], "kick: limb -1 became 2"),
         ([SNARE, Note(0, Piece.TOM_1), Note(0, Piece.TOM_2)], "3 hands needed at once"),
@@ -156,6 +159,32 @@ def test_note_lengths() -> None:
 
 def test_quotes() -> None:
     assert quoted('a"b\\c\n\x07') == '"a\\"b\\\\c\\n\\u0007"'
+
+
+def test_other_graces_than_the_usual_are_written_for_the_whole_lesson() -> None:
+    head = "tempo_bpm = 60\n[graces]\nflam_ms = 22.2\ndrag_ms = 40\nshare = 0.75"
+    text = write_lesson(read('snare = "fdFD"', head))
+    assert "[graces]\nflam_ms = 22.2\ndrag_ms = 40\nshare = 0.75\n" in text
+
+
+def test_groups_of_a_meter_are_set_apart_and_counted() -> None:
+    head = 'tempo_bpm = 60\nmeter = "3+2+2/8"'
+    assert grid_of('hihat = "xxxxxxx"\nsnare = "---o-o-"', head) == [
+        "#          123 12 12",
+        'hihat = "| xxx xx xx |"',
+        'snare = "| --- o- o- |"',
+    ]
+    assert grid_of('snare = "ooo (ooooo) oo"', head)[-1] == 'snare = "| ooo (ooooo) oo |"'
+
+
+@pytest.mark.parametrize("cells", [9, 10, 11, 13, 14, 18])
+def test_any_tuplet_that_drummers_count_is_written(cells: int) -> None:
+    grid = f"| oooo ({'o' * cells}) oo-- o--- |"
+    assert grid_of(f'snare = "{grid}"')[-1] == f'snare = "{grid}"'
+
+
+def test_soft_letters_go_back_to_themselves() -> None:
+    assert grid_of('snare = "| vwu- -z~~ ---- ---- |"')[-1] == 'snare = "| vwu- -z~~ ---- ---- |"'
 
 
 def test_a_buzz_by_a_named_hand() -> None:

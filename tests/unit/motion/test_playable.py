@@ -74,7 +74,7 @@ def test_two_hands_that_nobody_named(tempo: int, playable: bool) -> None:
 def test_the_target_tempo_counts() -> None:
     head = "tempo_bpm = 90\n[goals]\ntarget_tempo_bpm = 260"
     found = faults(text_of('kick = "oooo oooo oooo oooo"', head))
-    assert any("too fast: the right foot" in f.text for f in found)
+    assert any("too fast at the goal of 260: the right foot" in f.text for f in found)
 
 
 def test_the_step_from_the_end_of_the_loop_to_its_start_counts() -> None:

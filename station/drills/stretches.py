@@ -1,0 +1,151 @@
+"""A lesson as it is played: its grids in the order of the form, each repetition a stretch of ticks and bars.
+
+What depends on where a grid is played is worked out here: ticks and bars, sections, meters, tempi, cues. A *turn* is
+one entry of the form: all repetitions of a grid, with the endings between them.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain, groupby
+
+from station.core.toml_faults import wrong
+from station.drills.bar_cues import GridCue
+from station.drills.form import WrittenGrid, repetitions
+from station.drills.grid.cell_strokes import WrittenCell
+from station.drills.grid.grid_reader import GridSection
+from station.drills.grid.voice import MAX_BARS
+from station.drills.lesson import BarCue, Section
+from station.drills.tempo_marks import STEPS_A_BEAT, Ramp, TempoMark, marked_tempos
+from station.music.tempo import MeterChange, TempoChange
+
+MAX_STROKES = 20_000
+"""Half an hour at ten strokes a second; a session with more takes longer to prepare than anyone waits (our choice)."""
+MAX_STEPS = 20_000
+"""Steps of all ramps, 5000 beats: more than the longest lesson in quarters needs in half an hour (our choice)."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadGrid:
+    """One grid: as it is `written`, the `section` that was read of it, and what happens at its bars."""
+
+    written: WrittenGrid
+    section: GridSection
+    cues: Sequence[GridCue] = ()
+
+    @property
+    def has_own_tempo(self) -> bool:
+        """Whether it says a tempo: an ending that does not goes on with that of its grid."""
+        raw = self.written.raw
+        return isinstance(raw, dict) and not raw.keys().isdisjoint(("tempo_bpm", "tempo_to_bpm"))
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """One repetition (from 0) of a grid in the given `turn`: where it begins, and the name that its section has."""
+
+    grid: ReadGrid
+    repetition: int
+    turn: int
+    start_tick: int
+    first_bar: int
+    name: str
+
+    @property
+    def end_tick(self) -> int:
+        """Where the next one begins."""
+        return self.start_tick + self.grid.section.length_ticks
+
+    @property
+    def last_bar(self) -> int:
+        """Its last bar, from 0."""
+        return self.first_bar + self.grid.section.bar_count - 1
+
+    @property
+    def strokes(self) -> list[WrittenCell]:
+        """What is struck in it."""
+        return self.grid.section.repetition(self.repetition, self.start_tick)
+
+
+def check_size(bars: int, strokes: int, grid: WrittenGrid) -> None:
+    """Raise `Wrong` at the grid where a lesson has more bars or strokes up to here than anyone practises."""
+    if bars > MAX_BARS:
+        raise wrong(f"{bars} bars up to here; a lesson has at most {MAX_BARS}", *grid.path)
+    if strokes > MAX_STROKES:
+        raise wrong(f"{strokes} strokes up to here; a lesson has at most {MAX_STROKES}", *grid.path)
+
+
+def laid_out(order: Sequence[int], grids: Sequence[ReadGrid]) -> list[Stretch]:
+    """All that is played, turn by turn; raises `Wrong` where it is more than anyone practises."""
+    stretches: list[Stretch] = []
+    tick = bars = strokes = 0
+    for turn, main in enumerate(order):
+        name = grids[main].written.name
+        for index, repetition in repetitions(main, [g.written for g in grids], [g.section.times for g in grids]):
+            grid = grids[index]
+            called = name if index == main else grid.written.name or (name and f"{name} ending")
+            stretches.append(Stretch(grid, repetition, turn, tick, bars, called))
+            tick, bars = stretches[-1].end_tick, bars + grid.section.bar_count
+            strokes += len(grid.section.parts[repetition])
+            check_size(bars, strokes, grid.written)
+    return stretches
+
+
+def sections_of(stretches: Sequence[Stretch]) -> tuple[Section, ...]:
+    """The sections that the report speaks of: repetitions of a grid that follow each other in a turn are one."""
+    runs = [list(run) for _, run in groupby(stretches, lambda s: (s.turn, id(s.grid)))]
+    return tuple(
+        Section(run[0].name, run[0].first_bar, run[-1].last_bar, run[0].grid.section.timing.swing) for run in runs
+    )
+
+
+def cues_of(stretches: Sequence[Stretch]) -> tuple[BarCue, ...]:
+    """The words, cameras and styles of all bars, in their order."""
+    return tuple(
+        cue.at_bar(stretch.first_bar)
+        for stretch in stretches
+        for cue in stretch.grid.cues
+        if cue.is_in(stretch.repetition) and (cue.say or cue.camera or cue.style)
+    )
+
+
+def meters_of(stretches: Sequence[Stretch]) -> list[MeterChange]:
+    """The meter of every bar."""
+    return list(chain.from_iterable(s.grid.section.bars_at(s.start_tick) for s in stretches))
+
+
+def tempos_of(stretches: Sequence[Stretch]) -> list[TempoChange]:
+    """Every change of tempo; raises `Wrong` where ramps have more steps than anyone hears."""
+    tempos: list[TempoChange] = []
+    for _, turn in groupby(stretches, lambda s: s.turn):
+        for each in _turn_tempos(list(turn)):
+            tempos += each
+            if len(tempos) > MAX_STEPS:
+                text = f"the tempo changes {len(tempos)} times up to here, {STEPS_A_BEAT} times a beat"
+                raise wrong(f"{text}; a lesson has at most {MAX_STEPS} changes", *turn_path(stretches, tempos[-1].tick))
+    return tempos
+
+
+def turn_path(stretches: Sequence[Stretch], tick: int) -> tuple[str | int, ...]:
+    """The path of the grid that is played at `tick`."""
+    return next(s for s in reversed(stretches) if s.start_tick <= tick).grid.written.path
+
+
+def _turn_tempos(turn: Sequence[Stretch]) -> Iterator[list[TempoChange]]:
+    """The tempo over each stretch of a turn: one line over all of them, but for endings with a tempo of their own."""
+    main = turn[0]
+    whole = _ramp(main, turn[-1].end_tick)
+    for stretch in turn:
+        is_own = stretch.grid is not main.grid and stretch.grid.has_own_tempo
+        ramp, owner = (_ramp(stretch, stretch.end_tick), stretch) if is_own else (whole, main)
+        marks = [
+            TempoMark(stretch.start_tick + cue.tempo.tick, cue.tempo.tempo_bpm, cue.tempo.tempo_to_bpm)
+            for cue in stretch.grid.cues
+            if cue.tempo and cue.is_in(stretch.repetition)
+        ]
+        beat_ticks = owner.grid.section.timing.beat_ticks
+        yield list(marked_tempos(ramp, marks, stretch.start_tick, stretch.end_tick, beat_ticks))
+
+
+def _ramp(stretch: Stretch, end: int) -> Ramp:
+    timing = stretch.grid.section.timing
+    return Ramp(stretch.start_tick, end, timing.tempo_bpm, timing.tempo_to_bpm or timing.tempo_bpm)
