@@ -3,6 +3,7 @@
 Places are eighths or sixteenths of the bar, counted from 0; swung offbeats count as the eighth that they are.
 """
 
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -10,10 +11,14 @@ import pytest
 
 from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import PPQ
+from station.drills import library
 from station.drills.lesson import Lesson
-from station.drills.library import find_lesson, lesson_names
+from station.drills.library import lesson_names
 from station.motion.feasibility.playable import impossible
 from station.music.score import Note
+
+find_lesson = cache(library.find_lesson)
+"""Each lesson is read once for all tests here; a lesson is immutable."""
 
 BACKBEATS = {2, 6}
 FILLS = {
