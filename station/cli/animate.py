@@ -1,6 +1,7 @@
 """`station animate SCORE --out FILE`: the drummer who plays a score, as video, pictures or motion for others."""
 
 import re
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 
@@ -10,9 +11,11 @@ from station.cli.animate_motion import WRITERS
 from station.cli.animate_options import ENDINGS, AnimateOptions, check_meant, usual_of_loops
 from station.cli.console import say, say_infeasible
 from station.cli.drummer_options import assigned, drums_of, led_score
+from station.cli.input.read_scores import cues_of_lesson
 from station.cli.options.option_fields import Command
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S
+from station.drills.lesson import BarCue
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import GREATEST_STATURE_M, LEAST_STATURE_M, Figure, figure_of
 from station.motion.motion_plan import MotionPlan
@@ -20,7 +23,7 @@ from station.motion.style.proposal import PROPOSED, propose_style
 from station.motion.style.style import Style
 from station.motion.style.style_file import load_style
 from station.music.score import Score
-from station.scenes.demonstrator import figure_for
+from station.scenes.demonstrator import as_taught, figure_for
 
 MIN_FPS, MAX_FPS = 1.0, 1000.0
 LEAD_S = 1.0
@@ -46,9 +49,9 @@ def run(options: AnimateOptions) -> int:
     if ending in (_FILM, _LOOP):
         _check_even(options.picture.size)
     whole = score = led_score(options.score, options.drums)
+    style, cues = _directed(propose_style(score) if options.style == PROPOSED else load_style(options.style), options)
     if ending == _LOOP:
-        score = _looped(whole, options)
-    style = propose_style(score) if options.style == PROPOSED else load_style(options.style)
+        score, style = _looped(whole, style, options)
     plan = _planned(score, style, options)
     drummer = Drummer(score, plan.kit, plan.figure, style, plan)
     if ending in WRITERS:
@@ -57,10 +60,17 @@ def run(options: AnimateOptions) -> int:
         WRITERS[ending]()(drummer, out, times_s)
         kind = "motion "
     else:
-        kind = _draw(drummer, whole, options)
+        kind = _draw(drummer, whole, cues, options)
     say_infeasible((*drummer.assignment.warnings, *(demand.text for demand in drummer.left_over)))
     say(f"{kind}  {out}")
     return 0
+
+
+def _directed(style: Style, options: AnimateOptions) -> tuple[Style, tuple[BarCue, ...]]:
+    """The style over the bars of a lesson whose teacher changes it, and their cues: unless another one is asked for."""
+    cues = cues_of_lesson(options.score)
+    taught = style if "style" in options.said else as_taught(style, cues)
+    return taught, tuple(replace(cue, camera="") for cue in cues) if "view" in options.said else cues
 
 
 def _planned(score: Score, style: Style, options: AnimateOptions) -> MotionPlan:
@@ -86,8 +96,8 @@ def _made(out: Path) -> str:
     return "numbered pictures"
 
 
-def _looped(score: Score, options: AnimateOptions) -> Score:
-    """The bars that a GIF shows, as they are played over and over."""
+def _looped(score: Score, style: Style, options: AnimateOptions) -> tuple[Score, Style]:
+    """The bars that a GIF shows, as they are played over and over, and the style over them."""
     from station.scenes.film import FilmLoop
 
     _check_fps(options)
@@ -96,25 +106,26 @@ def _looped(score: Score, options: AnimateOptions) -> Score:
     if end_s - start_s > MOST_LOOP_S:
         fault = f"a GIF lasts {MOST_LOOP_S:g} s at most, these bars {end_s - start_s:.0f} s: choose some of them"
         raise BadInput("--start-bar, --end-bar", "", f"{fault}, or make an .mp4")
-    return FilmLoop.score(score, *_bars(score, options))
+    bars = _bars(score, options)
+    return FilmLoop.score(score, *bars), FilmLoop.style(style, *bars)
 
 
-def _draw(drummer: Drummer, whole: Score, options: AnimateOptions) -> str:
+def _draw(drummer: Drummer, whole: Score, cues: tuple[BarCue, ...], options: AnimateOptions) -> str:
     """Draw what the name asks for; returns what it is, for people."""
     from station.cli import animate_pictures as pictures
 
     made = _made(options.out)
     if made == "a picture":
-        pictures.draw_picture(drummer, _moment_s(drummer.score, options), options)
+        pictures.draw_picture(drummer, _moment_s(drummer.score, options), cues, options)
         return "picture"
     if made == "a GIF":
-        pictures.draw_loop(drummer, whole, _bars(whole, options)[0], options)
+        pictures.draw_loop(drummer, whole, _bars(whole, options)[0], cues, options)
         return "loop   "
     stretch = _stretch(drummer.score, options, RING_S)
     if made == "numbered pictures":
-        pictures.draw_sequence(drummer, stretch, options)
+        pictures.draw_sequence(drummer, stretch, cues, options)
         return "pictures"
-    pictures.draw_film(drummer, stretch, options)
+    pictures.draw_film(drummer, stretch, cues, options)
     return "video  "
 
 

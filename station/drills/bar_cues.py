@@ -6,6 +6,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
+from station.core.expected import TEXT, expects
 from station.core.named_view import NamedView
 from station.core.pieces import word
 from station.core.schema import Field, Fields, checked_values, list_of, number, one_of, optional, title, whole
@@ -62,6 +63,7 @@ class GridShape:
         return len(self.meters)
 
 
+@expects(TEXT)
 def _style(value: object) -> str:
     return one_of(style_names(), "style")(value)
 

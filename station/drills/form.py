@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
+from station.core.expected import either_of, expected_by, expects, list_like
 from station.core.schema import Field as SchemaField
 from station.core.schema import anything, list_of, no_such, optional, title, whole
 from station.core.toml_faults import Faults, Noted, wrong
@@ -22,6 +23,7 @@ MAX_FORM = 1000
 """Entries of a form: more than one for every other bar of the longest lesson (our choice)."""
 
 
+@expects(either_of(expected_by(whole(1, MAX_TIMES)), list_like(expected_by(whole(1, MAX_TIMES)), 1)))
 def _ending(value: object) -> tuple[int, ...]:
     """The repetitions, from 0, that an ending belongs to."""
     read = whole(1, MAX_TIMES)

@@ -7,11 +7,11 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
+from station.core.expected import LINE, either_of, expected_by, expects, later, list_like
 from station.core.pieces import Limb
 from station.core.schema import (
     Field,
     Fields,
-    anything,
     checked_values,
     choice,
     key_of,
@@ -21,12 +21,17 @@ from station.core.schema import (
     prose,
     row_of,
     said,
+    table_like,
     table_of,
     title,
     whole,
 )
 from station.core.toml_faults import Faults, wrong
 from station.core.units import PPQ
+from station.drills.bar_cues import AT
+from station.drills.form import FORM_FIELDS
+from station.drills.grid.grid_lines import LINES
+from station.drills.grid.grid_reader import GRID
 from station.drills.grid.grid_timing import TIMING, GridTiming
 from station.drills.grid.swing import MAX_RATIO
 from station.drills.grid.tab_symbols import LIMB_TABLES
@@ -44,6 +49,7 @@ DEFAULT_TIMING = GridTiming(80.0, (MeterChange(0, 4, 4),), PPQ)
 """Where a file says no tempo: a slow walk, our choice."""
 
 
+@expects(LINE)
 def _word(value: object) -> str:
     word = prose(value)
     if not word:
@@ -51,6 +57,7 @@ def _word(value: object) -> str:
     return word
 
 
+@expects(LINE)
 def _advice(value: object) -> str:
     advice = prose(value)
     if not advice:
@@ -58,6 +65,7 @@ def _advice(value: object) -> str:
     return advice
 
 
+@expects({"type": "object", "propertyNames": {"enum": sorted(FAULT_WORDS)}, "additionalProperties": LINE})
 def _hints(raw: object) -> Mapping[str, str]:
     words = {word: word for word in sorted(FAULT_WORDS)}
     return MappingProxyType(table_of(key_of(words, "fault"), _advice)(raw))
@@ -69,6 +77,7 @@ _SMALLEST_FAULT, _LARGEST_FAULT = 0.1, 1000.0
 """Bounds of the sizes of faults, in whatever unit: nobody hears less, and nobody plays so far off (our choice)."""
 
 
+@expects(either_of({"const": MUTE}, expected_by(number(_SMALLEST_FAULT, _LARGEST_FAULT))))
 def _fault_size(value: object) -> float | None:
     """From which size a fault counts; None for `MUTE`."""
     if isinstance(value, str) and value != MUTE:
@@ -79,6 +88,7 @@ def _fault_size(value: object) -> float | None:
 _FAULT_SIZES: Fields = {word: optional(_fault_size) for word in sorted(FAULT_WORDS)}
 
 
+@expects(table_like(_FAULT_SIZES))
 def _asked(raw: object) -> Asked:
     return Asked(MappingProxyType(said(_FAULT_SIZES, "fault")(raw)))
 
@@ -106,10 +116,12 @@ def _part(values: dict[str, Any], faults: Faults) -> PartGoals:
     return PartGoals(**values)
 
 
+@expects(table_like(_PART))
 def _limb_goals(raw: object) -> PartGoals:
     return _part(*checked_values(raw, _PART))
 
 
+@expects(table_like(_BAR_PART))
 def _bar_goals(raw: object) -> BarGoals:
     values, faults = checked_values(raw, _BAR_PART)
     bars = values.pop("bars")
@@ -134,6 +146,7 @@ GOALS: Fields = {
 """The schema of `[goals]`; tempi as written, in the lesson's own beat."""
 
 
+@expects(table_like(GOALS))
 def _goals(raw: object) -> Goals:
     values, faults = checked_values(raw, GOALS)
     level, strictest = values["level"], values["strictest_level"]
@@ -146,6 +159,14 @@ def _goals(raw: object) -> Goals:
     return Goals(**values, limbs=MappingProxyType(limbs))
 
 
+# --- what is read when more is known, though editors are told of it already -------------------------------------------
+
+_LOOP = later(expected_by(row_of([whole(1, MAX_BARS)] * 2, "")))
+_FORM = later(either_of(LINE, list_like(LINE, 1)))
+_LANDING = later(table_like(LINES))
+_ONE_GRID = table_like({**GRID, **FORM_FIELDS, "at": optional(later(list_like(table_like(AT))))})
+_GRIDS = later(either_of(_ONE_GRID, list_like(_ONE_GRID, 1)))
+
 # --- the whole --------------------------------------------------------------------------------------------------------
 
 FIELDS: Fields = {
@@ -157,15 +178,15 @@ FIELDS: Fields = {
     "prerequisites": Field(list_of(_word, 'a list of lessons, such as ["rock-1", "rock-2"]'), ()),
     "kit": Field(prose, ""),
     **TIMING,
-    "loop": optional(anything),  # read when the bars are known
+    "loop": optional(_LOOP),  # read when the bars are known
     "passes": Field(whole(1, MAX_PASSES), DEFAULT_PASSES),
     "count_in_bars": Field(whole(0, MAX_COUNT_IN_BARS), 1),
     "demonstrations": Field(whole(0, MAX_DEMONSTRATIONS), DEFAULT_DEMONSTRATIONS),
-    "form": optional(anything),  # read when the grids are known
-    "landing": optional(anything),  # read when the grids are known
+    "form": optional(_FORM),  # read when the grids are known
+    "landing": optional(_LANDING),  # read when the grids are known
     "hints": Field(_hints, MappingProxyType({})),
     "goals": Field(_goals, Goals()),
-    "grid": Field(anything, None, "a table [grid] with the lines to play"),
+    "grid": Field(_GRIDS, None, "a table [grid] with the lines to play"),
 }
 """The schema of the top table, in the order in which a message lists its keys."""
 AS_THEY_ARE = (

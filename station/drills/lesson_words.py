@@ -20,7 +20,8 @@ WORDS: Mapping[str, str] = MappingProxyType(
         "about": "what the student should know, in a few sentences",
         "prerequisites": "lessons, by their names, that should be mastered before this one",
         "kit": "the name of a kit file for the drummer; left out, the player's own",
-        "tempo_bpm": "beats a minute (80 if nothing says it); in a grid, from that grid on",
+        "tempo_bpm": "beats a minute (80 if nothing says it)",
+        "grid.tempo_bpm": "beats a minute from this grid on",
         "tempo_to_bpm": "the tempo changes evenly over this grid, all its repetitions together, and would reach this at"
         " its end; the next grid of the file goes on from `tempo_bpm`",
         "meter": 'such as "6/8" ("4/4" if nothing says it); numbers before the slash group the beats, "3+2+2/8"; a list'
@@ -46,6 +47,7 @@ WORDS: Mapping[str, str] = MappingProxyType(
         "flam_ms": "how long before its note a flam's grace stroke sounds (30 if nothing says it)",
         "drag_ms": "how far apart the strokes of a drag are (55 if nothing says it)",
         "share": "the grace strokes' share of their note's velocity (0.4 if nothing says it)",
+        f"dynamics.{LINES}": "velocities of this piece alone",
         # goals
         "goals": "when the lesson is mastered",
         "goals.level": "how strictly a student is judged who begins; left out, what suits the lesson's level",
@@ -57,7 +59,7 @@ WORDS: Mapping[str, str] = MappingProxyType(
         "max_tempo_error_pct": "how far the tempo played may lie from the click's",
         "max_swing_error": "how far the swing may lie from `swing_ratio`",
         "target_tempo_bpm": "the tempo to reach, in the lesson's beats, `tempo_bpm` or more",
-        "min_score": "points of the report",
+        "min_score": "points of a pass, of 100",
         "faults": 'from which size a fault counts, or "mute" where it is never named',
         "goals.right_hand": "what is asked of the right hand besides",
         "goals.left_hand": "what is asked of the left hand besides",

@@ -15,14 +15,14 @@ from types import MappingProxyType
 
 from station.core.errors import BadInput
 from station.core.pieces import HALF_OPEN, Articulation, Dynamic, Limb, Ornament, Piece
-from station.core.units import NS_PER_MS, NS_PER_S, PPQ, ns_from_s
+from station.core.units import NS_PER_MS, PPQ
 from station.drills.grid.cell_strokes import OTHER_HAND
 from station.drills.grid.tab_symbols import FOOT_OF, SYMBOLS, TabFamily, TabSymbol, family_of
 from station.drills.grid.touch import Graces, Velocities
 from station.drills.lesson import Lesson, Section
 from station.drills.lesson_writer import write_lesson
 from station.drills.quantise_time import at_bar_starts, on_cells
-from station.motion.feasibility.playable import FOOT_SPANS_S
+from station.motion.feasibility.playable import MAX_HANDS, unplayable_rows
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 
@@ -31,7 +31,6 @@ GHOST_BELOW, ACCENT_FROM = 50, 100
 BARS_A_SECTION = 4
 SHORTEST_BUZZ_TICKS = PPQ // 4
 """A sixteenth, for a buzz of which the file does not say how long it lasts."""
-MAX_HANDS = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +58,7 @@ def quantise_score(score: Score) -> Quantised:
     moved = on_cells(mains, tempo_map, score.end_tick)
     graces = Counter((n.tick, n.piece) for n in score if n.lead_ms)
     quantised_mains = [_as_symbol(n, graces[old.tick, old.piece]) for old, n in zip(mains, moved, strict=True)]
-    kept = _trimmed(_unhurried(_playable(_single(quantised_mains)), tempo_map), score.end_tick)
+    kept = _trimmed(_unhurried(_playable(_single(quantised_mains)), tempo_map, score.end_tick), score.end_tick)
     velocities = _velocities(kept)
     rows = [row for n in kept for row in _with_graces(n, velocities)]
     shifts = [_shift_ns(a.tick, b.tick, score) for a, b in zip(mains, moved, strict=True)]
@@ -186,18 +185,25 @@ def _alone(note: Note) -> Ornament:
     return Ornament.NONE if Graces().leads_ms(note.ornament) else note.ornament
 
 
-def _unhurried(notes: Sequence[Note], tempo_map: TempoMap) -> list[Note]:
-    """The notes without those that come too soon after another of the same foot: mostly a bouncing beater."""
-    kept: list[Note] = []
-    last_ns: dict[Limb, int] = {}
-    for note in notes:
-        now = int(tempo_map.ns_at(note.tick))
-        if note.piece in FOOT_OF:
-            if now - last_ns.get(note.limb, -NS_PER_S) < ns_from_s(FOOT_SPANS_S[2]):
-                continue
-            last_ns[note.limb] = now
-        kept.append(note)
-    return kept
+def _unhurried(notes: Sequence[Note], tempo_map: TempoMap, end_tick: int) -> list[Note]:
+    """The notes without those that nobody can play, once or again and again."""
+    for times in (1, 2):
+        notes = _possible(notes, tempo_map, end_tick, times)
+    return list(notes)
+
+
+def _possible(notes: Sequence[Note], tempo_map: TempoMap, end_tick: int, times: int) -> list[Note]:
+    """The notes that can be played so many times on end; ornaments lose grace strokes that come too soon."""
+    rows = [(i, row) for i, note in enumerate(notes) for row in _with_graces(note, Velocities())]
+    rows.sort(key=lambda pair: (pair[1].tick, -pair[1].lead_ms, pair[1].piece))
+    score = Score.from_notes([row for _, row in rows], tempo_map, end_tick).repeated(times)
+    kept = dict(enumerate(notes))
+    for index, row in (rows[i % len(rows)] for i in unplayable_rows(score).tolist()):
+        if not row.lead_ms:
+            kept.pop(index, None)
+        elif index in kept:
+            kept[index] = replace(kept[index], ornament=_alone(kept[index]))
+    return list(kept.values())
 
 
 def _trimmed(notes: Sequence[Note], end_tick: int) -> list[Note]:

@@ -51,7 +51,7 @@ class TempoMark:
 def marked_tempos(
     ramp: Ramp, marks: Sequence[TempoMark], start: int, end: int, beat_ticks: int
 ) -> Iterator[TempoChange]:
-    """The tempo over [start, end), a part of `ramp`; `marks` (in order) take its place, each up to the next."""
+    """The tempo over [start, end), a part of `ramp`; `marks`, in order, take its place, each up to the next."""
     since = start
     for i, mark in enumerate(marks):
         yield from ramp.steps(since, mark.tick, beat_ticks)

@@ -64,13 +64,20 @@ class Viewport:
         self._page: tuple[ShownResult, ReportPage, NDArray[np.void]] | None = None
         self.view_settings = view_settings
         self._stage: Stage | None = None
+        self._asked: NamedView | None = None
         self.camera = self._named(None)
         self._seen_from = self.camera
 
-    def follow(self, view_settings: ViewSettings) -> None:
-        """Show the picture so; another named view, or the other side, turns it, and what is so already stays turned."""
+    def follow(self, view_settings: ViewSettings, asked: NamedView | None = None) -> None:
+        """Show the picture so; another named view, or the other side, turns it, and what is so already stays turned.
+
+        A view that the lesson has `asked` for is gone to once, and left where it asks no more; between, users turn it.
+        """
         if view_settings.view is not self.view_settings.view:
             self.camera = named(view_settings.view, self._stage)
+        if asked is not self._asked:
+            self._asked = asked
+            self.camera = named(view_settings.view if asked is None else asked, self._stage)
         self.view_settings = view_settings
         self.camera = replace(self.camera, mirrored=view_settings.mirrored)
 

@@ -89,7 +89,8 @@ class Window:
         self._show()
         self._controller.update(self._clock.now_ns())
         self.state = self._controller.view()
-        self.viewport.follow(self.state.view_settings)
+        snapshot = self.state.snapshot
+        self.viewport.follow(self.state.view_settings, None if snapshot is None else snapshot.view)
         self._wear()
         self.pages.show(self.state, self.welcome is None)
         self.params.fps_idling.enable_idling = not self.state.is_lively

@@ -63,7 +63,7 @@ def hud_lines(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.v
 
 def corners(hud: Hud) -> Hud:
     """What `hud_lines` shows of `hud`, and nothing else."""
-    return replace(hud, count_in=None, cue=TimingCue.NONE, cue_age_s=0.0, message="")
+    return replace(hud, count_in=None, cue=TimingCue.NONE, cue_age_s=0.0, message="", say="")
 
 
 def hud_calls(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
@@ -80,6 +80,9 @@ def scale(height: float) -> float:
     """Pixels a design pixel where the scene is `height` pixels high."""
     return max(height / (_DESIGN_HEIGHT * 0.70), 0.4)
 
+
+_SAID, _SAID_LINES = 36.0, 2
+"""A teacher's words are the largest after the count-in's number: they are read over the drums (our choice)."""
 
 _NAMES = ("Demonstrator", "You")
 
@@ -120,10 +123,11 @@ class _HudPage:
     def calls(self) -> NDArray[np.void]:
         if not self._has_room:
             return self._draw_list.shapes()
+        bottom = self._say() if self._hud.say else self._height
         if self._hud.count_in is not None:
             self._count_in(self._hud.count_in)
         elif self._hud.cue is not TimingCue.NONE:
-            self._cue(_CUES[self._hud.cue])
+            self._cue(_CUES[self._hud.cue], bottom)
         if self._hud.message:
             self._message()
         return self._draw_list.shapes()
@@ -182,7 +186,7 @@ class _HudPage:
         self._draw_list.ellipse(centre, (96 * k, 96 * k), with_opacity(BRAND, 0.9), 0.0, (0.0, 5 * k, 0.0))
         self._draw_list.text(str(number), (centre[0], centre[1] + 47 * k), TypeStyle(132 * k, INK, Face.BOLD, 0.5))
 
-    def _cue(self, look: _CueLook) -> None:
+    def _cue(self, look: _CueLook, bottom: float) -> None:
         left = 1 - (self._hud.cue_age_s - _CUE_HOLD_S) / _CUE_FADE_S
         opacity = float(np.clip(left, 0.0, 1.0))
         if opacity <= 0:
@@ -190,13 +194,31 @@ class _HudPage:
         k, style = self._k, TypeStyle(40 * self._k, with_opacity(look.colour, opacity), Face.BOLD, 0.5)
         text = self._draw_list.width(look.word, style)
         width = text + (2 * 46 if look.way else 52) * k
-        x, y = self._width / 2, self._height - 52 * k
+        x, y = self._width / 2, bottom - 52 * k
         panel = with_opacity(PANEL, opacity)
         self._draw_list.box((x - width / 2, y - 31 * k), (width, 62 * k), panel, None, (31 * k, 0.0, 0.0))
         self._draw_list.text(look.word, (x, y + 14 * k), style)
         if look.way:
             at = (x + look.way * (text / 2 + 20 * k), y)
             self._draw_list.triangle(at, (9 * k, 13 * k), style.colour, 0.0 if look.way > 0 else np.pi)
+
+    def _say(self) -> float:
+        """The teacher's words, large, in `_SAID_LINES` at the most, at the lower edge; returns where they begin."""
+        k, style = self._k, TypeStyle(_SAID * self._k, INK, Face.BOLD, 0.5)
+        room = self._width - 4 * _EDGE * k
+        if len(self._draw_list.broken(self._hud.say, style, room)) > _SAID_LINES:
+            style = replace(style, size=style.size * _SMALLEST)
+        lines = self._draw_list.broken(self._hud.say, style, room)
+        if len(lines) > _SAID_LINES:
+            rest = " ".join(lines[_SAID_LINES - 1 :])
+            lines = [*lines[: _SAID_LINES - 1], self._draw_list.fitted(rest, style, room)]
+        step, width = 1.25 * style.size, max(self._draw_list.width(line, style) for line in lines) + 48 * k
+        height = step * len(lines) + 0.35 * style.size
+        top = self._height - 14 * k - height
+        self._draw_list.box((self._width / 2 - width / 2, top), (width, height), PANEL, None, (12 * k, 0.0, 0.0))
+        for row, line in enumerate(lines):
+            self._draw_list.text(line, (self._width / 2, top + step * (row + 0.93)), style)
+        return top
 
     def _message(self) -> None:
         k = self._k

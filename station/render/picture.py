@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import moderngl
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from station.render.camera import Camera
 from station.render.files.png_file import write_png
+from station.render.framing import named, stage_of
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.gpu.nv12 import Nv12Reader, Planes
 from station.render.painter import Painter
@@ -20,7 +21,10 @@ from station.render.snapshot import Snapshot
 
 @dataclass(frozen=True, slots=True)
 class Shot:
-    """How a snapshot is pictured: `size` (width, height) in pixels, from `camera` (None: over the shoulder)."""
+    """How a snapshot is pictured: `size` (width, height) in pixels, from `camera` (None: over the shoulder).
+
+    A snapshot that asks for a view is seen from there.
+    """
 
     size: tuple[int, int] = (1280, 720)
     quality: Quality = QUALITIES[1]
@@ -86,6 +90,9 @@ class PictureMaker:
 
     def _paint(self, snapshot: Snapshot, camera: Camera | None, with_score: bool) -> None:
         self._target.framebuffer.use()
+        if snapshot.view is not None:
+            mirrored = camera is not None and camera.mirrored
+            camera = replace(named(snapshot.view, stage_of(snapshot)), mirrored=mirrored)
         self._painter.draw(snapshot, self._target.framebuffer, (0, 0, *self.size), camera, with_score)
 
     def release(self) -> None:

@@ -11,6 +11,7 @@ from enum import IntEnum
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.named_view import NamedView
 from station.core.pieces import Limb, Piece
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.pose import Pose
@@ -81,7 +82,7 @@ class Hud:
 
     `phase` in words such as "Demonstration" or "Pass 2 of 4"; `bar` and `beat` from 1, None while nothing runs; `beats`
     a bar; `count_in` the number to show large, None outside a count-in; `right`, `judged` this pass's counts; `message`
-    a sentence for the user; `cue` with `cue_age_s` since it came.
+    a sentence for the user; `cue` with `cue_age_s` since it came; `say` the words of the lesson's teacher.
     """
 
     title: str = ""
@@ -97,6 +98,7 @@ class Hud:
     message: str = ""
     cue: TimingCue = TimingCue.NONE
     cue_age_s: float = 0.0
+    say: str = ""
 
 
 def no_marks(score: Score) -> NDArray[np.void]:
@@ -158,7 +160,8 @@ class Snapshot:
     `position_s` is the score's time at the play line, negative in a count-in. `marks` (n,) of `MARK_DTYPE` belongs to
     the rows of `score`; nobody writes to it after it was put here. `limbs` (n,) of `Limb` shows the sticking, None what
     the score says. `pose` None draws the kit alone. Where there is a `strip`, it stands in place of the score.
-    `double` is the student beside the demonstrator, for those who want to see it.
+    `double` is the student beside the demonstrator, for those who want to see it. `view` is from where the lesson's
+    teacher wants it to be seen, None where they leave it to whoever looks.
     """
 
     score: Score
@@ -174,3 +177,4 @@ class Snapshot:
     bar_numbers: BarNumbers = BarNumbers()
     strip: Strip | None = None
     double: StudentShown | None = None
+    view: NamedView | None = None

@@ -1,12 +1,14 @@
 """Who demonstrates: a body and a manner, as the user has chosen them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TypeVar
 
 from station.core.errors import BadInput
 from station.core.settings import Settings
+from station.drills.lesson import BarCue
 from station.motion.kinematics.figure import DEFAULT_FIGURE, Figure, figure_of, load_figure
+from station.motion.style.lanes import in_turn
 from station.motion.style.style import ANYBODY, Style
 from station.motion.style.style_file import load_style
 
@@ -19,6 +21,14 @@ class Demonstrator:
 
     figure: Figure = field(default_factory=figure_of)
     style: Style = field(default_factory=Style)
+
+
+def as_taught(style: Style, cues: Sequence[BarCue]) -> Style:
+    """`style` where the cues of a lesson say nothing, theirs from their bars on; its lanes count the lesson's bars.
+
+    Raises `BadInput` for a style that there is not.
+    """
+    return in_turn(style, [(cue.bar + 1.0, load_style(cue.style)) for cue in cues if cue.style])
 
 
 def demonstrator_of(settings: Settings, notify: Callable[[str], None]) -> Demonstrator:

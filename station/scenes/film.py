@@ -11,13 +11,16 @@ from numpy.typing import NDArray
 
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
+from station.drills.lesson import BarCue
 from station.motion.drummer import Drummer
+from station.motion.style.lanes import in_passes
+from station.motion.style.style import Style
 from station.music.score import Score
 from station.render.picture import Shot
 from station.render.quality import QUALITIES
 from station.render.render_pool import artist
 from station.render.snapshot import BarNumbers, Snapshot
-from station.scenes.pictures import picture_of
+from station.scenes.pictures import directed, picture_of
 from station.scenes.soundtrack import Sounds, Soundtrack
 
 ShowProgress = Callable[[int], None]
@@ -26,11 +29,15 @@ ShowProgress = Callable[[int], None]
 
 @dataclass(frozen=True, slots=True)
 class FilmStretch:
-    """Which stretch is filmed: `pictures` of them, `fps` a second, the first at `start_s` of the score."""
+    """Which stretch is filmed: `pictures` of them, `fps` a second, the first at `start_s` of the score.
+
+    The `cues` of a lesson's teacher are followed: their words and their views.
+    """
 
     start_s: float
     pictures: int
     fps: Fraction
+    cues: tuple[BarCue, ...] = ()
 
     @property
     def times_s(self) -> NDArray[np.float64]:
@@ -77,22 +84,29 @@ def write_pictures(
 class FilmLoop:
     """Bars that are played for ever: the score of `drummer` is three passes in a row of `length_s`, the second is seen.
 
-    So the motion has no seam, nor the notes that pass. `first_bar` (from 0) and `bar_count` are the whole score's.
+    So the motion has no seam, nor the notes that pass. `first_bar` (from 0) and `bar_count` are the whole score's,
+    whose `cues` are followed.
     """
 
     length_s: float
     first_bar: int
     bar_count: int
+    cues: tuple[BarCue, ...] = ()
 
     @classmethod
-    def of(cls, drummer: Drummer, first_bar: int, bar_count: int) -> "FilmLoop":
+    def of(cls, drummer: Drummer, first_bar: int, bar_count: int, cues: tuple[BarCue, ...] = ()) -> "FilmLoop":
         """The loop of a drummer who plays what `score` gave."""
-        return cls(drummer.score.length_ns / NS_PER_S / _PASSES, first_bar, bar_count)
+        return cls(drummer.score.length_ns / NS_PER_S / _PASSES, first_bar, bar_count, cues)
 
     @staticmethod
     def score(score: Score, first_bar: int, last_bar: int) -> Score:
         """What the drummer of a loop of these bars plays."""
         return score.bars(first_bar, last_bar).repeated(_PASSES)
+
+    @staticmethod
+    def style(style: Style, first_bar: int, last_bar: int) -> Style:
+        """`style`, whose lanes count the whole score's bars, for what `score` gives."""
+        return in_passes(style, first_bar, last_bar - first_bar + 1, _PASSES)
 
 
 _PASSES = 3
@@ -121,8 +135,8 @@ def _in_loop(snapshot: Snapshot, loop: FilmLoop) -> Snapshot:
     hud = snapshot.hud
     if hud.bar is not None:
         hud = replace(hud, bar=numbers.of(hud.bar - 1), bar_count=loop.bar_count)
-    return replace(snapshot, hud=hud, bar_numbers=numbers)
+    return directed(replace(snapshot, hud=hud, bar_numbers=numbers), loop.cues)
 
 
 def _snapshots(drummer: Drummer, stretch: FilmStretch) -> Iterator[Snapshot]:
-    return (picture_of(drummer, float(at_s)) for at_s in stretch.times_s)
+    return (directed(picture_of(drummer, float(at_s)), stretch.cues) for at_s in stretch.times_s)

@@ -1,11 +1,13 @@
 """Pictures of sessions and scores without a window."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
+from station.drills.directions import direction_at
+from station.drills.lesson import BarCue
 from station.motion.drummer import Drummer
 from station.motion.style.lanes import in_passes
 from station.music.judgement import Label
@@ -15,7 +17,7 @@ from station.practice.session.session import SessionResult
 from station.render.picture import draw_png
 from station.render.report.report_picture import draw_report_png
 from station.render.snapshot import BarNumbers, ExtraHit, Hud, Snapshot, mark, no_marks
-from station.scenes.demonstrator import Demonstrator, demonstrator_of
+from station.scenes.demonstrator import Demonstrator, as_taught, demonstrator_of
 from station.scenes.result_tables import session_facts
 from station.scoring.matching.alignment import judgements
 from station.scoring.matching.right import right_notes
@@ -35,7 +37,7 @@ def drummer_of(result: SessionResult, demonstrator: Demonstrator) -> Drummer:
     """The one who demonstrated it, over all its passes."""
     plan = result.plan
     passes = result.score.bar_count // plan.section.bar_count
-    style = in_passes(demonstrator.style, plan.first_bar, plan.section.bar_count, passes)
+    style = in_passes(as_taught(demonstrator.style, plan.lesson.cues), plan.first_bar, plan.section.bar_count, passes)
     return Drummer(result.score, plan.kit, demonstrator.figure, style)
 
 
@@ -72,6 +74,20 @@ def picture_of(drummer: Drummer, at_s: float) -> Snapshot:
     hud = Hud(title=score.title, bar_count=score.bar_count)
     if 0 <= at_s * NS_PER_S < score.length_ns:
         place = score.tempo_map.position_at(int(score.tempo_map.ticks_at(at_s)))
-        hud = replace(hud, bar=place.bar + 1, beat=place.beat + 1)
+        beats = score.tempo_map.meter_at(score.tempo_map.bar_start(place.bar)).beats
+        hud = replace(hud, bar=place.bar + 1, beat=place.beat + 1, beats=beats)
     pose, limbs = drummer.pose(at_s), drummer.assignment.limbs
     return Snapshot(score, at_s, drummer.kit, drummer.figure, pose, limbs, hud=hud)
+
+
+def directed(snapshot: Snapshot, cues: Sequence[BarCue]) -> Snapshot:
+    """The picture with the words of a teacher's `cues` and from their view, by the bar that it names.
+
+    Before the beginning the first bar's view is taken already, and after the end the last one's stays.
+    """
+    bar = snapshot.hud.bar
+    if bar is None:
+        last = snapshot.score.bar_count - 1
+        return replace(snapshot, view=direction_at(cues, 0 if snapshot.position_s < 0 else last).view)
+    said = direction_at(cues, bar - 1)
+    return replace(snapshot, view=said.view, hud=replace(snapshot.hud, say=said.say))

@@ -17,7 +17,7 @@ from station.motion.style.style import Style
 from station.music.score import Score
 from station.practice.session.plan import Plan
 from station.render.snapshot import BarNumbers
-from station.scenes.demonstrator import Demonstrator
+from station.scenes.demonstrator import Demonstrator, as_taught
 
 Made = TypeVar("Made")
 
@@ -91,7 +91,7 @@ class SessionPart:
         if self._drummer is None:
             self._drummer = self._made() if self._coming is None else self._coming.result()
         if style is not self._style:
-            self._style, self._drummer = style, self._drummer.with_style(in_passes(style, *self._bars))
+            self._style, self._drummer = style, self._drummer.with_style(self._of_all_passes(style))
         return self._drummer
 
     def position_s(self, transport_ns: int) -> float:
@@ -99,6 +99,9 @@ class SessionPart:
         return (transport_ns - self.start_ns) / NS_PER_S
 
     def _made(self) -> Drummer:
-        return Drummer(
-            self.score, self._plan.kit, self._demonstrator.figure, in_passes(self._demonstrator.style, *self._bars)
-        )
+        style = self._of_all_passes(self._demonstrator.style)
+        return Drummer(self.score, self._plan.kit, self._demonstrator.figure, style)
+
+    def _of_all_passes(self, style: Style) -> Style:
+        """The style as the lesson's teacher changes it, over the bars of the score."""
+        return in_passes(as_taught(style, self._plan.lesson.cues), *self._bars)

@@ -11,7 +11,7 @@ import numpy as np
 
 from station.core.events import Hit
 from station.core.pieces import Limb
-from station.core.units import NS_PER_MS, NS_PER_S
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.mastery.feedback_fading import Feedback
 from station.engine.engine import KEYBOARD
 from station.motion.drummer import Drummer
@@ -19,6 +19,7 @@ from station.motion.style.style import Style
 from station.music.judgement import Judgement, Label
 from station.practice.session.plan import Phase, Plan
 from station.practice.session.session import Session, SessionResult
+from station.practice.session.session_place import direction_of, place_of
 from station.render.snapshot import ExtraHit, Hud, SeenStrike, Snapshot, TimingCue, mark, no_marks
 from station.scenes.curves import ScoreCurves, played_of_marks, played_of_result
 from station.scenes.demonstrator import Demonstrator
@@ -135,6 +136,7 @@ class SessionView:
             hud=self._hud(session, now_ns, message or _why(session)),
             bar_numbers=part.bar_numbers,
             double=double,
+            view=direction_of(session).view,
         )
 
     def curves(self, session: Session) -> ScoreCurves | None:
@@ -190,7 +192,7 @@ class SessionView:
 
     def _hud(self, session: Session, now_ns: int, message: str) -> Hud:
         plan, segment = self.plan, session.state().segment
-        bar, beat = self.place(session)
+        bar, beat = place_of(session)
         right, judged = self._counts(session, segment.index) if segment.phase is Phase.PASS else (0, 0)
         age_ns = now_ns - self._cue_ns
         return Hud(
@@ -198,26 +200,26 @@ class SessionView:
             phase=plan.words(segment),
             bar=bar,
             beat=beat,
-            beats=plan.section.tempo_map.meters[0].beats,
+            beats=_beats_of(plan, bar),
             bar_count=max(plan.lesson.score.bar_count, bar or 0),
-            beats_a_minute=plan.beats_a_minute,
+            beats_a_minute=self._beats_a_minute(session),
             count_in=beat if segment.phase is Phase.COUNT_IN else None,
             right=right,
             judged=judged,
             message=message,
             cue=self._cue if age_ns < CUE_SHOWN_NS else TimingCue.NONE,
             cue_age_s=age_ns / NS_PER_S,
+            say=direction_of(session).say,
         )
 
-    def place(self, session: Session) -> tuple[int | None, int | None]:
-        """The lesson's bar and its beat, from 1, None where none is played; a count-in has beats alone."""
-        state = session.state()
-        segment, tempo_map = state.segment, self.plan.section.tempo_map
-        if state.transport_ns is None or state.transport_ns < segment.start_ns or segment.phase is Phase.OVER:
-            return None, None
-        at = tempo_map.position_at(int(tempo_map.ticks_at_ns(state.transport_ns - segment.start_ns)))
-        is_count_in = segment.phase is Phase.COUNT_IN
-        return None if is_count_in else self.plan.first_bar + at.bar + 1, at.beat + 1
+    def _beats_a_minute(self, session: Session) -> float:
+        """The tempo where the music is; before and after it the one that it begins with."""
+        state, plan = session.state(), self.plan
+        if state.transport_ns is None or state.segment.phase not in (Phase.DEMONSTRATION, Phase.PASS):
+            return plan.beats_a_minute
+        tempo_map = plan.section.tempo_map
+        tick = int(tempo_map.ticks_at_ns(max(state.transport_ns - state.segment.start_ns, 0)))
+        return tempo_map.bpm_at(tick) * PPQ / plan.lesson.beat_ticks
 
     def _counts(self, session: Session, pass_index: int) -> tuple[int, int]:
         """Notes right and notes judged of one pass, of those whose marks are shown."""
@@ -246,6 +248,12 @@ def strikes(hits: Iterable[Hit], now_ns: int) -> tuple[SeenStrike, ...]:
 def _by_key(verdict: Judgement, hits: Sequence[Hit]) -> bool:
     """Whether a key of the computer was struck: it cannot tell how hard."""
     return verdict.hit_index is not None and hits[verdict.hit_index].device == KEYBOARD
+
+
+def _beats_of(plan: Plan, bar: int | None) -> int:
+    """How many beats the lesson's `bar`, from 1, has as it is practised; None: the first."""
+    tempo_map = plan.section.tempo_map
+    return tempo_map.meter_at(tempo_map.bar_start(0 if bar is None else bar - 1 - plan.first_bar)).beats
 
 
 def _why(session: Session) -> str:

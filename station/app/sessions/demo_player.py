@@ -24,6 +24,7 @@ from station.app.actions import (
     Wind,
 )
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
+from station.drills.directions import NO_DIRECTION, Direction, direction_at
 from station.drills.lesson import Lesson
 from station.engine.messages import Command, Play, Stop
 from station.motion.drummer import Drummer
@@ -35,7 +36,7 @@ from station.practice.session.click_pattern import PLAIN, ClickPattern
 from station.practice.session.plan import with_sticking
 from station.render.snapshot import BarNumbers, Hud, Snapshot
 from station.scenes.curves import ScoreCurves
-from station.scenes.demonstrator import Demonstrator
+from station.scenes.demonstrator import Demonstrator, as_taught
 
 LEAD_NS = 50 * NS_PER_MS
 """How long after a change the sound begins: the engine's way and a block of sound fit in (our choice)."""
@@ -92,6 +93,7 @@ class DemoPlayer:
         """The whole lesson at its own tempo, and its landing."""
         self._demonstrator = demonstrator or Demonstrator()
         self._drummer: Drummer | None = None
+        self._style = self._demonstrator.style
         self._flags: dict[str, tuple[int | None, ...]] = {}
         self._sounding_until_ns: int | None = None
         self._due = False
@@ -140,9 +142,12 @@ class DemoPlayer:
         if self._drummer is None:
             watched, demonstrator = self._watched, self._demonstrator
             score = with_sticking(self.score, watched.kit, watched.hands)
-            self._drummer = Drummer(score, watched.kit, demonstrator.figure, demonstrator.style)
-        if self._drummer.style is not self._demonstrator.style:
-            self._drummer = self._drummer.with_style(self._demonstrator.style)
+            self._style = demonstrator.style
+            style = as_taught(self._style, self.lesson.cues)
+            self._drummer = Drummer(score, watched.kit, demonstrator.figure, style)
+        if self._style is not self._demonstrator.style:
+            self._style = self._demonstrator.style
+            self._drummer = self._drummer.with_style(as_taught(self._style, self.lesson.cues))
         return self._drummer
 
     # --- what the user does ------------------------------------------------------------------------------------------
@@ -275,7 +280,16 @@ class DemoPlayer:
             pose=drummer.pose(position_s - raising_s),
             limbs=drummer.assignment.limbs,
             hud=self._hud(),
+            view=self._direction.view,
         )
+
+    @property
+    def _direction(self) -> Direction:
+        """What the lesson's cues say of where the player is, once it is used."""
+        if not self.is_shown:
+            return NO_DIRECTION
+        bar = self.player.place(self.now_ns).bar
+        return direction_at(self.lesson.cues, min(bar, self.lesson.score.bar_count - 1))
 
     def curves(self) -> ScoreCurves:
         """The same for the graph."""
@@ -295,6 +309,7 @@ class DemoPlayer:
             beats=self.score.tempo_map.meter_at(start).beats,
             bar_count=self.score.bar_count,
             beats_a_minute=quarters * PPQ / self.lesson.beat_ticks * player.speed_percent / 100,
+            say="" if self._left_ns else self._direction.say,
         )
 
 

@@ -26,6 +26,7 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Phase, Plan
 from station.practice.session.runner import SessionRunner, Update
 from station.practice.session.session import Session, SessionResult
+from station.practice.session.session_place import place_of
 from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
@@ -201,7 +202,7 @@ class LessonSession:
             progress = (len(adaptation.rounds) + progress) / adaptation.loops
         clock = None
         if progress is not None and state.transport_ns is not None:
-            clock = PlaceNow(max(state.transport_ns, 0) / NS_PER_S, *self.view.place(self.session))
+            clock = PlaceNow(max(state.transport_ns, 0) / NS_PER_S, *place_of(self.session))
         return replace(
             room,
             progress=progress,

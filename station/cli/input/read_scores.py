@@ -13,6 +13,7 @@ from station.music.performance import Performance
 from station.music.score import Score
 
 if TYPE_CHECKING:
+    from station.drills.lesson import BarCue
     from station.motion.kit.kit import Kit
     from station.motion.sticking.hand_notes import Hands
     from station.practice.session.click_pattern import Gap
@@ -80,6 +81,15 @@ def kit_of_lesson(name: str) -> str:
     from station.drills.library import find_lesson
 
     return find_lesson(name).kit
+
+
+def cues_of_lesson(name: str) -> tuple[BarCue, ...]:
+    """The cues of the lesson `name`; none where it is a music file."""
+    if not is_lesson(name):
+        return ()
+    from station.drills.library import find_lesson
+
+    return find_lesson(name).cues
 
 
 def load_score_and_performance(score_name: str, performance_name: str) -> tuple[Score, Performance]:

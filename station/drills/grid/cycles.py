@@ -15,7 +15,7 @@ from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.voice import agreed_bars, check_cells, parsed, voice_strokes
 from station.music.tempo import MeterChange
 
-_CYCLE: Fields = {"meter": needed(meter, 'the meter of the cycle, such as meter = "5/8"'), **LINES}
+CYCLE: Fields = {"meter": needed(meter, 'the meter of the cycle, such as meter = "5/8"'), **LINES}
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +39,7 @@ def read_cycles(raw: object, path: KeyPath, faults: Faults) -> list[Cycle]:
 
 def _read_cycle(raw: object, path: KeyPath, faults: Faults) -> list[Cycle]:
     """One cycle, or none where it cannot be read."""
-    values, found = checked_values(raw, _CYCLE, "line")
+    values, found = checked_values(raw, CYCLE, "line")
     lines = lines_of_table(values, path, found)
     if not lines and not found:
         found.add((), 'no line to play; expected one such as cowbell = "x--x-"', at_key=True)

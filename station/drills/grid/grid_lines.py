@@ -4,8 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from station.core.expected import LINE, expects, later
 from station.core.pieces import Limb, Piece, word
-from station.core.schema import Fields, Reader, anything, checked_values, optional
+from station.core.schema import Fields, Reader, checked_values, optional, table_like
 from station.core.toml_faults import Faults, wrong
 from station.core.toml_places import KeyPath
 from station.drills.grid.cell_strokes import GridLine
@@ -21,6 +22,7 @@ class RawLine:
     text: str
 
 
+@expects(LINE)
 def cells(value: object) -> str:
     """A line of the grid."""
     if not isinstance(value, str) or not value.strip():
@@ -31,6 +33,7 @@ def cells(value: object) -> str:
 def _cells_of(piece: Piece, limb: Limb) -> Reader[str]:
     """A line that one limb plays alone."""
 
+    @expects(LINE)
     def read(value: object) -> str:
         if piece in _PEDALS and limb.is_hand:
             raise wrong(f"a hand plays no {_PEDALS[piece]}; expected right_foot or left_foot")
@@ -42,16 +45,24 @@ def _cells_of(piece: Piece, limb: Limb) -> Reader[str]:
 
 
 _PEDALS = {Piece.KICK: "kick", Piece.HIHAT_PEDAL: "pedal"}
-LINES: Fields = {
-    STICKING: optional(cells),
-    **{name: optional(anything) for name in LIMB_TABLES},  # read with `_LIMB_LINES`
-    **{key: optional(cells) for key in LINE_PIECES},
-}
-"""The lines that a grid, a cycle or a landing may have."""
 _LIMB_LINES: Mapping[str, Fields] = {
     name: {key: optional(_cells_of(piece, limb)) for key, piece in LINE_PIECES.items()}
     for name, limb in LIMB_TABLES.items()
 }
+
+
+def _limb_table(name: str) -> Reader[object]:
+    """A limb's lines, to be read with `_LIMB_LINES`; editors are told of those that the limb can play."""
+    can_play = {key for key, piece in LINE_PIECES.items() if (piece in _PEDALS) != LIMB_TABLES[name].is_hand}
+    return later(table_like({key: each for key, each in _LIMB_LINES[name].items() if key in can_play}))
+
+
+LINES: Fields = {
+    STICKING: optional(cells),
+    **{name: optional(_limb_table(name)) for name in LIMB_TABLES},
+    **{key: optional(cells) for key in LINE_PIECES},
+}
+"""The lines that a grid, a cycle or a landing may have."""
 
 
 def lines_of_table(values: Mapping[str, Any], path: KeyPath, faults: Faults) -> list[RawLine]:

@@ -4,11 +4,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from station.core.schema import Field, Fields, anything, checked_values, number, optional, title, whole
+from station.core.expected import either_of, later, list_like
+from station.core.schema import Field, Fields, anything, checked_values, number, optional, table_like, title, whole
 from station.core.toml_faults import Faults
 from station.core.toml_places import KeyPath
 from station.drills.grid.cell_strokes import BarClock, WrittenCell
-from station.drills.grid.cycles import Cycle, by_repetition, cycle_strokes, read_cycles
+from station.drills.grid.cycles import CYCLE, Cycle, by_repetition, cycle_strokes, read_cycles
 from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, cells, lines_of_table, plain_line
 from station.drills.grid.grid_timing import TIMING, GridTiming, timing_of
@@ -64,7 +65,7 @@ class GridSection:
         return [stroke for i, start in enumerate(starts) for stroke in self.repetition(i, start)]
 
 
-_GRID: Fields = {
+GRID: Fields = {
     "name": Field(title, ""),
     "like": optional(anything),  # what the form says is read by its own readers
     "ending": optional(anything),
@@ -75,13 +76,14 @@ _GRID: Fields = {
     "bars": optional(whole(1, MAX_BARS)),
     LOUDNESS: optional(cells),
     **LINES,
-    "cycle": optional(anything),
+    "cycle": optional(later(either_of(table_like(CYCLE), list_like(table_like(CYCLE))))),
 }
+"""The keys of a grid."""
 
 
 def read_grid(raw: object, path: KeyPath, before: GridTiming, faults: Faults) -> GridSection:
     """One grid, after what was said `before` it: the lesson's own timing, or that of the grid that precedes it."""
-    values, found = checked_values(raw, _GRID, "line")
+    values, found = checked_values(raw, GRID, "line")
     timing = timing_of(values, before, found, path)
     lines = lines_of_table(values, path, found)
     if not lines and values["cycle"] is None and not found:

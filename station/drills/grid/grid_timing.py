@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
 
+from station.core.expected import either_of, expected_by, expects, list_like
 from station.core.schema import Fields, list_of, number, optional, said, shown, whole
 from station.core.toml_faults import Faults, wrong
 from station.core.toml_places import KeyPath
@@ -56,6 +57,7 @@ class GridTiming:
 # --- the schema -------------------------------------------------------------------------------------------------------
 
 
+@expects({"type": "string", "pattern": r"^ *\d+( *\+ *\d+)* */ *\d+ *$"})
 def meter(value: object) -> MeterChange:
     """A meter such as "6/8", or "3+2+2/8" with its groups; its tick is 0."""
     top, slash, unit = value.partition("/") if isinstance(value, str) else ("", "", "")
@@ -72,6 +74,7 @@ def _is_short_number(word: str) -> bool:
     return word.isascii() and word.isdecimal() and len(word) < 4
 
 
+@expects(either_of(expected_by(meter), list_like(expected_by(meter), 1)))
 def meters(value: object) -> tuple[MeterChange, ...]:
     """One meter, or a list of meters that are taken in turn, bar by bar."""
     if not isinstance(value, list):
@@ -81,6 +84,7 @@ def meters(value: object) -> tuple[MeterChange, ...]:
     return list_of(meter, 'meters such as ["4/4", "3/4"]')(value)
 
 
+@expects({"type": "string", "pattern": r"^ *\d+ */ *\d+ *$"})
 def note_length(value: object) -> int:
     """Ticks of a note length such as "1/4" or "3/8"."""
     top, slash, bottom = value.partition("/") if isinstance(value, str) else ("", "", "")

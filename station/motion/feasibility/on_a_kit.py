@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Limb
+from station.motion.feasibility.limb_speeds import RUNS, fastest_hz
 from station.motion.kinematics.foot_path import Visits
 from station.motion.kit.kit import Kit
 from station.motion.strokes.bounces import bounces_on
@@ -20,12 +21,8 @@ from station.music.score import Score
 
 Array = NDArray[np.float64]
 
-FASTEST_HZ = {True: 10.0, False: 11.0}
-"""Strokes a second of one hand (Fujii 2009) and one foot (HUMANS) that champions reach."""
-_OVER = 1.25
-"""Three strokes in a row may be so much quicker than a champion's mean: players' timing varies (our choice)."""
-_LONG_RUN, _OVER_LONG = 6, 1.05
-"""So many strokes on end, half a second's worth, hardly vary in their mean (our choice)."""
+_GRAIN_HZ = 1e-5
+"""What a few nanoseconds, the grain of the music's times, make of a rate."""
 BOUNCE_S = 0.04
 """The second stroke of a double may come this soon: it is a rebound (HUMANS has 50–90 ms)."""
 FASTEST_HAND_M_S = 9.1
@@ -74,10 +71,10 @@ def _repeated(limb: Limb, times: Array, bars: NDArray[np.int64], on: NDArray[np.
     """
     word = "hand" if limb.is_hand else "foot"
     worst: dict[int, tuple[float, float, float]] = {}  # of each bar: rate, first and last stroke
-    for strokes, over, counted in ((3, _OVER, np.ones(len(on), bool)), (_LONG_RUN, _OVER_LONG, ~on)):
+    for strokes, counted in zip(RUNS, (np.ones(len(on), bool), ~on), strict=True):
         last, at_s, in_bar, free = strokes - 1, times[counted], bars[counted], on[counted]
         rate = last / (at_s[last:] - at_s[: max(len(at_s) - last, 0)])
-        fast = np.flatnonzero((rate > FASTEST_HZ[limb.is_hand] * over) & ~free[last:])
+        fast = np.flatnonzero((rate > fastest_hz(limb.is_hand, strokes) + _GRAIN_HZ) & ~free[last:])
         for bar in np.unique(in_bar[fast + 1]).tolist():
             at = fast[in_bar[fast + 1] == bar]
             fastest, start, end = worst.get(bar, (0.0, np.inf, -np.inf))

@@ -17,20 +17,8 @@ from numpy.typing import NDArray
 
 from station.core.labels import limb_name
 from station.core.pieces import HALF_OPEN, HAND_PIECES, Articulation, Limb, Ornament, Piece, word
+from station.motion.feasibility.limb_speeds import SPANS_S
 from station.music.score import Score
-
-HAND_SPANS_S: Mapping[int, float] = {2: 0.045, 3: 0.13, 4: 0.20, 9: 0.62}
-"""Strokes of one hand -> the least time from first to last. The second bounce of a double comes after 50–90 ms, a
-champion's single strokes at 10 Hz (HUMANS, Heights); fast double rolls keep each hand at 12.5 Hz. Our choice within."""
-FOOT_SPANS_S: Mapping[int, float] = {2: 0.07, 9: 0.72}
-"""The same for a foot: champions reach 11 Hz (HUMANS, Heights); the doubles of the Groove MIDI Dataset's drummers come
-down to 75 ms, and what is closer there looks like a bouncing beater. Our choice."""
-_SPANS_S: Mapping[Limb, Mapping[int, float]] = {
-    Limb.RIGHT_HAND: HAND_SPANS_S,
-    Limb.LEFT_HAND: HAND_SPANS_S,
-    Limb.RIGHT_FOOT: FOOT_SPANS_S,
-    Limb.LEFT_FOOT: FOOT_SPANS_S,
-}
 
 MAX_HANDS = 2
 _HANDS_STRIKE = np.array(sorted(HAND_PIECES), np.uint8)
@@ -57,6 +45,33 @@ def impossible(score: Score) -> list[Impossible]:
     named = {i.note for i in found}
     found += [i for i in _too_fast(score) if i.note not in named]
     return sorted(found, key=lambda i: i.note)
+
+
+def unplayable_rows(score: Score) -> NDArray[np.int64]:
+    """The rows to leave out so that nothing impossible is left; of strokes that come too soon, the later ones."""
+    left_out = {i.note for i in (*_crowded_moments(score), *_open_and_shut(score))}
+    for crew in reversed(_crews(score)):  # each limb first: what it leaves out spares both hands together
+        rows = np.flatnonzero(crew.rows)
+        rows = rows[np.argsort(score.onset_ns[rows], kind="stable")]
+        rows = rows[~np.isin(rows, sorted(left_out))]
+        left_out |= set(rows[_too_soon(score.onset_s[rows], crew.spans_s)].tolist())
+    return np.array(sorted(left_out), np.int64)
+
+
+def _too_soon(times_s: NDArray[np.float64], spans_s: Mapping[int, float]) -> NDArray[np.bool_]:
+    """Which strokes (n,), in order of time, come too soon after those that are left before them."""
+    kept: list[float] = []
+    is_late = np.zeros(len(times_s), np.bool_)
+    for i, time_s in enumerate(times_s.tolist()):
+        is_late[i] = any(
+            len(kept) >= strokes - 1
+            and time_s - kept[1 - strokes] < least_s - _GRAIN_S
+            and not (strokes == 2 and time_s == kept[-1])
+            for strokes, least_s in spans_s.items()
+        )
+        if not is_late[i]:
+            kept.append(time_s)
+    return is_late
 
 
 def _is_hand(notes: NDArray[np.void]) -> NDArray[np.bool_]:
@@ -103,12 +118,7 @@ def _open_and_shut(score: Score) -> list[Impossible]:
 
 def _too_fast(score: Score) -> list[Impossible]:
     """The first place of each limb, or of both hands together, that is faster than people are."""
-    notes, hands = score.notes, _is_hand(score.notes)
-    crews = [
-        _Crew("the hands", "need", hands, {2 * n - 1: span for n, span in HAND_SPANS_S.items()}),
-        *(_Crew(f"the {limb_name(limb)}", "needs", notes["limb"] == limb, spans) for limb, spans in _SPANS_S.items()),
-    ]
-    return [found for crew in crews if (found := _first_too_fast(crew, score))]
+    return [found for crew in _crews(score) if (found := _first_too_fast(crew, score))]
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +129,18 @@ class _Crew:
     verb: str
     rows: NDArray[np.bool_]
     spans_s: Mapping[int, float]
+
+
+def _crews(score: Score) -> list[_Crew]:
+    """Both hands together, then each limb."""
+    together = {2 * n - 1: span for n, span in SPANS_S[Limb.RIGHT_HAND].items()}
+    return [
+        _Crew("the hands", "need", _is_hand(score.notes), together),
+        *(
+            _Crew(f"the {limb_name(limb)}", "needs", score.notes["limb"] == limb, spans)
+            for limb, spans in SPANS_S.items()
+        ),
+    ]
 
 
 def _first_too_fast(crew: _Crew, score: Score) -> Impossible | None:

@@ -9,6 +9,7 @@ from station.core.units import NS_PER_MS
 from station.music.judgement import Judgement, Label
 from station.practice.session.plan import Segment
 from station.practice.session.session import Session
+from station.practice.session.session_place import direction_of
 from station.scoring.matching.hit_windows import Level, Windows
 
 _EARLY, _ON_TIME, _LATE = "<", "|", ">"
@@ -56,6 +57,7 @@ class LiveText:
         self._segment: Segment | None = None
         self._shown = 0
         self._sensors: set[str] = set()
+        self._said = ""
 
     def show(self, session: Session, judged: tuple[Judgement, ...]) -> None:
         """Show what is new in `session`."""
@@ -67,6 +69,7 @@ class LiveText:
             self._write(f"\n{notice}")
         self._show_sensors(session.heard.sensors)
         self._show_segment(session)
+        self._show_words(session)
         marks = "".join(mark_of(verdict, session.plan.level.windows) for verdict in session.shown(judged))
         if marks:
             self._write(marks)
@@ -89,6 +92,13 @@ class LiveText:
             self._write(f"\n{session.message}")
         self._segment = state.segment
         self._write(f"\n{session.plan.words(state.segment):14}")
+
+    def _show_words(self, session: Session) -> None:
+        """The teacher's words, once as they come."""
+        said = direction_of(session).say
+        if said and said != self._said:
+            self._write(f"\n{said}\n{'':14}")
+        self._said = said
 
     def last_words(self, first: Session) -> None:
         """Show what is not yet shown of the session that ran last, `first` where none did, and end the line."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
 from station.music.score import Score
+from station.music.tempo_words import TempoWord, tempo_words
 from station.render.notation.beams import STEM, STEM_X, Anchor, StaffVoice, draw_beams, draw_flags, draw_tuplet
 from station.render.notation.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
 from station.render.notation.rhythm import BeatGroup, TimedValue, beat_groups, spell
@@ -31,6 +32,11 @@ _NUMBER_X = 0.35
 """A bar's number begins so far left of its line: clear of what stands over the first beat."""
 TOP_Y, BOTTOM_Y = -8.3, 7.0
 """What a staff takes with everything above and below it."""
+
+_WORDS_Y = BAR_NUMBER_Y + 0.3
+_WORD, _WORD_GAP = TypeStyle(1.5, BRAND, Face.BOLD), 0.9
+"""Meters and tempi stand above the staff beside the bar's number, so far apart: time leaves no room between notes."""
+_RAMPS = {1: "accel. to", -1: "rit. to"}
 
 _UP_BEAM_Y, _DOWN_BEAM_Y = -5.4, 4.35
 """Stems of a voice reach at least here, so that beams stand level along the line."""
@@ -66,6 +72,7 @@ class Engraver:
         self._atlas = atlas
         self._limbs = score.notes["limb"] if limbs is None else limbs
         self._closing = _closing_hats(score)
+        self._tempo_words = tempo_words(score.tempo_map)
         feet = [int(p) for p in FOOT_PIECES]
         self._is_foot = np.isin(score.notes["piece"], feet)
 
@@ -97,6 +104,10 @@ class Engraver:
     def closes_hat(self, index: int) -> bool:
         """Whether stroke `index` is the first closed one after an open hi-hat."""
         return bool(self._closing[index])
+
+    def tempo_words(self, start: int, end: int) -> list[TempoWord]:
+        """What is written of the tempo in [start, end) ticks."""
+        return [word for word in self._tempo_words if start <= word.tick < end]
 
     def draw_list(self) -> DrawList:
         """An empty sheet on the common letters."""
@@ -150,12 +161,22 @@ class _BarEngraver:
         if self._start >= self._e.score.end_tick:
             return
         number = str(self._e.numbers.of(self._bar))
-        x += _NUMBER_X + self._draw_list.text(
-            number, (x - _NUMBER_X, BAR_NUMBER_Y + 0.6), TypeStyle(1.25, INK_SOFT, Face.BOLD)
-        )
+        x += _NUMBER_X + self._draw_list.text(number, (x - _NUMBER_X, _WORDS_Y), TypeStyle(1.25, INK_SOFT, Face.BOLD))
         meter = self._tempo.meter_at(self._start)
-        if self._bar > 0 and meter.tick == self._start:  # above the staff: time leaves no room for it between notes
-            self._draw_list.text(str(meter), (x, BAR_NUMBER_Y + 0.6), TypeStyle(1.5, BRAND, Face.BOLD))
+        if self._bar > 0 and meter.tick == self._start:
+            x += _WORD_GAP + self._draw_list.text(str(meter), (x, _WORDS_Y), _WORD)
+        self._tempo_words(x)
+
+    def _tempo_words(self, x: float) -> None:
+        """New tempi, and where it grows faster or slower; what comes with the bar stands at `x`, beside its number."""
+        for word in self._e.tempo_words(self._start, self._end):
+            self._anchor.at(word.tick)
+            left = x if word.tick == self._start else -0.6
+            if word.way:
+                left += _WORD_GAP / 2 + self._draw_list.text(_RAMPS[word.way], (left, _WORDS_Y), _WORD)
+            self._draw_list.ellipse((left + 0.45, _WORDS_Y - 0.26), (0.36, 0.26), BRAND, -0.38)
+            self._draw_list.line((left + 0.76, _WORDS_Y - 0.3), (left + 0.76, _WORDS_Y - 1.15), 0.12, BRAND)
+            self._draw_list.text(f"= {word.tempo_bpm:.0f}", (left + 1.3, _WORDS_Y), _WORD)
 
     def _silent_bar(self) -> None:
         if self._start < self._e.score.end_tick:

@@ -13,7 +13,7 @@ STAFF_LINE = 0.10
 """Thickness of a staff line."""
 _HEAD_HALF = (0.66, 0.46)
 _HEAD_TURN = -0.38
-_SIGNATURE, _SIGNATURE_ROOM = 2.75, 3.7
+_SIGNATURE, _SIGNATURE_ROOM = 2.75, 3.1
 """The letters of a time signature fill two spaces; wider than the room are the groups of a meter, set smaller."""
 
 

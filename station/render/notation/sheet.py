@@ -29,7 +29,7 @@ PAPERS = {"a4": (595.28, 841.89), "letter": (612.0, 792.0)}
 LEAD = 6.2
 """What clef and meter take of a line, in staff spaces."""
 _TOP, _BOTTOM = engraving.TOP_Y - 0.6, engraving.BOTTOM_Y + 0.4
-_SECTION_Y = -8.5
+_SECTION_Y = -9.0
 _TITLE, _TEXT, _SMALL = 22.0, 11.0, 9.5
 _ABOUT_LINES = 3
 _HEAD_HEIGHT = 62.0

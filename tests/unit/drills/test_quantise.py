@@ -104,6 +104,22 @@ def test_a_flam_beside_another_hand_loses_its_grace_stroke() -> None:
     assert [n.lead_ms for n in found] == [0, 0]
 
 
+def test_strokes_faster_than_two_hands_are_thinned_out() -> None:
+    """Sixty-four strokes 31.25 ms apart. People need 476 ms for eleven, which is sixteen cells: at most 10 in 16."""
+    found = fitted(*(snare(i * QUARTER // 16) for i in range(64)))
+    assert 64 * 10 // 16 - 4 <= len(found) <= 64 * 10 // 16
+    again = [n.tick for n in found] + [n.tick + WHOLE for n in found]
+    for strokes, least_ms in ((3, 45), (5, 160), (11, 476)):
+        lasts = [b - a for a, b in zip(again, again[strokes - 1 :], strict=False)]
+        assert min(lasts) >= least_ms * MS
+
+
+def test_the_last_kick_makes_room_for_the_first_of_the_next_loop() -> None:
+    """A sixty-fourth before the end of the bar is 31 ms from its start, where the same foot plays again."""
+    kicks = [Note(0, Piece.KICK), Note(WHOLE - QUARTER // 16, Piece.KICK)]
+    assert len(fitted(*kicks)) == 1
+
+
 def test_strokes_without_a_letter_become_the_nearest() -> None:
     found = fitted(
         Note(0, Piece.SNARE, Zone.EDGE),

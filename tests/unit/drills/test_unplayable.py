@@ -1,13 +1,14 @@
 """What nobody can play, and the tempo at which they could: gaps and tempi worked out by hand.
 
-People need 620 ms for nine strokes of one hand and 720 ms for nine of one foot, 130 ms for three of one hand
-(`motion/feasibility/playable`). Eight sixteenths last 120/bpm seconds: nine of one hand are played up to 193 bpm, of
-one foot up to 166.
+One hand plays six strokes in a row at 10.5 Hz at most and three at 12.5, one foot six at 11.55 and three at 13.75
+(`motion/feasibility/limb_speeds`): sixteenths, four a beat, up to 157.5 bpm with one hand and 173.25 with one foot.
 """
 
 import pytest
 
 from station.drills.lesson_file import parse_lesson
+from station.motion.kit.kit import DEFAULT_KIT, load_kit
+from station.motion.sticking.limbs import assign_limbs
 from tests.unit.drills.reading import faults, read, text_of
 
 RIGHT = 'snare = "oooo oooo oooo oooo"\nsticking = "RRRR RRRR RRRR RRRR"'
@@ -19,20 +20,20 @@ def words(grid: str, head: str) -> list[str]:
 
 
 def test_the_tempo_is_told_at_which_it_can_be_played() -> None:
-    """At 220 bpm sixteenths are 68.2 ms apart: nine last 545 ms; three, in 136, would do."""
+    """At 220 bpm sixteenths are 68.2 ms apart: three last 136 ms and need 160; at 157 six are 478 and need 476."""
     assert words(RIGHT, "tempo_bpm = 220") == [
-        "too fast at 220: the right hand needs 9 strokes in 545 ms; people need 620; playable up to 193 bpm"
+        "too fast at 220: the right hand needs 3 strokes in 136 ms; people need 160; playable up to 157 bpm"
     ]
-    read(RIGHT, "tempo_bpm = 193")
-    assert words(RIGHT, "tempo_bpm = 194")
+    read(RIGHT, "tempo_bpm = 157")
+    assert words(RIGHT, "tempo_bpm = 158")
 
 
 def test_what_only_the_goal_makes_too_fast_says_so() -> None:
     head = "tempo_bpm = 100\n[goals]\ntarget_tempo_bpm = 180"
     assert words(KICK, head) == [
-        "too fast at the goal of 180: the right foot needs 9 strokes in 667 ms; people need 720; playable up to 166 bpm"
+        "too fast at the goal of 180: the right foot needs 6 strokes in 417 ms; people need 433; playable up to 173 bpm"
     ]
-    read(KICK, head.replace("180", "166"))
+    read(KICK, head.replace("180", "173"))
 
 
 def test_what_the_written_tempo_asks_is_not_told_of_the_goal_again() -> None:
@@ -40,18 +41,18 @@ def test_what_the_written_tempo_asks_is_not_told_of_the_goal_again() -> None:
 
 
 def test_the_tempo_is_counted_in_the_beat_of_the_grid() -> None:
-    """Sixteenths of 6/8: nine in eight sixteenths; 166.7 quarters are 111.1 dotted quarters."""
+    """173.25 quarters are 115.5 dotted quarters."""
     head = 'meter = "6/8"\nbeat = "3/8"\ntempo_bpm = 130'
     (found,) = words('kick = "oooooo oooooo"', head)
     assert found.startswith("too fast at 130: the right foot needs ")
-    assert found.endswith("; playable up to 111 bpm")
+    assert found.endswith("; playable up to 115 bpm")
 
 
 def test_the_tempo_is_that_of_the_grid() -> None:
     text = f'title = "T"\ntempo_bpm = 60\n[[grid]]\nsnare = "o"\n[[grid]]\ntempo_bpm = 240\n{KICK}\n'
     (found,) = faults(text)
     assert found.text.startswith("too fast at 240: ")
-    assert found.text.endswith("playable up to 166 bpm")
+    assert found.text.endswith("playable up to 173 bpm")
 
 
 def test_grace_strokes_keep_their_milliseconds_at_every_tempo() -> None:
@@ -63,10 +64,10 @@ def test_grace_strokes_keep_their_milliseconds_at_every_tempo() -> None:
 
 
 def test_slow_tempi_are_told_in_tenths() -> None:
-    """A bar of 64 strokes of the kick a quarter: eight of them last 7.5/bpm s; 720 ms at 10.42 bpm."""
+    """Kicks, 64 a quarter: six of them last 4.6875/bpm s; 433 ms at 10.83 bpm."""
     grid = 'kick = "(' + "o" * 64 + ')---"'
     (found,) = words(grid, "tempo_bpm = 30")
-    assert found.endswith("playable up to 10.4 bpm")
+    assert found.endswith("playable up to 10.8 bpm")
 
 
 def test_a_drag_that_no_tempo_mends_names_none() -> None:
@@ -87,6 +88,16 @@ def test_the_loop_starts_again() -> None:
     (found,) = words(grid, "tempo_bpm = 60")
     expected = "the right foot needs 2 strokes in 62 ms; people need 70 as the loop starts again; playable up to 53 bpm"
     assert found == f"too fast at 60: {expected}"
+
+
+@pytest.mark.parametrize(("grid", "tempo"), [(RIGHT, 157), (KICK, 173)])
+def test_the_drummer_on_a_kit_agrees(grid: str, tempo: int) -> None:
+    """What a lesson may ask, the drummer is not warned of, and one beat a minute more they both refuse."""
+    kit, lesson = load_kit(DEFAULT_KIT), read(grid, f"tempo_bpm = {tempo}")
+    assert assign_limbs(lesson.score, kit).warnings == ()
+    (warning,) = assign_limbs(lesson.score.at_speed((tempo + 1) / tempo), kit).warnings
+    assert "strokes a second of one" in warning
+    assert words(grid, f"tempo_bpm = {tempo + 1}")
 
 
 @pytest.mark.parametrize(

@@ -2,9 +2,12 @@
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-from station.motion.style.lanes import drawn, in_passes, value_at, with_moved, with_point, without_point
+from station.motion.drummer import Drummer
+from station.motion.style.lanes import drawn, in_passes, in_turn, value_at, with_moved, with_point, without_point
 from station.motion.style.style import Style
+from tests.fakes.scores import rock_beat
 
 RAMP = ((1.0, 20.0), (5.0, 60.0))
 
@@ -57,3 +60,41 @@ def test_every_pass_has_the_lessons_own_bars() -> None:
 def test_a_style_without_lanes_stays_as_it_is() -> None:
     style = Style(amplitude_gain=30.0)
     assert in_passes(style, 2, 2, 3) is style
+
+
+def test_styles_in_turn_change_evenly_over_half_a_bar() -> None:
+    large, small = Style(whip=80.0, posture_deg=10.0), Style(whip=20.0)
+    lanes = in_turn(Style(), [(3.0, large), (5.0, small)]).automation
+    assert set(lanes) == {"whip", "posture_deg"}
+    assert [value_at(lanes["whip"], bar) for bar in (1.0, 3.0, 3.25, 3.5, 5.0, 5.25, 5.5, 9.0)] == pytest.approx(
+        [50, 50, 65, 80, 80, 50, 20, 20]
+    )
+    assert [value_at(lanes["posture_deg"], bar) for bar in (3.0, 4.0, 6.0)] == pytest.approx([6, 10, 6])
+
+
+def test_a_style_at_the_first_bar_is_there_at_once_and_grips_stay() -> None:
+    changed = in_turn(Style(), [(1.0, Style(whip=80.0, grip_left="traditional", mood="joyful"))])
+    assert changed.value("whip", [0.0, 1.0, 8.0]).tolist() == [80, 80, 80]
+    assert (changed.grip_left, changed.mood) == ("american", "focused")
+
+
+def test_the_lane_of_a_style_lasts_until_the_next_style() -> None:
+    lane = Style(automation={"whip": ((1.0, 0.0), (5.0, 100.0))})
+    lanes = in_turn(lane, [(3.0, Style(whip=10.0))]).automation
+    assert [value_at(lanes["whip"], bar) for bar in (1.0, 2.0, 3.0, 3.5, 5.0)] == pytest.approx([0, 25, 50, 10, 10])
+
+
+def test_nothing_jumps_where_the_style_changes() -> None:
+    """Tips and joints go no farther in a millisecond than those of the two styles played alone (2 % of measure)."""
+    score, wild = rock_beat(4), Style(amplitude_gain=90.0, amplitude_neck=90.0, amplitude_twist=90.0, whip=80.0)
+    mixed, pure = in_turn(Style(), [(2.0, wild), (4.0, Style())]), (Style(), wild)
+    plain = Drummer(score)
+    alone = [steps_m(plain.with_style(style), score.length_ns) for style in pure]
+    assert (steps_m(plain.with_style(mixed), score.length_ns) <= 1.02 * np.maximum(*alone)).all()
+
+
+def steps_m(drummer: Drummer, length_ns: int) -> NDArray[np.float64]:
+    """The farthest that a tip and that a joint moves in a millisecond."""
+    poses = [drummer.pose(at_ns / 1e9) for at_ns in range(0, length_ns, 1_000_000)]
+    places = [np.array([pose.tip_m for pose in poses]), np.array([pose.joints_m for pose in poses])]
+    return np.array([np.linalg.norm(np.diff(at, axis=0), axis=-1).max() for at in places])

@@ -3,12 +3,15 @@
 Students skip a bar, begin anew, come in at the middle or stop; the strokes are laid out in bars of the lesson's score.
 """
 
+from dataclasses import replace
+
 import pytest
 
 from station.core.events import Hit, SensorLost, SensorMounted
 from station.core.imu import Mounting
 from station.core.pieces import Limb
 from station.core.units import NS_PER_MS, NS_PER_S
+from station.drills.lesson import BarCue
 from station.drills.library import find_lesson
 from station.engine.messages import Started
 from station.music.judgement import Judgement, Label
@@ -93,3 +96,17 @@ def test_sensors_on_the_sticks_are_named_as_they_come() -> None:
     assert words.count("x-IMU3 1 is here, on the stick in the right hand") == 2
     assert words.count("x-IMU3 2 is here") == 1
     assert words.endswith("back\nx-IMU3 1 is here, on the stick in the right hand")
+
+
+def test_the_teacher_s_words_are_told_once_as_their_bar_comes() -> None:
+    cues = (BarCue(0, say="Ghosts low"), BarCue(3, say="Now the fill"))
+    plan = plan_practice(replace(PLAN.lesson, cues=cues), PlanOptions(loops=1, demonstrations=0))
+    session, written = Session(plan), list[str]()
+    text = LiveText(written.append, ["two kicks"])
+    session.handle(Started(0))
+    for now_ns in range(0, plan.end_ns, NS_PER_S // 4):
+        session.advance(now_ns)
+        text.show(session, ())
+    words = "".join(written)
+    assert words.count("Ghosts low") == words.count("Now the fill") == 1
+    assert words.index("Count-in") < words.index("Ghosts low") < words.index("Now the fill")

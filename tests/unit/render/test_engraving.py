@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.music.score import Note
+from station.music.score import Note, Score
+from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.notation.engraving import BOTTOM_Y, TOP_Y, Engraver
 from station.render.notation.staff import PLACES, NoteHead, head_of, height, ledger_steps
 from station.render.snapshot import BarNumbers
@@ -231,3 +232,22 @@ def test_nothing_leaves_the_staff_s_room() -> None:
     low = shapes["centre"][:, 1] + np.abs(shapes["axis"][:, 1]) * shapes["half"][:, 0]
     assert low.max() < BOTTOM_Y + 0.3
     assert shapes["centre"][:, 1].min() > TOP_Y
+
+
+def test_a_change_of_meter_tells_its_groups() -> None:
+    tempo_map = TempoMap.build([], [MeterChange(0, 4, 4), MeterChange(4 * PPQ, 7, 8, (3, 2, 2))])
+    score = Score.from_notes([Note(0, Piece.SNARE), Note(4 * PPQ, Piece.SNARE)], tempo_map)
+    shapes = Engraver(score, ATLAS).bar(1)
+    assert [letters(shapes, character) for character in "3+8/"] == [1, 2, 1, 1]
+    assert letters(shapes, "2") == 3, "two groups, and the bar's own number"
+
+
+def test_a_new_tempo_is_a_number_and_a_ramp_a_word_with_its_target() -> None:
+    steps = [TempoChange.from_bpm(8 * PPQ + k * PPQ // 4, 95 - 40 * k / 16) for k in range(16)]
+    tempo_map = TempoMap.build([TempoChange.from_bpm(0, 80), TempoChange.from_bpm(4 * PPQ, 95), *steps])
+    engraver = Engraver(Score.from_notes([Note(11 * PPQ, Piece.SNARE)], tempo_map), ATLAS)
+    bars = [engraver.bar(bar) for bar in range(3)]
+    assert [letters(shapes, "=") for shapes in bars] == [0, 1, 1]
+    assert [letters(shapes, "9") for shapes in bars] == [0, 1, 0]
+    assert [(letters(bars[2], character)) for character in "rit."] == [1, 1, 2, 1]
+    assert letters(bars[2], "5") == 2, "the target, 55"

@@ -3,13 +3,17 @@
 from dataclasses import replace
 from pathlib import Path
 
+from station.core.named_view import NamedView
+from station.core.units import NS_PER_S
+from station.drills.lesson import BarCue
 from station.drills.library import find_lesson
+from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import load_figure
 from station.motion.style.style import Style
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.scenes.demonstrator import Demonstrator
-from station.scenes.pictures import drummer_of
+from station.scenes.pictures import directed, drummer_of, picture_of
 from station.simulation.student_spec import parse_spec
 
 
@@ -21,3 +25,13 @@ def test_the_picture_shows_who_demonstrated_in_his_own_style(tmp_path: Path) -> 
     assert drummer.style.amplitude_gain == 80.0
     assert drummer.figure is demonstrator.figure
     assert drummer.score is result.score
+
+
+def test_a_film_follows_the_words_and_views_of_the_lesson_s_cues() -> None:
+    """rock-1 at 80 beats a minute: a bar lasts three seconds."""
+    score = find_lesson("rock-1").score
+    drummer, end_s = Drummer(score), score.length_ns / NS_PER_S
+    cues = (BarCue(0, camera="hands"), BarCue(1, say="Ghosts low", camera="feet"))
+    shown = [directed(picture_of(drummer, at_s), cues) for at_s in (-0.5, 1.0, 4.0, end_s + 0.5)]
+    assert [one.view for one in shown] == [NamedView.HANDS, NamedView.HANDS, NamedView.FEET, NamedView.FEET]
+    assert [one.hud.say for one in shown] == ["", "", "Ghosts low", ""]

@@ -6,21 +6,29 @@ A drummer made from nothing for the demonstrated bars says where the sticks must
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from threading import Event
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from station.core.named_view import NamedView
+from station.core.pieces import Piece, Zone
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
+from station.drills.lesson import BarCue
 from station.drills.library import find_lesson
 from station.engine.messages import Started
 from station.motion.drummer import Drummer
 from station.motion.sticking.hand_notes import Hands
 from station.motion.style.style import Style
+from station.motion.style.style_file import load_style
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
 from station.practice.session.plan import Phase, Plan, PlanOptions, plan_practice
 from station.practice.session.session import Session
+from station.render.snapshot import Snapshot
 from station.scenes.demonstrator import Demonstrator, demonstrator_of
 from station.scenes.session_part import AHEAD
 from station.scenes.session_scene import SessionView
@@ -185,3 +193,52 @@ def test_the_place_in_the_passes_is_told_while_they_are_played() -> None:
     second = start_of(PLAN, Phase.PASS, 1)
     assert place_s(second + NS_PER_S // 2) == pytest.approx(PLAN.section.length_ns / NS_PER_S + 0.5)
     assert place_s(start_of(PLAN, Phase.DEMONSTRATION) + NS_PER_S) is None
+
+
+def shown(view: SessionView, plan: Plan, at_ns: int) -> Snapshot:
+    session = Session(plan)
+    session.handle(Started(0, None))
+    session.advance(at_ns)
+    return view.snapshot(session, at_ns)
+
+
+def test_the_teacher_s_words_and_view_come_with_their_bar_in_demonstrations_and_passes() -> None:
+    """A bar of rock-2 at 80 beats a minute lasts three seconds."""
+    cues = (BarCue(0, camera="hands"), BarCue(1, say="Ghosts low", camera="feet"))
+    plan = plan_practice(replace(PLAN.lesson, cues=cues), PlanOptions(tempo_bpm=80.0, loops=1, demonstrations=1))
+    view, bar_ns = SessionView(plan), 3 * NS_PER_S
+    at = [(s.phase, s.start_ns) for s in plan.segments]
+    assert [(s.view, s.hud.say) for s in (shown(view, plan, start + bar_ns // 2) for _, start in at)] == [
+        (NamedView.HANDS, "")
+    ] * 4
+    for start in (start_of(plan, Phase.DEMONSTRATION), start_of(plan, Phase.PASS)):
+        second = shown(view, plan, start + bar_ns * 3 // 2)
+        assert (second.view, second.hud.say) == (NamedView.FEET, "Ghosts low")
+    assert shown(view, plan, plan.end_ns + 1).view is None
+
+
+def test_a_style_at_a_bar_moves_the_demonstrator_from_there_on() -> None:
+    plan = plan_practice(replace(PLAN.lesson, cues=(BarCue(1, style="wild"),)), PlanOptions(loops=1, demonstrations=1))
+    start_ns, bar_s = start_of(plan, Phase.DEMONSTRATION), plan.section.length_ns / NS_PER_S / plan.section.bar_count
+    taught, plain = SessionView(plan), Drummer(plan.section, plan.kit)
+    wild = plain.with_style(load_style("wild").holding_as(Style()))
+
+    def off(drummer: Drummer, at_s: float) -> float:
+        pose = shown(taught, plan, start_ns + round(at_s * NS_PER_S)).pose
+        assert pose is not None
+        return float(np.abs(pose.tip_m - drummer.pose(at_s).tip_m).max())
+
+    assert max(off(plain, part * bar_s) for part in (0.3, 0.55, 0.7)) < 1e-6
+    late = [part * bar_s for part in (1.55, 1.63, 1.8, 1.9)]
+    assert max(off(plain, at_s) for at_s in late) > 0.02
+    assert max(off(wild, at_s) for at_s in late) < 1e-3
+
+
+def test_the_landing_is_counted_with_the_last_pass_and_has_the_next_bar_s_number() -> None:
+    crash = Score.from_notes([Note(0, Piece.CRASH_1, Zone.EDGE)], TempoMap()).notes
+    plan = plan_practice(replace(PLAN.lesson, landing=crash), PlanOptions(loops=2, demonstrations=1))
+    view, last = SessionView(plan), plan.section.bar_count
+    hud = shown(view, plan, plan.end_ns - NS_PER_S).hud
+    assert (hud.phase, hud.bar, hud.bar_count) == ("Pass 2 of 2", last + 1, last + 1)
+    numbers = shown(view, plan, plan.end_ns - NS_PER_S).bar_numbers
+    assert [numbers.of(bar) for bar in range(2 * last + 1)] == [*range(1, last + 1)] * 2 + [last + 1]
