@@ -13,7 +13,7 @@ from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Pie
 from station.core.units import PPQ
 from station.drills import library
 from station.drills.lesson import Lesson
-from station.drills.library import lesson_names
+from station.drills.library import lesson_names, lessons_dir
 from station.motion.feasibility.playable import impossible
 from station.music.score import Note
 
@@ -194,7 +194,11 @@ def test_a_fill_lesson_is_three_bars_and_a_fill_that_lands(name: str) -> None:
     landing = {n.piece for n in lesson.score if n.tick == 0}
     assert Piece.KICK in landing
     assert Piece.CRASH_1 in landing or {"country", "funk", "latin"} & set(lesson.tags)
-    assert {Piece.KICK, Piece.CRASH_1} <= set(lesson.landing["piece"].tolist())
+
+
+@pytest.mark.parametrize("name", sorted(path.stem for path in (lessons_dir() / "fills").glob("*.toml")))
+def test_the_last_fill_lands_on_crash_and_kick(name: str) -> None:
+    assert {Piece.KICK, Piece.CRASH_1} <= set(find_lesson(name).landing["piece"].tolist())
 
 
 @pytest.mark.parametrize("name", [n for n in lesson_names() if find_lesson(n).prerequisites])
