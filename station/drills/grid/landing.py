@@ -28,8 +28,8 @@ def read_landing(
 ) -> tuple[NDArray[np.void], list[Origin]]:
     """The strokes (n,) of `NOTE_DTYPE` of the table at `path`, all on tick 0, and their letters.
 
-    `timing` says how they are struck. Faults are noted in full; where there are some the strokes are those that could be
-    read.
+    `timing` says how they are struck. Faults are noted in full; where there are some, the strokes are those that
+    could be read.
     """
     values, found = checked_values(raw, LINES, "line")
     lines = lines_of_table(values, path, found)
