@@ -27,20 +27,20 @@ from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 
 COMMON = MeterChange(0, 4, 4)
-METERS = ("4/4", "3/4", "2/4", "5/4", "6/8", "12/8", "7/8", "2/2")
+METERS = ("4/4", "3/4", "2/4", "5/4", "6/8", "12/8", "7/8", "2/2", "3+2+2/8", "2+3/4")
 PIECES = (Piece.SNARE, Piece.HIHAT, Piece.RIDE, Piece.CRASH_1, Piece.TOM_1, Piece.KICK, Piece.HIHAT_PEDAL)
 
 
 @st.composite
-def bars(draw: st.DrawFn, piece: Piece, beats: int, beat_is_unit: bool) -> str:
-    """One bar of a line: plain cells, some beats in parentheses where a beat is one of the meter's."""
+def bars(draw: st.DrawFn, piece: Piece, groups: list[int]) -> str:
+    """One bar of a line: plain cells, some beats or groups in parentheses."""
     letters = "--" + "".join(SYMBOLS[family_of(piece)]) + ("#" if piece is Piece.CRASH_1 else "")
     letters += "~" if piece is Piece.SNARE else ""
     cells = draw(st.sampled_from((1, 2, 3, 4)))
     out = ""
-    for _ in range(beats):
-        tuplet = beat_is_unit and draw(st.integers(0, 5)) == 0
-        count = draw(st.sampled_from((3, 5, 6))) if tuplet else cells
+    for beats in groups:
+        tuplet = draw(st.integers(0, 5)) == 0
+        count = draw(st.sampled_from((3, 5, 6, 9, 14))) if tuplet else cells * beats
         beat = draw(st.text(letters, min_size=count, max_size=count))
         out += f"({beat})" if tuplet else f"{beat} "
     return out
@@ -50,20 +50,21 @@ def bars(draw: st.DrawFn, piece: Piece, beats: int, beat_is_unit: bool) -> str:
 def lessons(draw: st.DrawFn) -> Lesson:
     """Any lesson that the grid can say and that two hands and two feet can play."""
     meter = draw(st.sampled_from(METERS))
-    beats = int(meter.split("/")[0])
+    top, unit = meter.split("/")
+    groups = [int(group) for group in top.split("+")] if "+" in top else [1] * int(top)
     head = [
         'title = "T"',
         f"tempo_bpm = {draw(st.sampled_from((40, 61.5, 90)))}",
         f'meter = "{meter}"',
-        f'beat = "1/{meter.split("/")[1]}"',
+        f'beat = "1/{unit}"',
         f"swing_ratio = {draw(st.sampled_from((1.0, 1.5, 2.0, 3.0)))}",
-        f'swing_unit = "1/{16 if meter.endswith("8") else draw(st.sampled_from((8, 16)))}"',
+        f'swing_unit = "1/{16 if unit == "8" else draw(st.sampled_from((8, 16)))}"',
     ]
     grids = []
     for _ in range(draw(st.integers(1, 2))):
         chosen = draw(st.sets(st.sampled_from(PIECES), min_size=1, max_size=4))
         count = draw(st.integers(1, 3))
-        lines = [f'{word(p)} = "{"|".join(draw(bars(p, beats, True)) for _ in range(count))}"' for p in sorted(chosen)]
+        lines = [f'{word(p)} = "{"|".join(draw(bars(p, groups)) for _ in range(count))}"' for p in sorted(chosen)]
         grids.append("\n".join(["[[grid]]", *lines]))
     reading = parse_lesson("\n".join([*head, *grids]), "t", "t")
     assume(reading.lesson is not None)
@@ -163,6 +164,7 @@ def test_swing_keeps_order_and_the_beats(ratio: float, ticks: list[int], cut: in
 pieces_of_files = st.sampled_from(
     [
         *('"', "'", '"""', "[", "]", "[[grid]]", "[grid]", "=", "\n", "\n", "#", "{", "}", ",", "\\", " ", "é", "\x00"),
+        *("loudness", "bars", "[[grid.cycle]]", "[landing]", "[graces]", '"3+2/8"', "mf-<-f", "[[grid]]\nlike = "),
         *("snare", "sticking", "right_hand.", "o-o-", "(", ")", "|", "%", "%3", "~", "RLB", "1.5", "-7", "true", "1/4"),
         *FIELDS,
         *list(LINE_PIECES)[:6],
@@ -187,12 +189,26 @@ loop = [1, 2]
 [dynamics]
 ghost = 30
 [[grid]]
-hihat    = "| xxxx (xxx) xxxx xxxx | % |"
+hihat    = "| xxxx (-xx) xxxx ---- | % |"
 snare    = "| ---- f---  ---- b~~~ | - |"
-sticking = "| R--- L-- - R--- ---- | - |"
+sticking = "| R--- L--- R--- L--- | - |"
+loudness = "| p--- <--- ---- ---f | - |"
 [[grid]]
-left_hand.tom_1 = "oo"
+meter = ["3+2+2/8", "4/4"]
+tempo_to_bpm = 60
+left_hand.tom_1 = "oov ww (ooooooooo) | oo"
+[[grid.cycle]]
+meter = "5/8"
+kick = "o--o-"
+[grid.graces]
+flam_ms = 20
+[landing]
+crash = "X"
 """
+
+
+def test_the_lesson_is_sound() -> None:
+    assert parse_lesson(LESSON, "t", "t").faults == []
 
 
 @given(st.integers(0, len(LESSON) - 1), pieces_of_files | st.just(""))
