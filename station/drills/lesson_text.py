@@ -20,8 +20,8 @@ from station.drills.line_layout import Meters, bar_count, laid_out
 from station.drills.written_meters import written_meters
 
 _LINE_KEYS = frozenset({*LINE_PIECES, "sticking", "loudness"})
-_COUNT = re.compile(r"#[ ]{2,}1[\d&eat· ]*")
-"""A count that `show` or a teacher wrote above the lines: a 1 first, then digits and the syllables between them."""
+_COUNT = re.compile(r"#[ ]{2,}1[\d&.·a-z]*(?: +\d[\d&.·a-z]*)*")
+"""A count that `show` or a teacher wrote above the lines: words of a digit and syllables, the first with a 1."""
 _BLANKS_AT_END = re.compile(r"[ \t]+(?=\n|$)")
 
 

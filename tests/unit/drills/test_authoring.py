@@ -29,6 +29,30 @@ def test_the_examples_of_the_manual_are_lessons() -> None:
         assert parse_lesson(example, "docs/lessons.md", "example").faults == []
 
 
+FAULTY = """\
+title = "T"
+tempo_bpm = 100
+form = ["groove", "fil"]
+
+[[grid]]
+name = "groove"
+#                1e&a 2e&a 3e&a 4e&a
+hihat       = "| x-x- x-x- x-x x-o- |"
+snare       = "| ---- O--g -q-- O--- |"
+[[grid]]
+name = "fill"
+kik         = "| o-o- ---- --o- ---- |"
+[goals]
+target_tempo_bpm = 90
+"""
+
+
+def test_the_faults_of_the_manual_are_told_so() -> None:
+    text = DOCS.read_text(encoding="utf-8")
+    faults = parse_lesson(FAULTY, "my-groove.toml", "my-groove").faults
+    assert "\n".join(map(str, faults)) in text
+
+
 def test_the_manual_has_every_letter_and_every_key() -> None:
     text = DOCS.read_text(encoding="utf-8")
     for key in FIELDS:
