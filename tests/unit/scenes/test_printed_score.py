@@ -6,7 +6,6 @@ from station.core.units import PPQ
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import parse_lesson
 from station.scenes.printed_score import as_printed
-from station.scenes.sheets import lesson_labels
 
 
 def lesson_of(text: str) -> Lesson:
@@ -33,8 +32,7 @@ def test_a_swing_of_two_stays_in_triplets() -> None:
     assert quarters(lesson) == pytest.approx([0, 2 / 3, 1, 4 / 3, 5 / 3, 2, 2.5])
 
 
-def test_each_section_is_printed_by_its_own_swing_and_says_it() -> None:
+def test_each_section_is_printed_by_its_own_swing() -> None:
     straight = '[[grid]]\nname = "a"\nsnare = "oo -- -- --"\n'
     lesson = lesson_of(f'{straight}[[grid]]\nname = "b"\nswing_ratio = 1.5\nsnare = "oo -- -- --"')
     assert quarters(lesson) == [0, 0.5, 4, 4.5]
-    assert lesson_labels(lesson, (0, 1)).sections == ((0, "a"), (1, "b (swing 1.5 : 1)"))
