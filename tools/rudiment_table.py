@@ -7,8 +7,10 @@ Ours is read from the lessons' scores: hands, accents, grace strokes, the time f
 
 from collections.abc import Sequence
 from fractions import Fraction
-from itertools import groupby, pairwise
+from itertools import groupby
 from pathlib import Path
+
+import numpy as np
 
 from station.core.pieces import Dynamic, Limb
 from station.core.units import PPQ
@@ -74,8 +76,8 @@ def first_round(lesson: Lesson, strokes: int) -> list[ChartStroke]:
 
 def strokes_a_second(lesson: Lesson) -> float:
     """Of the hands where they are densest, at the lesson's own tempo."""
-    onsets = [lesson.score.tempo_map.ns_at(n.tick) for n in main_strokes(lesson)]
-    return 1e9 / min(b - a for a, b in pairwise(onsets))
+    onset_ns = lesson.score.tempo_map.ns_at(np.array([n.tick for n in main_strokes(lesson)]))
+    return 1e9 / float(np.diff(onset_ns).min())
 
 
 def _spelt(strokes: Sequence[ChartStroke]) -> str:

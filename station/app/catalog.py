@@ -2,15 +2,17 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from station.app.lesson_cards import all_lessons, card
+from station.app.lesson_cards import card, own_lessons
 from station.app.room_state import LessonCard
 from station.app.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.drills.course import Course
 from station.drills.lesson import Lesson
-from station.drills.library import courses_in, find_lesson, shipped_courses
-from station.practice.records.lesson_progress import LessonProgress, progress_of
+from station.drills.lesson_row import row_of
+from station.drills.library import courses_in, find_lesson, lesson_rows, shipped_courses
+from station.practice.records.lesson_progress import LessonProgress
 from station.practice.records.memory import LevelMemory
+from station.practice.records.student_progress import student_progress
 from station.scoring.matching.hit_windows import Level
 
 
@@ -22,20 +24,26 @@ class Catalog:
 
     def __init__(self, store: SettingsStore, first: Lesson, notify: Callable[[str], None]) -> None:
         self._store, self._first, self._notify = store, first, notify
-        self._lessons: dict[str, Lesson] | None = None
+        self._own: dict[str, Lesson] = {}
+        self._cards: Sequence[LessonCard] | None = None
         self._courses: Sequence[Course] | None = None
         self._progress: tuple[str, Mapping[str, LessonProgress]] | None = None
         self._levels: tuple[str, Mapping[str, Level]] | None = None
 
     def first_card(self) -> LessonCard:
         """The lesson that is chosen when the window opens, which is there sooner than all others."""
-        return card(self._first)
+        return card(row_of(self._first))
 
     def cards(self) -> Sequence[LessonCard]:
         """Every lesson that can be chosen, in the order in which they are shown; the first call takes a moment."""
-        if self._lessons is None:
-            self._lessons = all_lessons(self._first, self.courses())
-        return [card(lesson) for lesson in self._lessons.values()]
+        if self._cards is None:
+            rows = {row.name: row for row in lesson_rows()}
+            self._own = own_lessons(self.courses(), rows)
+            rows |= {name: row_of(lesson) for name, lesson in self._own.items()}
+            kind = rows[self._first.name].folder if self._first.name in rows else ""
+            rows[self._first.name] = row_of(self._first, kind)
+            self._cards = [card(row) for row in rows.values()]
+        return self._cards
 
     def courses(self) -> Sequence[Course]:
         """The user's own courses, then those that ship; a file that cannot be read is left out."""
@@ -50,7 +58,7 @@ class Catalog:
         """How far the student is, by the names of lessons, when a session was kept last."""
         settings = self._store.now
         if self._progress is None or self._progress[0] != settings.student:
-            self._progress = settings.student, progress_of(settings.sessions_dir, settings.student)
+            self._progress = settings.student, student_progress(settings.sessions_dir, settings.student)
         return self._progress[1]
 
     def levels(self) -> Mapping[str, Level]:
@@ -85,5 +93,5 @@ class Catalog:
 
     def lesson(self, name: str) -> Lesson:
         """The lesson of a name or a file; raises `BadInput`."""
-        known = {self._first.name: self._first} | (self._lessons or {})
+        known = self._own | {self._first.name: self._first}
         return known.get(name) or find_lesson(name)

@@ -1,15 +1,15 @@
 """The lessons as the window's list shows them, and what a plan was asked for as."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from contextlib import suppress
 from pathlib import Path
 
 from station.app.room_state import LessonCard, SessionRequest
 from station.core.errors import BadInput
-from station.core.units import PPQ
 from station.drills.course import Course, lesson_name
 from station.drills.lesson import LEVELS, Lesson
-from station.drills.library import read_lesson, shipped_lessons
+from station.drills.lesson_row import LessonRow
+from station.drills.library import read_lesson
 from station.practice.session.plan import Phase, Plan
 
 
@@ -23,31 +23,32 @@ def request_of(plan: Plan) -> SessionRequest:
     )
 
 
-def all_lessons(first: Lesson, courses: Iterable[Course]) -> dict[str, Lesson]:
-    """Every shipped lesson by name, those that `courses` have beside them and that can be read, and `first`."""
-    known = {lesson.name: lesson for lesson in shipped_lessons()}
+def own_lessons(courses: Iterable[Course], shipped: Collection[str]) -> dict[str, Lesson]:
+    """The lessons that `courses` bring with them, none of them `shipped`, by name; what cannot be read is left out."""
+    own: dict[str, Lesson] = {}
     for found_by in dict.fromkeys(lesson for course in courses for lesson in course.lessons):
-        if lesson_name(found_by) not in known:
+        if lesson_name(found_by) not in shipped:
             with suppress(BadInput):  # `station lesson check` tells what is wrong with it
-                known[lesson_name(found_by)] = read_lesson(Path(found_by))
-    return known | {first.name: first}
+                own[lesson_name(found_by)] = read_lesson(Path(found_by))
+    return own
 
 
-def card(lesson: Lesson) -> LessonCard:
+def card(row: LessonRow) -> LessonCard:
     """The lesson's line in the list."""
-    meter = lesson.score.tempo_map.meters[0]
     return LessonCard(
-        name=lesson.name,
-        title=lesson.title,
-        level=lesson.level,
-        level_words=LEVELS[lesson.level],
-        about=lesson.about,
-        author=lesson.author,
-        tempo_bpm=lesson.tempo_bpm,
-        bars=lesson.loop[1] - lesson.loop[0] + 1,
-        passes=lesson.passes,
-        meter=str(meter),
-        tags=lesson.tags,
-        beat_quarters=lesson.beat_ticks / PPQ,
-        levels=lesson.levels,
+        name=row.name,
+        title=row.title,
+        level=row.level,
+        level_words=LEVELS[row.level],
+        about=row.about,
+        author=row.author,
+        tempo_bpm=row.tempo_bpm,
+        bars=row.loop_bars,
+        passes=row.passes,
+        meter=row.meter,
+        tags=row.tags,
+        beat_quarters=row.beat_quarters,
+        levels=row.levels,
+        kind=row.folder,
+        prerequisites=row.prerequisites,
     )

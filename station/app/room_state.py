@@ -20,7 +20,8 @@ class LessonCard:
     """A lesson as the list shows it; `bars` in its loop, `passes` as its author wants them.
 
     `level` 1–5 says how hard it is, `levels` how strictly it may be judged.
-    `tempo_bpm` counts quarter notes, `beat_quarters` is how many make the beat that a teacher counts.
+    `tempo_bpm` counts quarter notes, `beat_quarters` is how many make the beat that a teacher counts. `kind` is the
+    folder that it ships in, empty for the user's own; `prerequisites` name the lessons that come before.
     """
 
     name: str
@@ -36,6 +37,8 @@ class LessonCard:
     tags: tuple[str, ...] = ()
     beat_quarters: float = 1.0
     levels: LevelRange = ANY_LEVEL
+    kind: str = ""
+    prerequisites: tuple[str, ...] = ()
 
     @property
     def beats_a_minute(self) -> float:

@@ -6,12 +6,25 @@ from types import MappingProxyType
 
 from station.app.room_state import FreeRequest, LessonCard, SessionRequest
 from station.drills.course import Course
+from station.practice.records.lesson_order import first_words, is_finished, is_mastered
 from station.practice.records.lesson_progress import LessonProgress
 from station.scoring.matching.hit_windows import Level
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 30, 260
 """The tempo slider's ends (our choice); a lesson outside widens them."""
 MAX_LOOPS = 32
+
+
+OWN = "Your own"
+"""What lessons are called that do not ship."""
+
+
+@dataclass(frozen=True, slots=True)
+class LessonGroup:
+    """Lessons that are listed under one `title`: a kind, or a part of a course (empty: it has no parts)."""
+
+    title: str
+    cards: tuple[LessonCard, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,20 +69,30 @@ class Selection:
         return replace(self, lessons=tuple(lessons), courses=tuple(courses), course=followed)
 
     def follow(self, course: Course | None) -> "Selection":
-        """List a course, and choose its first lesson that is not mastered yet, the last where all are."""
+        """List a course, and choose its first lesson that is not finished yet, the last where all are."""
         listed = replace(self, course=course, search="")
         if course is None:
             return listed
         cards = listed.visible()
-        ahead = [card for card in cards if not self._is_mastered(card.name)] or cards[-1:]
+        ahead = [card for card in cards if not self._is_finished(course, card)] or cards[-1:]
         return listed.choose(ahead[0]) if ahead else listed
 
-    def mastered(self, course: Course) -> int:
-        """How many lessons of a course are mastered."""
-        return sum(map(self._is_mastered, course.lesson_names))
+    def finished(self, course: Course, names: Sequence[str] | None = None) -> int:
+        """How many lessons of a course are, all of it or of those `names`."""
+        wanted = set(course.lesson_names if names is None else names)
+        return sum(self._is_finished(course, card) for card in self.lessons if card.name in wanted)
 
-    def _is_mastered(self, name: str) -> bool:
-        return name in self.progress and self.progress[name].is_mastered
+    def _is_finished(self, course: Course, card: LessonCard) -> bool:
+        return is_finished(course, card.name, self.progress, card.levels)
+
+    def mastered(self, cards: Sequence[LessonCard]) -> int:
+        """How many of some lessons are, at any level."""
+        return sum(is_mastered(card.name, self.progress) for card in cards)
+
+    def first_words(self, card: LessonCard) -> list[str]:
+        """A line for each lesson that should come before: its title, and whether it is mastered."""
+        titles = {each.name: each.title for each in self.lessons}
+        return first_words(card.prerequisites, self.progress, lambda name: titles.get(name, name))
 
     def choose(self, card: LessonCard) -> "Selection":
         """Take a lesson at the tempo, with the passes and the bars that its author wants."""
@@ -106,14 +129,26 @@ class Selection:
         """What to begin where just playing is chosen."""
         return FreeRequest(float(self.tempo_bpm), self.click) if self.free else None
 
-    def visible(self) -> list[LessonCard]:
-        """The lessons, in a course's order or the list's, whose words contain every word of the search."""
-        lessons: Sequence[LessonCard] = self.lessons
-        if self.course is not None:
-            known = {card.name: card for card in self.lessons}
-            lessons = [known[name] for name in self.course.lesson_names if name in known]
+    def groups(self) -> list[LessonGroup]:
+        """The lessons whose words contain every word of the search: by kinds, or by the parts of a course, in order."""
+        named = self._by_kind() if self.course is None else self._by_part(self.course)
         words = self.search.casefold().split()
-        return [card for card in lessons if all(word in _text(card) for word in words)]
+        found = [(title, tuple(card for card in cards if _has(card, words))) for title, cards in named]
+        return [LessonGroup(title, cards) for title, cards in found if cards]
+
+    def _by_kind(self) -> list[tuple[str, list[LessonCard]]]:
+        kinds: dict[str, list[LessonCard]] = {}
+        for card in self.lessons:
+            kinds.setdefault(card.kind, []).append(card)
+        return [(kind.capitalize() or OWN, cards) for kind, cards in kinds.items()]
+
+    def _by_part(self, course: Course) -> list[tuple[str, list[LessonCard]]]:
+        known = {card.name: card for card in self.lessons}
+        return [(part.title, [known[name] for name in part.lesson_names if name in known]) for part in course.parts]
+
+    def visible(self) -> list[LessonCard]:
+        """The lessons of all groups."""
+        return [card for group in self.groups() for card in group.cards]
 
     def request(self) -> SessionRequest | None:
         """What to start; None where no lesson is chosen."""
@@ -128,5 +163,9 @@ class Selection:
         return request
 
 
+def _has(card: LessonCard, words: Sequence[str]) -> bool:
+    return all(word in _text(card) for word in words)
+
+
 def _text(card: LessonCard) -> str:
-    return " ".join([card.title, card.name, card.author, card.level_words, *card.tags]).casefold()
+    return " ".join([card.title, card.name, card.kind, card.author, card.level_words, *card.tags]).casefold()

@@ -7,11 +7,13 @@ from pathlib import Path
 from station.core import measured_latency, settings
 from station.core.errors import BadInput
 from station.core.schema import Reader, reading
-from station.core.toml_faults import Fault
+from station.core.toml_faults import Fault, Noted, placed
 from station.core.toml_source import Source
 from station.devices.mapping import device_file, stick_file
 from station.drills import course, lesson_fields, lesson_file
-from station.drills.library import lessons_for
+from station.drills.lesson import Lesson
+from station.drills.library import course_prerequisites, lesson_prerequisites, lessons_for
+from station.drills.prerequisites import order_faults
 from station.motion.kinematics import figure
 from station.motion.kit import kit
 from station.motion.style import style_file
@@ -65,24 +67,73 @@ def kind_of(path: Path, source: Source) -> TomlKind:
 
 
 def check_files(paths: Sequence[str]) -> tuple[list[Fault], int]:
-    """Every fault of the files at `paths` (TOML files of any kind, or folders of them), and how many were read."""
+    """Every fault of the files at `paths` (TOML files of any kind, or folders of them), and how many were read.
+
+    What lessons and courses name as coming before them is looked for among these files and those that ship.
+    """
     faults: list[Fault] = []
-    count = 0
+    read: list[TomlFile] = []
     for given in paths:
         path = Path(given)
         files = sorted(path.rglob(_ENDING)) if path.is_dir() else [path]
         if not files:
             faults.append(Fault(given, 0, 0, "no lesson in this folder; expected .toml files"))
-        for file in files:
-            count += 1
-            faults += faults_of(file)
-    return faults, count
+        read += map(read_file, files)
+    in_order = {
+        **_out_of_order(read, LESSON, lesson_prerequisites),
+        **_out_of_order(read, COURSE, course_prerequisites),
+    }
+    for index, file in enumerate(read):
+        faults += [*file.faults, *in_order.get(index, [])]
+    return faults, len(read)
 
 
-def faults_of(path: Path) -> list[Fault]:
-    """Every fault of one file."""
+@dataclass(frozen=True, slots=True)
+class TomlFile:
+    """A file that was read: its kind and text, None where there is none, what it means, None with faults, and these."""
+
+    path: Path
+    kind: TomlKind | None
+    source: Source | None
+    meant: object
+    faults: list[Fault]
+
+
+def read_file(path: Path) -> TomlFile:
+    """The file at `path`, and every fault of it."""
     try:
         source = lesson_file.lesson_source(path)
     except BadInput as fault:
-        return [Fault(str(path), 0, 0, fault.fault)]
-    return reading(source, kind_of(path, source).reader(path))[1]
+        return TomlFile(path, None, None, None, [Fault(str(path), 0, 0, fault.fault)])
+    kind = kind_of(path, source)
+    return TomlFile(path, kind, source, *reading(source, kind.reader(path)))
+
+
+def _out_of_order(
+    files: Sequence[TomlFile], kind: TomlKind, shipped: Callable[[], dict[str, tuple[str, ...]]]
+) -> dict[int, list[Fault]]:
+    """What is wrong with the prerequisites of those of `files` that are of one `kind`, by their indices."""
+    ours = {_name(file.path): index for index, file in enumerate(files) if file.kind is kind}
+    said = {name: _prerequisites(files[index].meant) for name, index in ours.items()}
+    if not any(said.values()):
+        return {}
+    noted: dict[int, list[Noted]] = {}
+    named = {**shipped(), **said}
+    for fault in order_faults(named, named.keys(), kind.name):
+        if fault.name in ours:
+            noted.setdefault(ours[fault.name], []).append(Noted(fault.text, ("prerequisites", fault.index)))
+    return {index: _placed(files[index], found) for index, found in noted.items()}
+
+
+def _name(path: Path) -> str:
+    """The name of a lesson or course in a file."""
+    return path.name.removesuffix(course.ENDING).removesuffix(".toml")
+
+
+def _prerequisites(meant: object) -> tuple[str, ...]:
+    return meant.prerequisites if isinstance(meant, Lesson | course.Course) else ()
+
+
+def _placed(file: TomlFile, noted: Sequence[Noted]) -> list[Fault]:
+    assert file.source is not None, "it was read"
+    return placed(file.source, noted)

@@ -3,21 +3,25 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from station.cli import lesson_list
 from station.cli.console import print_json, say, write
 from station.cli.input.read_captures import is_capture
 from station.cli.input.read_scores import existing, is_midi, load_score
-from station.cli.options.option_fields import Command, NoOptions, Verbs, argument, arguments, flag, required
+from station.cli.options.option_fields import (
+    Command,
+    NoOptions,
+    Verbs,
+    argument,
+    arguments,
+    flag,
+    option,
+    optional_argument,
+    required,
+    said,
+    whole_number,
+)
 from station.core.errors import BadInput
 from station.core.files import write_whole
-
-SCHEMA = "drum-station/lessons/1"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LessonsOptions:
-    """How the lessons are listed."""
-
-    json: bool = flag("print one JSON document")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,6 +39,19 @@ class PathsOptions:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class NewOptions:
+    """What the new lesson is made of, and where it is written."""
+
+    family: str | None = optional_argument("FAMILY", "a family of drills; left out, a lesson to start from")
+    level: int = option("L", "how hard, 1 to 5 (2)", whole_number, 2)
+    seed: int = option("N", "which of the family; the same number gives the same lesson (1)", whole_number, 1)
+    bars: int = option("B", "how many bars (4)", whole_number, 4)
+    out: Path | None = option("FILE", "the file to write; left out, it is printed", Path, None)
+    overwrite: bool = flag("write FILE even if there is one already")
+    said: frozenset[str] = said()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ImportOptions:
     """Of what a lesson is made, and where it is written."""
 
@@ -48,44 +65,6 @@ class ExportOptions(LessonOptions):
     """Where a lesson is written."""
 
     out: Path = required("FILE", "the file to write", Path)
-
-
-def _list(options: LessonsOptions) -> int:
-    from station.drills.lesson import LEVELS
-    from station.drills.library import lesson_rows, shipped_courses
-
-    rows = lesson_rows()
-    if options.json:
-        lessons = [
-            {
-                "name": row.name,
-                "title": row.title,
-                "kind": row.folder,
-                "level": row.level,
-                "beats_a_minute": row.beats_a_minute,
-                "meter": row.meter,
-                "bars": row.bars,
-            }
-            for row in rows
-        ]
-        courses = [
-            {"name": one.name, "title": one.title, "level": one.level, "lessons": list(one.lessons)}
-            for one in shipped_courses()
-        ]
-        print_json({"schema": SCHEMA, "lessons": lessons, "courses": courses})
-        return 0
-    folder = None
-    for row in rows:
-        if row.folder != folder:
-            write(f"{'' if folder is None else chr(10)}{row.folder}")
-            folder = row.folder
-        bars = f"{row.bars:2} bar{' ' if row.bars == 1 else 's'}"
-        facts = f"{row.meter}  {row.beats_a_minute:5g} bpm  {bars}  {LEVELS[row.level]:12}"
-        write(f"  {row.name:26}{facts}  {row.title}")
-    write("\ncourses")
-    for course in shipped_courses():
-        write(f"  {course.title}: {', '.join(course.lessons)}")
-    return 0
 
 
 def _show(options: LessonOptions) -> int:
@@ -111,10 +90,14 @@ def _counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
-def _new(_: NoOptions) -> int:
-    from station.drills.authoring import NEW_LESSON
-
-    write(NEW_LESSON, end="")
+def _new(options: NewOptions) -> int:
+    text = _new_text(options)
+    if options.out is None:
+        write(text, end="")
+        return 0
+    _check_free(options.out, options.overwrite)
+    write_whole(options.out, text.encode())
+    say(f"lesson   {options.out}")
     return 0
 
 
@@ -125,6 +108,26 @@ def _schema(_: NoOptions) -> int:
     return 0
 
 
+def _new_text(options: NewOptions) -> str:
+    """The lesson of the family that is asked for, or the one to start from, which comes in one shape alone."""
+    from station.drills.authoring import NEW_LESSON
+    from station.drills.families.family_table import FAMILIES, lesson_text
+
+    if options.family is not None:
+        return lesson_text(options.family, options.level, options.seed, options.bars)
+    if shapes := sorted(options.said & {"level", "seed", "bars"}):
+        raise BadInput(f"--{shapes[0]}", "", f"of which family? There are {', '.join(FAMILIES)}")
+    return NEW_LESSON
+
+
+def _check_free(out: Path, overwrite: bool) -> None:
+    """Raises `BadInput` for a name that is no lesson's, and for a file that is there already."""
+    if out.suffix != ".toml":
+        raise BadInput(out, "", "expected a name that ends in .toml")
+    if out.exists() and not overwrite:
+        raise BadInput(out, "", "is there already: choose another name, or say --overwrite")
+
+
 def _import(options: ImportOptions) -> int:
     from station.drills.lesson_writer import write_lesson
     from station.drills.quantise import lesson_of, quantise_score
@@ -132,10 +135,7 @@ def _import(options: ImportOptions) -> int:
     if not is_midi(options.source) and not is_capture(options.source):
         raise BadInput(options.source, "", "expected a MIDI file (.mid) or a take (.capture)")
     out = options.out
-    if out.suffix != ".toml":
-        raise BadInput(out, "", "expected a name that ends in .toml")
-    if out.exists() and not options.overwrite:
-        raise BadInput(out, "", "is there already: choose another name, or say --overwrite")
+    _check_free(out, options.overwrite)
     source = existing(options.source)
     score = load_score(str(source))
     if not len(score):
@@ -163,7 +163,7 @@ def _export(options: ExportOptions) -> int:
 
 COMMAND = Verbs(
     (
-        ("list", "the lessons and courses that are shipped", Command(LessonsOptions, _list)),
+        ("list", "the lessons and courses, and how far you are with them", lesson_list.COMMAND),
         (
             "show",
             "a lesson as it was written, its lines aligned below the count",
@@ -174,7 +174,7 @@ COMMAND = Verbs(
             "every fault of lessons, courses and other TOML files, with line and column",
             Command(PathsOptions, _check),
         ),
-        ("new", "print a lesson to start from", Command(NoOptions, _new)),
+        ("new", "a lesson to start from, or a drill of a family", Command(NewOptions, _new)),
         ("schema", "print the JSON Schema of lessons, for editors", Command(NoOptions, _schema)),
         ("import", "write a lesson from a MIDI file or a take", Command(ImportOptions, _import)),
         ("export", "write a lesson as a MIDI file", Command(ExportOptions, _export)),

@@ -32,11 +32,13 @@ from station.core.settings import Settings, setting_source, with_said
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
 from station.practice.headless.guarded_output import GuardedOutput
+from station.practice.records.lesson_order import first_words, followed_course, shipped_title
 from station.practice.records.memory import LevelMemory, Memory, Remembered
 from station.practice.records.recovery import offer, recovered
 from station.practice.records.save_session import SessionFolder, SessionRecord, save
 from station.practice.records.session_files import TEXT_NAME
 from station.practice.records.session_report import practice_document, report_text, with_truth
+from station.practice.records.student_progress import student_progress
 from station.practice.session.backing_track import BackingRequest
 from station.practice.session.click_options import parse_click
 from station.practice.session.click_pattern import Gap
@@ -129,7 +131,16 @@ def run(options: PracticeOptions) -> int:
     if not in_terminal and not options.device and not _is_kit_there(settings.kit):
         say("no screen and no kit here: a virtual student practises instead")
         return _virtual(plan, plan_options, STAND_IN, options, settings)
+    _say_what_comes_first(lesson, settings)
     return _live(plan, plan_options, options, settings, backing)
+
+
+def _say_what_comes_first(lesson: Lesson, settings: Settings) -> None:
+    """Name the lessons that should come before; the window does so itself."""
+    if lesson.prerequisites:
+        progress = student_progress(settings.sessions_dir, settings.student)
+        for line in first_words(lesson.prerequisites, progress, shipped_title):
+            say(line)
 
 
 # --- ways to practise ------------------------------------------------------------------------------------------------
@@ -180,10 +191,10 @@ def _live(
 def _remembered(plan: Plan, plan_options: PlanOptions, settings: Settings, keeps: bool) -> Remembered:
     """Practice that follows the student; what could not be read is said at once."""
     memory = Memory.of(settings.sessions_dir, settings.student, plan.lesson.name, plan.bars) if keeps else None
-    remembered = Remembered.of(plan.lesson, plan_options, date.today(), memory)
-    if remembered.fault is not None:
-        say(remembered.fault)
-    return remembered
+    followed = Remembered.of(plan.lesson, plan_options, date.today(), memory, followed_course(settings))
+    if followed.fault is not None:
+        say(followed.fault)
+    return followed
 
 
 def _is_kit_there(wanted: str) -> bool:

@@ -6,7 +6,6 @@ path. Files that end in `.course.toml` are courses.
 """
 
 from contextlib import suppress
-from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
@@ -16,6 +15,7 @@ from station.core.errors import BadInput
 from station.drills.course import ENDING, Course, Where, is_course, read_course
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import read_lesson
+from station.drills.lesson_row import LessonRow, rows_below
 from station.drills.rudiments import find_rudiment
 
 FIRST_LESSON = "rock-1"
@@ -39,19 +39,6 @@ __all__ = [
 _ENDING = ".toml"
 _MIDI_ENDINGS = (".mid", ".midi")
 _NAMES_SHOWN = 5
-
-
-@dataclass(frozen=True, slots=True)
-class LessonRow:
-    """One row of the list of lessons; the tempo counts its own beat; `folder` is the kind: grooves, fills …."""
-
-    name: str
-    title: str
-    level: int
-    beats_a_minute: float
-    meter: str
-    bars: int
-    folder: str
 
 
 @cache
@@ -150,35 +137,39 @@ def _like(word: str, names: list[str]) -> str:
 
 
 def shipped_lessons() -> list[Lesson]:
-    """All shipped lessons in the order of the list: grooves, fills, rudiments, each by level and name."""
-    return [lesson for _, lesson in _in_order()]
+    """All shipped lessons in the order of the list."""
+    files = _files(lessons_dir())
+    return [read_lesson(files[row.name]) for row in lesson_rows()]
 
 
 def lesson_rows() -> list[LessonRow]:
-    """The list of shipped lessons, in the same order."""
-    return [
-        LessonRow(
-            lesson.name,
-            lesson.title,
-            lesson.level,
-            lesson.beats_a_minute,
-            lesson.meter,
-            lesson.score.bar_count,
-            folder,
-        )
-        for folder, lesson in _in_order()
-    ]
-
-
-def _in_order() -> list[tuple[str, Lesson]]:
-    """Every shipped lesson with the folder that it is in."""
+    """The list of shipped lessons: grooves, fills, rudiments …, each kind by level and name."""
     top = lessons_dir()
-    found = [("" if path.parent == top else path.parent.name, read_lesson(path)) for path in _files(top).values()]
-    return sorted(found, key=lambda one: (_rank(one[0]), one[1].level, one[1].name))
+    kinds = {path: "" if path.parent == top else path.parent.name for path in _files(top).values()}
+    return sorted(rows_below(top, kinds), key=lambda row: (_rank(row.folder), row.folder, row.level, row.name))
 
 
-_FOLDERS = ("grooves", "fills", "rudiments")
+def lesson_prerequisites() -> dict[str, tuple[str, ...]]:
+    """What each shipped lesson names as coming before it; nothing where one of them cannot be read."""
+    try:
+        return {row.name: row.prerequisites for row in lesson_rows()}
+    except BadInput:
+        return dict.fromkeys(lesson_names(), ())
+
+
+def course_prerequisites() -> dict[str, tuple[str, ...]]:
+    """What each shipped course names as coming before it, those that cannot be read nothing."""
+    courses, _ = courses_in(lessons_dir())
+    files = [path.name.removesuffix(ENDING) for path in lessons_dir().rglob(f"*{ENDING}")]
+    return {**dict.fromkeys(files, ()), **{one.name: one.prerequisites for one in courses}}
+
+
+KINDS = (
+    *("grooves", "fills", "rudiments", "rolls", "orchestrated"),
+    *("hands", "independence", "polyrhythms", "reading", "trading"),
+)
+"""The folders of the shipped lessons in the order of the list."""
 
 
 def _rank(folder: str) -> int:
-    return _FOLDERS.index(folder) if folder in _FOLDERS else len(_FOLDERS)
+    return KINDS.index(folder) if folder in KINDS else len(KINDS)

@@ -14,6 +14,7 @@ from station.core.errors import DeviceError
 from station.core.settings import setting_source
 from station.drills.lesson import Lesson
 from station.motion.kit.kit import Kit
+from station.practice.records.lesson_order import followed_course
 from station.practice.records.memory import Memory, Remembered
 from station.practice.session.click_options import parse_click
 from station.practice.session.click_pattern import ClickPattern
@@ -74,7 +75,7 @@ class SessionPreparation:
         if not request.adapt:
             return PreparedSession(plan)
         memory = Memory.of(settings.sessions_dir, settings.student, lesson.name, plan.bars)
-        followed = Remembered.of(lesson, options, date.today(), memory)
+        followed = Remembered.of(lesson, options, date.today(), memory, followed_course(settings))
         return PreparedSession(followed.adaptation.plan, followed)
 
     def watched(self, lesson: Lesson, kit: Kit) -> DemonstratedLesson:

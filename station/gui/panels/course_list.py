@@ -7,6 +7,7 @@ from imgui_bundle import icons_fontawesome_4 as icons
 from imgui_bundle import imgui
 
 from station.app.selection import Selection
+from station.drills.course import Course
 from station.gui import theme
 from station.practice.records.lesson_progress import LessonProgress
 from station.render import palette
@@ -18,22 +19,37 @@ _RADIUS, _LINE = 7.0, 2.0
 
 
 def course_picker(selection: Selection) -> Selection:
-    """Draw the list of courses, with how much of each is mastered; returns what is chosen."""
+    """Draw the list of courses, with how much of each is finished; returns what is chosen."""
     if not selection.courses:
         return selection
     chosen, picked = selection.course, selection
-    words = ALL_LESSONS if chosen is None else f"{chosen.title}: {selection.mastered(chosen)} of {len(chosen.lessons)}"
     imgui.set_next_item_width(-1)
-    if imgui.begin_combo("##course", words, imgui.ComboFlags_.height_large):
+    if imgui.begin_combo("##course", course_words(selection, chosen), imgui.ComboFlags_.height_large):
         for course in (None, *selection.courses):
-            label = ALL_LESSONS if course is None else f"{course.title}##{course.name}"
+            label = f"{course_words(selection, course)}###course-{'' if course is None else course.name}"
             if imgui.selectable(label, course is chosen)[0]:
                 picked = selection.follow(course)
             if course is not None:
-                theme.tooltip(f"{course.about}\n{selection.mastered(course)} of {len(course.lessons)} lessons mastered")
+                theme.tooltip(course_facts(selection, course))
         imgui.end_combo()
-    theme.tooltip(chosen.about if chosen else "A course has lessons in the order in which a teacher gives them")
+    about = "A course has lessons in the order in which a teacher gives them"
+    theme.tooltip(course_facts(selection, chosen) if chosen else about)
     return picked
+
+
+def course_words(selection: Selection, course: Course | None) -> str:
+    """A course in a line, with how much of it is finished."""
+    if course is None:
+        return ALL_LESSONS
+    return f"{course.title}: {selection.finished(course)} of {len(course.lessons)}"
+
+
+def course_facts(selection: Selection, course: Course) -> str:
+    """What it is about, what makes its lessons count, and the courses that should come first."""
+    known = {each.name: each for each in selection.courses}
+    first = [f"First: {course_words(selection, known[name])}" for name in course.prerequisites if name in known]
+    held = f"A lesson is finished when you hold it at {course.mastery or 'any level'}"
+    return "\n".join([course.about, *first, held])
 
 
 def mark(progress: LessonProgress | None, today: date) -> None:

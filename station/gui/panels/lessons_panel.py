@@ -12,9 +12,10 @@ from imgui_bundle import imgui
 
 from station.app.actions import Action, Begin, FilmTake, JudgeAt, Listen, Select, TapBeat
 from station.app.room_state import LessonCard, RoomState
-from station.app.selection import MAX_LOOPS, Selection
+from station.app.selection import MAX_LOOPS, LessonGroup, Selection
 from station.app.window_state import State
 from station.core.clock import monotonic_ns
+from station.drills.course import Course
 from station.gui import theme
 from station.gui.panels.course_list import course_picker, mark, mark_width
 from station.gui.widgets.flow_row import FlowRow
@@ -35,6 +36,10 @@ _PASSES = 92
 """Design pixels of the passes' slider; the level has the rest of its line."""
 _ROWS = 9
 """So many lines of the list are seen before more is said about the lesson that is chosen; our choice."""
+
+
+_MOST_BEFORE = 2
+"""So many of the lessons that should come before are named; the tooltip in the list has all (our choice)."""
 
 
 class LessonsPanel:
@@ -80,22 +85,50 @@ class LessonsPanel:
     def _list(self, selection: Selection) -> Selection:
         pressed, _ = imgui.selectable(FREE_LABEL, selection.free)
         theme.tooltip("A click if you like, everything recorded, nothing judged")
-        visible = selection.visible()
-        picked = None
-        if selection.course is not None:
-            imgui.separator()
-            for number, card in enumerate(visible, 1):
-                picked = self._row(selection, card, f"{number}  {card.title}") or picked
-        else:
-            for level, cards in groupby(visible, key=lambda card: card.level_words):
-                imgui.separator_text(level)
-                for card in cards:
-                    picked = self._row(selection, card, card.title) or picked
-        if not visible:
+        groups, picked = selection.groups(), None
+        for number, group in enumerate(groups):
+            if selection.course is not None:
+                before = sum(len(earlier.cards) for earlier in groups[:number])
+                picked = self._part(selection, selection.course, group, before) or picked
+            elif self._kind(selection, group):
+                picked = self._levels(selection, group) or picked
+        if not groups:
             theme.soft("No lesson has these words.")
         if picked is not None:
             return selection.choose(picked)
         return replace(selection, free=True) if pressed else selection
+
+    def _part(self, selection: Selection, course: Course, group: LessonGroup, before: int) -> LessonCard | None:
+        """A part of a course, its lessons numbered from those `before` it on; returns the one that was pressed."""
+        if group.title:
+            done = selection.finished(course, [card.name for card in group.cards])
+            imgui.separator_text(f"{group.title} · {done} of {len(group.cards)}")
+        else:
+            imgui.separator()
+        rows = [self._row(selection, card, f"{k}  {card.title}") for k, card in enumerate(group.cards, before + 1)]
+        return next((card for card in rows if card is not None), None)
+
+    @staticmethod
+    def _kind(selection: Selection, group: LessonGroup) -> bool:
+        """The heading of a kind, which opens and closes; returns whether it is open."""
+        has_chosen = selection.card is not None and any(card.name == selection.card.name for card in group.cards)
+        if selection.search:  # what was looked for is seen
+            imgui.set_next_item_open(True)
+        elif has_chosen:
+            imgui.set_next_item_open(True, imgui.Cond_.once)
+        counted = f"{selection.mastered(group.cards)} of {len(group.cards)}"
+        is_open = imgui.collapsing_header(f"{group.title} · {counted}###kind-{group.title}")
+        theme.tooltip(f"{counted} lessons of this kind are mastered")
+        return is_open
+
+    def _levels(self, selection: Selection, group: LessonGroup) -> LessonCard | None:
+        """A kind's lessons, level by level; returns the one that was pressed."""
+        picked = None
+        for level, cards in groupby(group.cards, key=lambda card: card.level_words):
+            imgui.separator_text(level)
+            for card in cards:
+                picked = self._row(selection, card, card.title) or picked
+        return picked
 
     @staticmethod
     def _row(selection: Selection, card: LessonCard, words: str) -> LessonCard | None:
@@ -105,8 +138,9 @@ class LessonsPanel:
         room = imgui.get_content_region_avail().x - (0.0 if progress is None else mark_width())
         pressed, _ = imgui.selectable(f"{theme.one_line(words, room)}###{card.name}", chosen)
         mark(progress, today)
-        far = "" if progress is None else f"\n{progress.words(today)}"
-        theme.tooltip(f"{card.title}\n{card.about}\n{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm{far}")
+        facts = f"{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm"
+        far = [] if progress is None else [progress.words(today)]
+        theme.tooltip("\n".join([card.title, card.about, facts, *selection.first_words(card), *far]))
         return card if pressed else None
 
     def _chosen(self, selection: Selection, card: LessonCard, lines: int) -> Selection:
@@ -114,6 +148,9 @@ class LessonsPanel:
         theme.heading(card.title, 20)
         author = f" · {card.author}" if card.author else ""
         theme.soft(f"{card.bars} bars · {card.meter} · {card.beats_a_minute:g} bpm{author}")
+        for line in selection.first_words(card)[:_MOST_BEFORE]:
+            theme.soft(theme.one_line(line, imgui.get_content_region_avail().x))
+            theme.tooltip("What should come before; nothing is forbidden")
         if card.about and lines > 0 and not self._is_low:  # the list's tooltip has it too
             before = imgui.get_cursor_pos_y()
             theme.soft(theme.first_lines(card.about, lines))

@@ -1,12 +1,11 @@
 """How far a student is with each lesson, from what is remembered of its mastery."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import date
-from pathlib import Path
 
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.rules import Rules
-from station.practice.records.memory import remembered
 from station.scoring.matching.hit_windows import Level
 
 
@@ -52,10 +51,10 @@ class LessonProgress:
         return f"Begun: {self.day_pct:.0f} % of the target tempo practised last"
 
 
-def progress_of(sessions: Path, student: str) -> dict[str, LessonProgress]:
-    """The progress of `student` by the names of lessons; of those practised in parts, that of the most bars."""
+def progress_of(states: Iterable[ItemState]) -> dict[str, LessonProgress]:
+    """The progress that is remembered, by the names of lessons; of those practised in parts, that of the most bars."""
     longest: dict[str, ItemState] = {}
-    for state in remembered(sessions, student):
+    for state in states:
         known = longest.get(state.item.name)
         if known is None or _weight(state) > _weight(known):
             longest[state.item.name] = state

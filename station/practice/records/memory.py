@@ -13,10 +13,13 @@ from pathlib import Path
 from typing import TypeVar
 
 from station.core.errors import BadInput, DeviceError
+from station.drills.course import Course
 from station.drills.lesson import Lesson
 from station.drills.mastery.agenda import Turn, next_turn
 from station.drills.mastery.mastery_json import document_of, state_from
 from station.drills.mastery.mastery_state import ItemState
+from station.practice.records.lesson_order import ahead_of
+from station.practice.records.lesson_progress import progress_of
 from station.practice.records.session_files import folder_name, write_document
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions
@@ -122,17 +125,28 @@ def _set_aside(path: Path) -> str:
 
 @dataclass(frozen=True, eq=False)
 class Remembered:
-    """Practice that follows a student, `memory` where it is remembered (None: nowhere), `fault` a line for the user."""
+    """Practice that follows a student, `memory` where it is remembered (None: nowhere), `fault` a line for the user.
+
+    `course` is the one that they follow, None where they follow none.
+    """
 
     adaptation: Adaptation
     memory: Memory | None = None
     fault: str | None = None
+    course: Course | None = None
 
     @classmethod
-    def of(cls, lesson: Lesson, options: PlanOptions, today: date, memory: Memory | None) -> "Remembered":
+    def of(
+        cls,
+        lesson: Lesson,
+        options: PlanOptions,
+        today: date,
+        memory: Memory | None,
+        course: Course | None = None,
+    ) -> "Remembered":
         """Practice of `lesson` from what `memory` holds; raises `BadInput` and `DeviceError` as its parts do."""
         known, fault = memory.recall() if memory is not None else (None, None)
-        return cls(Adaptation(lesson, options, today, known), memory, fault)
+        return cls(Adaptation(lesson, options, today, known), memory, fault, course)
 
     def next_turn(self) -> Turn | None:
         """What the student should practise next of all that is remembered; None where nothing is.
@@ -144,7 +158,9 @@ class Remembered:
         here = self.adaptation.state
         known = _all_in(self.memory.path.parent)
         others = [state for state in known if (state.item.name, state.item.bars) != (here.item.name, here.item.bars)]
-        return next_turn(here, others, self.adaptation.today, self.adaptation.rules)
+        followed = self.adaptation
+        ahead = ahead_of(followed.lesson, self.course, progress_of([*others, here]), followed.struggles)
+        return next_turn(here, others, followed.today, followed.rules, ahead)
 
     def keep(self) -> None:
         """Remember what was learnt; raises `DeviceError`."""

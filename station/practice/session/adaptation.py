@@ -22,6 +22,7 @@ from station.drills.mastery.next_pass import begin, fix_tempo, new_item, next_st
 from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.practice_steps import PassKind, PracticeStep, item_of
 from station.drills.mastery.rules import Rules
+from station.drills.mastery.verdict import Grade, judge
 from station.drills.orchestration import reorchestrated
 from station.engine.engine import KEYBOARD
 from station.music.performance import Performance
@@ -47,6 +48,9 @@ from station.scoring.matching.hit_windows import Level
 REST_S = 1.5
 """At least so much silence lies between two passes of the joined score: more than a session listens before its first
 bar and after its last (`session.EARLIEST_NS`, `plan.TAIL_S`), so that no stroke is near two passes."""
+BAD_TO_STRUGGLE = 2
+"""So many passes in a row that are not clean, and what comes before may be missing (our choice: as many as lower the
+tempo)."""
 SILENT_TO_STOP = 2
 """So many passes without a stroke, and nobody is there (TEACHING: auto-pause after two)."""
 
@@ -136,6 +140,13 @@ class Adaptation:
     def has_grown(self) -> bool:
         """Whether the next session is judged more strictly than this one."""
         return self.next_level is not self.level
+
+    @property
+    def struggles(self) -> bool:
+        """Whether the last two passes that were judged were both not clean, nor only as loose as slow waits are."""
+        judged = [judge(one.measured, self._rules_of(one.step.kind)) for one in self.rounds if one.measured is not None]
+        bad = [verdict.grade in (Grade.BAD, Grade.BROKEN) for verdict in judged[-BAD_TO_STRUGGLE:]]
+        return len(bad) == BAD_TO_STRUGGLE and all(bad)
 
     def _rules_of(self, kind: PassKind) -> Rules:
         """What a pass of this `kind` is judged by: a review by the level at which the item was mastered."""

@@ -7,7 +7,7 @@ import pytest
 from station.app.room_state import LessonCard, SessionRequest
 from station.app.selection import MAX_LOOPS, Selection
 from station.core.pieces import HAND_PIECES, Piece, Zone
-from station.drills.course import Course
+from station.drills.course import Course, CoursePart
 from station.gui.keyboard_kit import KEYS
 from station.gui.viewport import quality_for
 from station.practice.records.lesson_progress import LessonProgress
@@ -111,7 +111,7 @@ def test_just_playing_takes_the_place_of_a_lesson_and_counts_quarters() -> None:
 
 
 def test_a_course_lists_its_lessons_in_its_order_and_begins_where_the_student_is() -> None:
-    course = Course("hands", "Hands", "", "", 1, ("paradiddle", "rock-1", "gone"))
+    course = Course("hands", "Hands", "", "", 1, (CoursePart("", ("paradiddle", "rock-1", "gone")),))
     selection = Selection.of([ROCK, PARADIDDLE])
     selection = selection.offer([ROCK, PARADIDDLE], [course])
     assert (selection.course, selection.visible()) == (None, [ROCK, PARADIDDLE])
@@ -120,7 +120,8 @@ def test_a_course_lists_its_lessons_in_its_order_and_begins_where_the_student_is
     assert selection.card is PARADIDDLE
     progress = {"paradiddle": LessonProgress(100.0, 100.0, Level.BEGINNER), "rock-1": LessonProgress(80.0, 75.0, None)}
     selection = replace(selection, progress=progress)
-    assert selection.mastered(course) == 1
+    assert selection.finished(course) == 1
+    assert selection.finished(replace(course, mastery=Level.ELEMENTARY)) == 0
     selection = selection.follow(course)
     assert selection.card is ROCK
     selection = selection.follow(None)
@@ -128,9 +129,40 @@ def test_a_course_lists_its_lessons_in_its_order_and_begins_where_the_student_is
 
 
 def test_a_course_that_was_followed_is_listed_again_and_one_that_is_gone_is_not() -> None:
-    course = Course("hands", "Hands", "", "", 1, ("paradiddle",))
+    course = Course("hands", "Hands", "", "", 1, (CoursePart("", ("paradiddle",)),))
     selection = Selection.of([ROCK])
     selection = selection.offer([ROCK, PARADIDDLE], [course], "hands")
     assert (selection.course, selection.card) == (course, ROCK)
     selection = selection.offer([ROCK, PARADIDDLE], [course], "none")
     assert selection.course is None
+
+
+def test_lessons_are_listed_by_kind_those_of_ones_own_last() -> None:
+    groove, roll, own = (
+        replace(ROCK, name=name, kind=kind) for name, kind in (("g", "grooves"), ("r", "rolls"), ("o", ""))
+    )
+    groups = Selection.of([groove, roll, replace(groove, name="h"), own]).groups()
+    assert [(group.title, [card.name for card in group.cards]) for group in groups] == [
+        ("Grooves", ["g", "h"]),
+        ("Rolls", ["r"]),
+        ("Your own", ["o"]),
+    ]
+
+
+def test_a_search_leaves_out_kinds_and_parts_in_which_nothing_is_found() -> None:
+    groove, roll = replace(ROCK, kind="grooves"), replace(PARADIDDLE, kind="rolls")
+    course = Course("c", "C", "", "", 1, (CoursePart("One", ("rock-1",)), CoursePart("Two", ("paradiddle",))))
+    selection = replace(Selection.of([groove, roll]), search="rlrr paradiddle")
+    assert selection.groups() == []
+    for course_or_none, title in ((None, "Rolls"), (course, "Two")):
+        found = replace(selection, search="paradiddle", course=course_or_none).groups()
+        assert [(group.title, group.cards) for group in found] == [(title, (roll,))]
+
+
+def test_what_comes_before_is_named_by_its_title() -> None:
+    known = {"paradiddle": LessonProgress(100.0, 100.0, Level.BEGINNER)}
+    selection = replace(Selection.of([ROCK, PARADIDDLE]), progress=known)
+    assert selection.first_words(replace(ROCK, prerequisites=("paradiddle", "gone"))) == [
+        "First: Single paradiddle – mastered",
+        "First: gone – not yet mastered",
+    ]

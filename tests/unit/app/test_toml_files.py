@@ -190,3 +190,27 @@ def test_a_folder_without_files(tmp_path: Path) -> None:
     faults, count = check_files([str(tmp_path)])
     assert count == 0
     assert "no lesson in this folder" in faults[0].text
+
+
+COURSE = 'title = "T"\n{}lessons = ["rock-1"]\n'
+
+
+def test_courses_that_come_before_are_looked_for_beside_the_file_and_among_those_that_ship(tmp_path: Path) -> None:
+    for name, before in (("one", "first-beats"), ("two", "one"), ("three", "tow"), ("four", "first-baets")):
+        line = f'prerequisites = ["{before}"]\n'
+        (tmp_path / f"{name}.course.toml").write_text(COURSE.format(line))
+    faults, count = check_files([str(tmp_path)])
+    assert count == 4
+    assert [(Path(one.source).name, one.line, one.column) for one in faults] == [
+        ("four.course.toml", 2, 18),
+        ("three.course.toml", 2, 18),
+    ]
+    assert faults[0].text == "prerequisites: no such course: first-baets; did you mean first-beats?"
+    assert faults[1].text == "prerequisites: no such course: tow; did you mean two?"
+
+
+def test_courses_in_a_circle_are_told_once(tmp_path: Path) -> None:
+    for name, before in (("a", "b"), ("b", "a")):
+        (tmp_path / f"{name}.course.toml").write_text(COURSE.format(f'prerequisites = ["{before}"]\n'))
+    ((fault,), _) = check_files([str(tmp_path)])
+    assert str(fault) == f"{tmp_path / 'a.course.toml'}: line 2, column 18: prerequisites: a circle: a needs b needs a"

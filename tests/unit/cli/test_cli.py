@@ -186,6 +186,24 @@ def test_a_new_lesson_is_a_lesson(capsys: pytest.CaptureFixture[str], tmp_path: 
     assert main(["lesson", "check", str(file)]) == 0
 
 
+def test_a_drill_of_a_family_is_a_lesson_and_its_file_is_kept(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    file = tmp_path / "drill.toml"
+    words = ["lesson", "new", "linear", "--level", "3", "--seed", "5"]
+    assert main([*words, "--out", str(file)]) == 0
+    assert main(["lesson", "check", str(file)]) == 0
+    assert main([*words, "--out", str(file)]) == 2
+    assert "is there already" in capsys.readouterr().err
+    assert main(words) == 0
+    assert capsys.readouterr().out == file.read_text()
+
+
+def test_a_lesson_to_start_from_has_no_seed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["lesson", "new", "--seed", "5"]) == 2
+    assert "of which family" in capsys.readouterr().err
+
+
 def test_check_names_every_fault_and_exits_with_2(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
     file.write_text('title = "x"\ntempo_bmp = 90\n[grid]\nsnare = "| -?-- |"\n')

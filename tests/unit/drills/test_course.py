@@ -7,8 +7,9 @@ import pytest
 from station.app.toml_files import check_files
 from station.core.errors import BadInput
 from station.drills.authoring import NEW_LESSON
-from station.drills.course import Course
+from station.drills.course import Course, CoursePart
 from station.drills.library import courses_in, find_lesson, lesson_names, shipped_courses
+from station.scoring.matching.hit_windows import Level
 
 GOOD = """\
 title = "My first month"
@@ -20,6 +21,18 @@ lessons = [
   "own/mine.toml",
   "rock-1",
 ]
+"""
+
+
+PARTS = """\
+title = "The first term"
+mastery = "elementary"
+[[part]]
+title = "One limb after the other"
+lessons = ["rock-1", "own/mine.toml"]
+[[part]]
+title = "Both feet"
+lessons = ["rock-2"]
 """
 
 
@@ -35,9 +48,42 @@ def test_a_course_has_its_lessons_in_their_order_those_of_files_too(tmp_path: Pa
     written(tmp_path, GOOD)
     courses, faults = courses_in(tmp_path)
     own = str(tmp_path / "own" / "mine.toml")
-    assert courses == [Course("month", "My first month", "Twice a week.", "Ada", 2, ("rock-2", own, "rock-1"))]
+    assert courses == [
+        Course("month", "My first month", "Twice a week.", "Ada", 2, (CoursePart("", ("rock-2", own, "rock-1")),))
+    ]
     assert courses[0].lesson_names == ("rock-2", "mine", "rock-1")
     assert not faults
+
+
+def test_a_course_of_parts(tmp_path: Path) -> None:
+    written(tmp_path, PARTS)
+    ((course,), faults) = courses_in(tmp_path)
+    assert not faults
+    assert [(part.title, part.lesson_names) for part in course.parts] == [
+        ("One limb after the other", ("rock-1", "mine")),
+        ("Both feet", ("rock-2",)),
+    ]
+    assert course.lesson_names == ("rock-1", "mine", "rock-2")
+    assert course.mastery is Level.ELEMENTARY
+
+
+@pytest.mark.parametrize(
+    ("mastery", "held", "strictest", "is_finished"),
+    [
+        (None, None, Level.STUDIO, False),
+        (None, Level.BEGINNER, Level.STUDIO, True),
+        (Level.ELEMENTARY, Level.BEGINNER, Level.STUDIO, False),
+        (Level.ELEMENTARY, Level.ELEMENTARY, Level.STUDIO, True),
+        (Level.ELEMENTARY, Level.ADVANCED, Level.STUDIO, True),
+        (Level.ELEMENTARY, Level.BEGINNER, Level.BEGINNER, True),  # its teacher asks for no more
+        (Level.ELEMENTARY, None, Level.BEGINNER, False),
+    ],
+)
+def test_when_a_lesson_of_a_course_is_finished(
+    mastery: Level | None, held: Level | None, strictest: Level, is_finished: bool
+) -> None:
+    course = Course("c", "C", "", "", 1, (), mastery=mastery)
+    assert course.is_finished(held, strictest) is is_finished
 
 
 @pytest.mark.parametrize(
@@ -57,6 +103,18 @@ def test_a_course_has_its_lessons_in_their_order_those_of_files_too(tmp_path: Pa
         (GOOD.replace("level = 2", "level = 9"), 3, 9, "from 1 to 5"),
         (GOOD.replace("about", "abuot"), 4, 1, "no such key: abuot; did you mean about"),
         ('title = "T"\nlessons = []\n', 2, 11, "the list is empty"),
+        ('title = "T"\n', 1, 1, "lessons is missing"),
+        ('title = "T"\nmastery = "expert"\nlessons = ["rock-1"]\n', 2, 11, "expected beginner, elementary,"),
+        (
+            'title = "T"\nlessons = ["rock-1"]\n[[part]]\ntitle = "A"\nlessons = ["rock-2"]\n',
+            2,
+            1,
+            "here are parts, too",
+        ),
+        ('title = "T"\n[[part]]\nlessons = ["rock-2"]\n', 2, 1, "part.title is missing"),
+        ('title = "T"\n[[part]]\ntitle = "A"\nlessons = []\n', 4, 11, "the list is empty"),
+        (PARTS.replace('"rock-2"', '"rock-1"'), 8, 12, "rock-1 is in the course already"),
+        (PARTS.replace('"rock-2"', '"rok-2"'), 8, 12, "no such lesson: rok-2"),
         ('title = "T"\nlessons = "rock-1"\n', 2, 11, "expected a list"),
         ('title = "T"\nlessons = ["rock-1"\n', 2, 20, "a list is not closed"),
     ],

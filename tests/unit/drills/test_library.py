@@ -62,7 +62,8 @@ def test_the_list_has_kinds_levels_and_facts() -> None:
     assert (jazz.folder, jazz.level, jazz.beats_a_minute, jazz.meter, jazz.bars) == ("grooves", 3, 120, "3/4", 4)
     assert rows["double-paradiddle"].beats_a_minute == 60  # dotted quarters
     kinds = [row.folder for row in lesson_rows()]
-    assert kinds == sorted(kinds, key=["grooves", "fills", "rudiments"].index)
+    drills = ["rudiments", "rolls", "orchestrated", "hands", "independence", "polyrhythms", "reading", "trading"]
+    assert kinds == sorted(kinds, key=["grooves", "fills", *drills].index)
 
 
 def test_in_a_wheel_the_lessons_lie_inside_the_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

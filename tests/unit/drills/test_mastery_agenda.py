@@ -5,11 +5,11 @@ from datetime import date, timedelta
 
 import pytest
 
-from station.drills.mastery.agenda import next_turn
+from station.drills.mastery.agenda import Ahead, next_turn
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.practice_steps import PassKind
 from station.drills.mastery.rules import DEFAULT_RULES
-from tests.unit.drills.mastering import CLEAN, DAY, played
+from tests.unit.drills.mastering import CLEAN, DAY, ITEM, played
 
 FRESH = played([CLEAN] * 2)
 STABLE = played([CLEAN] * 20)
@@ -67,3 +67,24 @@ def test_what_was_left_today_is_taken_up_again_tomorrow() -> None:
     others = [left(named(FRESH, "b"))]
     assert next_turn(left(named(FRESH, "a")), others, DAY).item.name == "a"
     assert next_turn(left(named(FRESH, "a", DAY)), others, DAY + timedelta(days=1)).item.name == "b"
+
+
+BEFORE = replace(ITEM, name="before")
+AFTER = replace(ITEM, name="after")
+
+
+def test_what_comes_before_helps_who_struggles_but_for_reviews() -> None:
+    ahead = Ahead(before=BEFORE, after=AFTER, course="First beats")
+    turn = next_turn(named(FRESH, "now"), [named(FRESH, "a")], DAY, ahead=ahead)
+    assert (turn.item.name, turn.why) == ("before", "it comes before this one, and is not mastered yet")
+    due = [named(STABLE, "old")]
+    assert next_turn(named(FRESH, "now"), due, DAY + timedelta(days=1), ahead=ahead).item.name == "old"
+
+
+def test_a_course_goes_on_where_nothing_that_was_begun_is_unstable() -> None:
+    ahead = Ahead(after=AFTER, course="First beats")
+    turn = next_turn(named(STABLE, "now"), [named(STABLE, "a")], DAY, ahead=ahead)
+    assert (turn.item.name, turn.why) == ("after", "it comes next in First beats")
+    assert next_turn(named(STABLE, "now"), [named(FRESH, "a")], DAY, ahead=ahead).item.name == "a"
+    assert next_turn(named(FRESH, "now"), [], DAY, ahead=ahead).item.name == "now"
+    assert next_turn(left(named(FRESH, "now")), [], DAY, ahead=ahead).item.name == "now"

@@ -3,6 +3,8 @@
 Places are eighths or sixteenths of the bar, counted from 0; swung offbeats count as the eighth that they are.
 """
 
+from itertools import pairwise
+
 import pytest
 
 from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece
@@ -28,6 +30,99 @@ FILLS = {
 }
 
 
+Hallmark = tuple[str, Piece, Dynamic | None, str]
+HALLMARKS: dict[str, tuple[Hallmark, ...]] = {
+    # Jamaica: rhythmnotes.net, studio.dubroom.org (the four reggae rhythms); ska: hostboard.com, thread 75794
+    "one drop": (("reggae-one-drop", Piece.KICK, None, "....x..."), ("reggae-one-drop", Piece.SNARE, None, "....x...")),
+    "one drop at half the count": (("reggae-one-drop-2", Piece.KICK, None, ".x.x"),),
+    "steppers": (("reggae-steppers", Piece.KICK, None, "xxxx"),),
+    "rockers": (("reggae-rockers-1", Piece.SNARE, None, ".x.x"),),
+    "ska": (("ska-1", Piece.KICK, None, ".x.x"), ("ska-1", Piece.HIHAT, None, ".x.x.x.x")),
+    # Cuba: de.wikipedia.org Cáscara; timbales-style "Basic Patterns" in LilyPond (paila, mambo bell, mozambique, 6/8,
+    # cha-cha-cha); the mozambique's structure also cruiseshipdrummer.com, 2024/03; mambo's kick drummagazine.com
+    "cáscara, 2-3": (
+        ("cascara-1", Piece.FLOOR_TOM_1, None, "x.x.xx.x|x.xx.x.x"),
+        ("cascara-1", Piece.SNARE, None, "..x.x...|x..x..x."),
+        ("cascara-1", Piece.KICK, None, "...x...."),
+    ),
+    "mambo bell, 2-3": (
+        ("mambo-bell-1", Piece.RIDE, None, "x.x.xxxx|.xxxx.xx"),
+        ("mambo-bell-1", Piece.KICK, None, "...x..x."),
+    ),
+    "mozambique, 2-3": (("mozambique-1", Piece.RIDE, None, "x.x.xx.x|.xx.xx.x"),),
+    "cha-cha-chá": (("cha-cha-1", Piece.RIDE, None, "xxxx"), ("cha-cha-1", Piece.TOM_1, None, "......xx")),
+    "tumbao": (("tumbao-1", Piece.KICK, None, "...x..x."), ("tumbao-1", Piece.TOM_1, None, "......xx")),
+    # the bell also en.wikipedia.org Bell pattern
+    "bembé": tuple((name, Piece.RIDE, None, "x.x.xx.x.x.x") for name in ("bembe-1", "bembe-2")),
+    # no kick on a beat, the chick on each (R. Smith, Songo Lesson); the hand between (icanplaydrums.com, Songo)
+    "songo": (
+        ("songo-1", Piece.KICK, None, "...x..x....x..x."),
+        ("songo-1", Piece.HIHAT_PEDAL, None, "xxxx"),
+        ("songo-1", Piece.SNARE, Dynamic.ACCENT, "..x............."),
+    ),
+    # Brazil: thatdrumblog.blogspot.com (Baião Doce); clave of the bossa as in chromatone.center's list, turned round
+    "baião": (("baiao-1", Piece.KICK, None, "x..x...."),),
+    "bossa, turned round": (("bossa-2", Piece.SNARE, None, "..x..x..|x..x..x."),),
+    "samba's caixa": (
+        ("samba-2", Piece.SNARE, Dynamic.ACCENT, "x..x..x.|..x..x.."),
+        ("samba-2", Piece.KICK, Dynamic.ACCENT, "....x..."),
+    ),
+    # joethedrummer.com: 1, 1e, 3, 3e
+    "afrobeat": (("afrobeat-1", Piece.KICK, None, "xx......xx......"),),
+    # en.wikipedia.org Blast beat and its tablature: unison, alternate, double bass
+    "traditional blast": (
+        ("blast-1", Piece.KICK, None, "x.x.x.x.x.x.x.x."),
+        ("blast-1", Piece.SNARE, None, ".x.x.x.x.x.x.x.x"),
+    ),
+    "hammer blast": tuple(("blast-hammer-1", p, None, "xxxxxxxx") for p in (Piece.RIDE, Piece.SNARE, Piece.KICK)),
+    "bomb blast": (("blast-bomb-1", Piece.KICK, None, "x" * 16), ("blast-bomb-1", Piece.SNARE, None, "xxxxxxxx")),
+    "drum and bass": (
+        ("dnb-two-step-1", Piece.KICK, None, "x.........x....."),
+        ("dnb-two-step-1", Piece.SNARE, Dynamic.ACCENT, "....x.......x..."),
+    ),
+    "house": (("house-1", Piece.KICK, None, "xxxx"),),
+    "half-time shuffle": (
+        ("half-time-shuffle-1", Piece.SNARE, Dynamic.ACCENT, "......x....."),
+        ("half-time-shuffle-2", Piece.SNARE, Dynamic.ACCENT, "......x...........x....."),
+    ),
+    "jazz": tuple(
+        (name, Piece.HIHAT_PEDAL, None, ".x.x") for name in ("jazz-uptempo-1", "jazz-comping-2", "jazz-ballad-1")
+    ),
+    "waltz": (("waltz-1", Piece.SNARE, None, ".xx"),),
+    # a stroke for each group
+    "five as three and two": (("five-four-1", Piece.KICK, None, "x..x."),),
+    "seven as three, two, two": (("seven-eight-2", Piece.SNARE, None, "...x.x."),),
+    "nine as two, two, two, three": (
+        ("nine-eight-2", Piece.KICK, None, "x...x...."),
+        ("nine-eight-2", Piece.SNARE, None, "..x...x.."),
+    ),
+    "eleven as three threes and a two": (("eleven-eight-1", Piece.SNARE, None, "...x.....x."),),
+}
+"""Style -> what its books print: lesson, piece, which of its strokes (None: all), and the cells of the bar, or of each
+bar from the first, `|` between them."""
+
+TEMPI = {
+    # reggae 60-90 by DJs' tables (music.mmc.school.nz), twice that where eighths are counted
+    "reggae-one-drop": (120, 160),
+    "reggae-steppers": (120, 160),
+    "reggae-one-drop-2": (60, 80),
+    "reggae-rockers-1": (60, 90),
+    # Rosanna: 167 by guimadrum.com.br, the Purdie shuffle about 125
+    "half-time-shuffle-1": (125, 175),
+    "half-time-shuffle-2": (62, 88),
+    # learningmusic.ableton.com, Tempo and genre
+    "dnb-two-step-1": (160, 180),
+    "dnb-half-1": (160, 180),
+    "house-1": (115, 130),
+    "hip-hop-2": (85, 100),  # boom bap 85-95 (tapbpm.net), to 100 (palsen.wordpress.com)
+    "trap-1": (130, 170),  # palsen.wordpress.com
+    "jazz-ballad-1": (60, 90),  # party.biz, and the next
+    "jazz-uptempo-1": (200, 300),
+    "bossa-2": (100, 160),
+}
+"""Lesson -> the tempi, in its beats a minute, between which its style is played; its target lies there."""
+
+
 def of(lesson: Lesson, piece: Piece, dynamic: Dynamic | None = None) -> list[Note]:
     """Main strokes of a piece, of one dynamic or all."""
     return [n for n in lesson.score if n.piece is piece and not n.lead_ms and dynamic in (None, n.dynamic)]
@@ -42,6 +137,26 @@ def places(lesson: Lesson, piece: Piece, bar: int, cells: int = 8, dynamic: Dyna
     bars = lesson.score.tempo_map.bars_at([n.tick for n in of(lesson, piece, dynamic)]).tolist()
     struck = [n.tick - start for n, b in zip(of(lesson, piece, dynamic), bars, strict=True) if b == bar]
     return {straight[t] for t in struck}
+
+
+def cells(pattern: str) -> list[set[int]]:
+    """Places struck in each bar of `x..x|.x..`."""
+    return [{at for at, cell in enumerate(bar) if cell == "x"} for bar in pattern.split("|")]
+
+
+@pytest.mark.parametrize("style", list(HALLMARKS))
+def test_each_style_has_what_its_books_print(style: str) -> None:
+    for name, piece, dynamic, pattern in HALLMARKS[style]:
+        bars = len(pattern.split("|")[0])
+        found = [places(find_lesson(name), piece, bar, bars, dynamic) for bar in range(pattern.count("|") + 1)]
+        assert found == cells(pattern), (name, piece)
+
+
+@pytest.mark.parametrize("name", list(TEMPI))
+def test_targets_are_the_styles_own_tempi(name: str) -> None:
+    lesson = find_lesson(name)
+    slowest, fastest = TEMPI[name]
+    assert slowest <= lesson.target_tempo_bpm * PPQ / lesson.beat_ticks <= fastest
 
 
 @pytest.mark.parametrize("name", lesson_names())
@@ -73,6 +188,13 @@ def test_a_fill_lesson_is_three_bars_and_a_fill_that_lands(name: str) -> None:
     landing = {n.piece for n in lesson.score if n.tick == 0}
     assert Piece.KICK in landing
     assert Piece.CRASH_1 in landing or {"country", "funk", "latin"} & set(lesson.tags)
+    assert {Piece.KICK, Piece.CRASH_1} <= set(lesson.landing["piece"].tolist())
+
+
+@pytest.mark.parametrize("name", [n for n in lesson_names() if find_lesson(n).prerequisites])
+def test_what_comes_before_is_there_and_no_harder(name: str) -> None:
+    lesson = find_lesson(name)
+    assert all(find_lesson(before).level <= lesson.level for before in lesson.prerequisites)
 
 
 @pytest.mark.parametrize("style", list(FILLS))
@@ -219,6 +341,52 @@ def test_the_street_ends_on_a_buzz() -> None:
     (buzz,) = [n for n in find_lesson("second-line-1").score if n.articulation is Articulation.BUZZ]
     assert buzz.ornament is Ornament.ROLL
     assert buzz.duration_ticks == PPQ // 2
+
+
+def test_latin_turns_into_swing_at_one_tempo() -> None:
+    lesson = find_lesson("latin-jazz-1")
+    assert [lesson.swing_of_bar(bar).ratio for bar in range(8)] == [1.0] * 4 + [1.8] * 4
+    assert len(lesson.score.tempo_map.tempos) == 1
+
+
+def test_a_form_is_played_as_it_says() -> None:
+    assert [s.name for s in find_lesson("rock-song-1").sections] == ["verse", "chorus"] * 2
+    ends = [s.name for s in find_lesson("rock-endings-1").sections]
+    assert ends == ["groove", "first ending", "groove", "second ending"]
+
+
+def test_one_pair_of_hands_has_two_kicks() -> None:
+    lesson = find_lesson("funk-4")
+    for bar in range(2):
+        assert places(lesson, Piece.SNARE, bar, 16) == places(lesson, Piece.SNARE, bar + 2, 16)
+        assert places(lesson, Piece.KICK, bar, 16) != places(lesson, Piece.KICK, bar + 2, 16)
+
+
+def test_the_bell_in_threes_comes_round_after_three_bars() -> None:
+    lesson = find_lesson("polymeter-1")
+    bells = [n.tick for n in of(lesson, Piece.RIDE, Dynamic.ACCENT)]
+    assert bells == [at * 3 * PPQ // 2 for at in range(8)]
+    assert lesson.score.bar_count == 3
+
+
+def test_four_and_seven_in_turn_make_fifteen() -> None:
+    tempo_map = find_lesson("meter-change-1").score.tempo_map
+    assert [tempo_map.bar_start(bar) // (PPQ // 2) for bar in range(5)] == [0, 8, 15, 23, 30]
+
+
+def test_the_fill_from_nothing_only_grows() -> None:
+    lesson = find_lesson("crescendo-fill-1")
+    strokes = [n.velocity for n in of(lesson, Piece.SNARE) if n.tick >= lesson.score.tempo_map.bar_start(3)]
+    assert len(strokes) == 16
+    assert all(a < b for a, b in pairwise(strokes))
+
+
+def test_the_last_bar_slows_down() -> None:
+    tempo_map = find_lesson("ballad-ending-1").score.tempo_map
+    starts_s = [tempo_map.seconds_at(tempo_map.bar_start(bar)) for bar in range(5)]
+    lengths = [b - a for a, b in pairwise(starts_s)]
+    assert lengths[0] == pytest.approx(4 * 60 / 63, abs=1e-6)
+    assert 4 * 60 / 63 < lengths[3] < 4 * 60 / 44
 
 
 def test_what_there_is_to_learn_from() -> None:

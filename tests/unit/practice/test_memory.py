@@ -2,19 +2,22 @@
 
 import json
 from dataclasses import replace
-from datetime import date
+from datetime import date, timedelta
 from pathlib import Path
 
 import pytest
 
 from station.core.errors import DeviceError
+from station.drills.course import Course, CoursePart
 from station.drills.library import find_lesson
 from station.drills.mastery.mastery_json import SCHEMA
 from station.drills.mastery.next_pass import new_item
 from station.drills.mastery.practice_steps import item_of
 from station.drills.mastery.reviews import Review
+from station.practice.headless.virtual_session import practise_adaptively
 from station.practice.records.memory import Memory, Remembered
 from station.practice.session.plan import PlanOptions
+from station.simulation.student_spec import parse_spec
 
 TODAY = date(2026, 3, 1)
 LESSON = find_lesson("rock-1")
@@ -91,3 +94,31 @@ def test_what_comes_next_is_chosen_among_all_that_is_remembered(tmp_path: Path) 
     turn = remembered.next_turn()
     assert turn is not None
     assert (turn.item.name, turn.why) == ("rock-2", "it is due for review")
+
+
+def test_who_struggles_is_sent_to_what_comes_before(tmp_path: Path) -> None:
+    """Every other stroke is missing, pass after pass; once rock 1 is mastered it is no reason any more."""
+    lesson = replace(find_lesson("rock-3"), prerequisites=("rock-1",))
+    followed = Remembered.of(lesson, PlanOptions(loops=2), TODAY, Memory.of(tmp_path, "Ben", "rock-3", lesson.loop))
+    assert not followed.adaptation.struggles
+    practise_adaptively(followed.adaptation, parse_spec("miss_pct=50,seed=1"))
+    assert followed.adaptation.struggles
+    turn = followed.next_turn()
+    assert turn is not None
+    assert turn.item.name == "rock-1"
+    known = replace(STATE, review=Review(TODAY, 0, TODAY + timedelta(days=2)))
+    Memory.of(tmp_path, "Ben", "rock-1", LESSON.loop).keep(known)
+    turn = followed.next_turn()
+    assert turn is not None
+    assert turn.item.name == "rock-3"
+
+
+def test_a_course_that_is_followed_goes_on_after_what_is_mastered(tmp_path: Path) -> None:
+    """Ten passes at the pinned target, two of them blind: mastery (as in the levels' tests)."""
+    course = Course("c", "Beats", "", "", 1, (CoursePart("", ("rock-1", "rock-4", "rock-2")),))
+    options = PlanOptions(tempo_bpm=LESSON.target_tempo_bpm, loops=10, demonstrations=0)
+    followed = Remembered.of(LESSON, options, TODAY, Memory.of(tmp_path, "Ada", "rock-1", LESSON.loop), course)
+    practise_adaptively(followed.adaptation, parse_spec("sd_ms=5,seed=1"))
+    turn = followed.next_turn()
+    assert turn is not None
+    assert (turn.item.name, turn.why) == ("rock-4", "it comes next in Beats")

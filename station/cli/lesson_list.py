@@ -1,0 +1,203 @@
+"""`station lesson list`: the lessons by kind, or those of a course, and how far the student is with them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import TYPE_CHECKING
+
+from station.cli.console import print_json, write
+from station.cli.options.option_fields import Command, flag, option
+from station.core.did_you_mean import did_you_mean
+from station.core.errors import BadInput
+
+if TYPE_CHECKING:
+    from station.drills.course import Course
+    from station.drills.lesson_row import LessonRow
+    from station.practice.records.lesson_progress import LessonProgress
+
+SCHEMA = "drum-station/lessons/1"
+_NEW = "–"
+"""Stands where a lesson was never practised."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LessonsOptions:
+    """Which lessons are listed, and how."""
+
+    kind: str | None = option("KIND", "only the lessons of this kind, such as grooves", str, None, rivals="which")
+    course: str | None = option("NAME", "only the lessons of this course, in its order", str, None, rivals="which")
+    json: bool = flag("print one JSON document")
+
+
+@dataclass(frozen=True, slots=True)
+class _Shelf:
+    """What there is: the lessons by name in the list's order, the courses, and the student's progress."""
+
+    rows: dict[str, LessonRow]
+    courses: Sequence[Course]
+    progress: dict[str, LessonProgress]
+
+    def held(self, name: str) -> str:
+        """How far the student is with a lesson, in a word."""
+        progress = self.progress.get(name)
+        if progress is None:
+            return _NEW
+        return f"✓ {progress.held}" if progress.held else f"{progress.shown_pct:.0f} %"
+
+    def named(self, names: Iterable[str]) -> list[LessonRow]:
+        """The rows of those lessons that can be read."""
+        return [self.rows[name] for name in names if name in self.rows]
+
+    def finished(self, course: Course) -> int:
+        """How many lessons of a course are."""
+        from station.practice.records.lesson_order import is_finished
+
+        rows = self.named(course.lesson_names)
+        return sum(is_finished(course, row.name, self.progress, row.levels) for row in rows)
+
+
+def _shelf() -> _Shelf:
+    from station.app.lesson_cards import own_lessons
+    from station.app.settings_store import SettingsStore
+    from station.drills.lesson_row import row_of
+    from station.drills.library import courses_in, lesson_rows, shipped_courses
+    from station.practice.records.student_progress import student_progress
+
+    settings = SettingsStore().now
+    own, _ = courses_in(settings.courses_dir)
+    rows = {row.name: row for row in lesson_rows()}
+    rows |= {name: row_of(lesson) for name, lesson in own_lessons(own, rows).items()}
+    return _Shelf(rows, (*own, *shipped_courses()), student_progress(settings.sessions_dir, settings.student))
+
+
+def run(options: LessonsOptions) -> int:
+    """List them."""
+    shelf = _shelf()
+    course = None if options.course is None else _named_course(options.course, shelf.courses)
+    rows = _of_kind(options.kind, shelf) if course is None else shelf.named(course.lesson_names)
+    if options.json:
+        every = shelf.courses if options.kind is None else ()
+        _print_json(shelf, rows, every if course is None else [course])
+    elif course is not None:
+        _write_course(shelf, course)
+    else:
+        _write_kinds(shelf, rows, with_courses=options.kind is None)
+    return 0
+
+
+def _of_kind(kind: str | None, shelf: _Shelf) -> list[LessonRow]:
+    """The lessons of a kind, all of them where it is None."""
+    kinds = list(dict.fromkeys(row.folder for row in shelf.rows.values() if row.folder))
+    if kind is not None and kind not in kinds:
+        raise BadInput("--kind", kind, f"no such kind of lessons{did_you_mean(kind, kinds)}")
+    return [row for row in shelf.rows.values() if kind in (None, row.folder)]
+
+
+def _named_course(name: str, courses: Sequence[Course]) -> Course:
+    for course in courses:
+        if course.name == name:
+            return course
+    raise BadInput("--course", name, f"no such course{did_you_mean(name, [each.name for each in courses])}")
+
+
+# --- text -------------------------------------------------------------------------------------------------------------
+
+
+def _write_kinds(shelf: _Shelf, rows: Sequence[LessonRow], with_courses: bool) -> None:
+    for index, (folder, some) in enumerate(groupby(rows, key=lambda row: row.folder or "your own")):
+        kind = list(some)
+        write(f"{chr(10) if index else ''}{folder} ({len(kind)})")
+        _write_rows(shelf, kind, rows)
+    if with_courses:
+        _write_courses(shelf)
+
+
+def _write_rows(shelf: _Shelf, some: Iterable[LessonRow], aligned: Sequence[LessonRow], first: int = 0) -> None:
+    """A line for each of `some`, in the columns of all that are `aligned`; with numbers from `first` on, if any."""
+    from station.drills.lesson import LEVELS
+
+    name, meter, held = (
+        max(map(len, words))
+        for words in (
+            [row.name for row in aligned],
+            [row.meter for row in aligned],
+            [shelf.held(row.name) for row in aligned],
+        )
+    )
+    for number, row in enumerate(some, first):
+        bars = f"{row.bars:3} bar{' ' if row.bars == 1 else 's'}"
+        facts = f"{row.meter:{meter}}  {row.beats_a_minute:5g} bpm  {bars}  {LEVELS[row.level]:12}"
+        count = f"{number:3} " if first else ""
+        write(f"  {count}{row.name:{name}}  {facts}  {shelf.held(row.name):{held}}  {row.title}")
+
+
+def _write_courses(shelf: _Shelf) -> None:
+    from station.drills.lesson import LEVELS
+
+    write(f"\ncourses ({len(shelf.courses)}); `station lesson list --course NAME` has the lessons of one")
+    width = max((len(course.name) for course in shelf.courses), default=0)
+    for course in shelf.courses:
+        done = f"{shelf.finished(course):3} of {len(course.lessons):3} finished"
+        after = f"; after {', '.join(course.prerequisites)}" if course.prerequisites else ""
+        write(f"  {course.name:{width}}  {LEVELS[course.level]:12}  {done}  {course.title}{after}")
+
+
+def _write_course(shelf: _Shelf, course: Course) -> None:
+    """Its lessons in their order, part by part."""
+    rows = shelf.named(course.lesson_names)
+    asked = f"; a lesson is finished when you hold it at {course.mastery}" if course.mastery else ""
+    write(f"{course.title}: {shelf.finished(course)} of {len(course.lessons)} finished{asked}")
+    if course.prerequisites:
+        write(f"First: {', '.join(course.prerequisites)}")
+    first = 1
+    for part in course.parts:
+        if part.title:
+            write(f"\n{part.title}")
+        _write_rows(shelf, shelf.named(part.lesson_names), rows, first)
+        first += len(part.lessons)
+
+
+# --- JSON -------------------------------------------------------------------------------------------------------------
+
+
+def _print_json(shelf: _Shelf, rows: Iterable[LessonRow], courses: Iterable[Course]) -> None:
+    print_json(
+        {
+            "schema": SCHEMA,
+            "lessons": [_lesson(shelf, row) for row in rows],
+            "courses": [_course(shelf, course) for course in courses],
+        }
+    )
+
+
+def _lesson(shelf: _Shelf, row: LessonRow) -> dict[str, object]:
+    progress = shelf.progress.get(row.name)
+    return {
+        "name": row.name,
+        "title": row.title,
+        "kind": row.folder,
+        "level": row.level,
+        "beats_a_minute": row.beats_a_minute,
+        "meter": row.meter,
+        "bars": row.bars,
+        "prerequisites": list(row.prerequisites),
+        "held": None if progress is None else progress.held,
+    }
+
+
+def _course(shelf: _Shelf, course: Course) -> dict[str, object]:
+    return {
+        "name": course.name,
+        "title": course.title,
+        "level": course.level,
+        "lessons": list(course.lessons),
+        "parts": [{"title": part.title, "lessons": list(part.lessons)} for part in course.parts],
+        "prerequisites": list(course.prerequisites),
+        "mastery": course.mastery,
+        "finished": shelf.finished(course),
+    }
+
+
+COMMAND = Command(LessonsOptions, run)
