@@ -23,7 +23,7 @@ from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.practice.demonstration.song_player import SongPlayer
 from station.practice.session.click_pattern import PLAIN
-from station.practice.session.plan import with_sticking
+from station.practice.session.leading_hand import with_sticking
 from station.scenes.demonstrator import Demonstrator
 
 BAR_NS = 3 * NS_PER_S
