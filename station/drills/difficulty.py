@@ -62,12 +62,13 @@ _FINEST = 2520
 """Parts of a beat to which a stroke's place is rounded: 2³·3²·5·7 has all divisions above but the 16th part."""
 _HALVES = (_FINEST // 2, _FINEST // 3, _FINEST * 2 // 3)
 """Places of the "and", and of triplets."""
+_DRUMS = 1
 _VOICES: tuple[frozenset[Piece], ...] = (
     frozenset({Piece.KICK}),
     frozenset({Piece.SNARE, *TOMS}),
     frozenset({Piece.HIHAT_PEDAL}),
 )
-"""What is heard as one line, and all that is struck besides as another."""
+"""What is heard as one line; all that is struck besides is another, and so are the accents of drums."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -207,7 +208,9 @@ class _Loop:
         """The rows (n,) of each line that is heard as one."""
         piece = self.score.notes["piece"]
         named = [np.isin(piece, sorted(voice)) for voice in _VOICES]
-        return [*named, ~np.logical_or.reduce(named)]
+        accents = named[_DRUMS] & (self.score.notes["dynamic"] == Dynamic.ACCENT)
+        apart = [accents] if (accents != named[_DRUMS]).any() else []  # where all are accents they are no other line
+        return [*named, ~np.logical_or.reduce(named), *apart]
 
     def place(self, tick: int) -> int:
         """Where in its beat a tick lies, a swung offbeat as it is written; beats count from their bar's start."""
@@ -303,10 +306,10 @@ def _oddness(loop: _Loop) -> float:
 
 def _variety(loop: _Loop) -> float:
     """How many beats there are that differ in who strikes what where, as a power of two, each by its frequency."""
-    notes = loop.score.notes
+    rows = loop.score.notes[["tick", "piece", "dynamic"]].tolist()
     beats: dict[int, set[Hashable]] = {}
-    for tick, limb, piece in zip(notes["tick"].tolist(), loop.limbs.tolist(), notes["piece"].tolist(), strict=True):
-        beats.setdefault(tick // loop.beat_ticks, set()).add((loop.place(tick), limb, piece))
+    for (tick, *struck), limb in zip(rows, loop.limbs.tolist(), strict=True):
+        beats.setdefault(tick // loop.beat_ticks, set()).add((loop.place(tick), limb, *struck))
     return _surprise([(None, frozenset(beat)) for beat in beats.values()])
 
 

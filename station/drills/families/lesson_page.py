@@ -1,4 +1,4 @@
-"""The text of a lesson from its lines: aligned, with the count above them, four bars a grid.
+"""The text of a lesson from its lines, four bars a grid; `lesson_text` lays it out.
 
 A bar of a line is written as beats with blanks between them, `"o--o (ooo) oo x"`, as in a lesson file.
 """
@@ -8,13 +8,12 @@ from dataclasses import dataclass, field
 from textwrap import fill
 
 from station.drills.lesson import LEVELS
+from station.drills.lesson_text import show
 
 BARS_A_GRID = 4
 """Bars that stand beside each other: a phrase, and as wide as a screen is (our choice)."""
 ABOUT_WIDTH = 112
 """Columns of the text about a lesson: what an editor shows (our choice)."""
-_COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 5: "2345", 6: "ta&ta.", 7: "234567", 8: ".e.&.a."}
-"""What is counted after a beat's number, by how many cells it has."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,45 +52,17 @@ class Page:
             "[goals]",
             f"target_tempo_bpm = {self.target_tempo_bpm}",
         ]
-        return "\n".join([*head, *self._grids()]) + "\n"
+        return show("\n".join([*head, *self._grids()]) + "\n")
 
     def _grids(self) -> list[str]:
         bars = len(next(iter(self.lines.values())))
         starts = range(0, bars, BARS_A_GRID)
         rows: list[str] = []
         for start in starts:
-            part = {name: line[start : start + BARS_A_GRID] for name, line in self.lines.items()}
-            rows += ["", "[[grid]]" if len(starts) > 1 else "[grid]", *grid_rows(part)]
+            part = {name: " | ".join(line[start : start + BARS_A_GRID]) for name, line in self.lines.items()}
+            rows += ["", "[[grid]]" if len(starts) > 1 else "[grid]"]
+            rows += [f'{name} = "| {line} |"' for name, line in part.items()]
         return rows
-
-
-def grid_rows(lines: Mapping[str, Sequence[str]]) -> list[str]:
-    """The lines as they stand in a file, aligned beat by beat, under their count."""
-    bars = [[bar.split() for bar in line] for line in lines.values()]
-    at_once = [list(zip(*beats, strict=True)) for beats in zip(*bars, strict=True)]  # [bar][beat][line]
-    widths = [[max(map(len, beat)) for beat in bar] for bar in at_once]
-    name = max(map(len, lines))
-    rows = [
-        f"# {'':{name}}    {'   '.join(_count(bar, wide) for bar, wide in zip(at_once, widths, strict=True))}".rstrip()
-    ]
-    for key, line in zip(lines, bars, strict=True):
-        cells = [
-            " ".join(f"{b:{w}}" for b, w in zip(bar, wide, strict=True)) for bar, wide in zip(line, widths, strict=True)
-        ]
-        rows.append(f'{key:{name}} = "| {" | ".join(cells)} |"')
-    return rows
-
-
-def _count(bar: Sequence[Sequence[str]], widths: Sequence[int]) -> str:
-    return " ".join(f"{_counted(i, beat):{width}}" for i, (beat, width) in enumerate(zip(bar, widths, strict=True), 1))
-
-
-def _counted(number: int, beat: Sequence[str]) -> str:
-    """The count of one beat, over the line that divides it most."""
-    finest = max(beat, key=len)
-    cells = len(finest.strip("()"))
-    indent = " " if finest.startswith("(") else ""
-    return f"{indent}{str(number)[-1]}{_COUNTS.get(cells, '')}"
 
 
 def level_word(level: int) -> str:
