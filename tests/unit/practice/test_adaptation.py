@@ -17,6 +17,7 @@ from station.drills.library import find_lesson
 from station.drills.mastery.feedback_fading import Feedback
 from station.drills.mastery.practice_steps import PassKind
 from station.music.judgement import Judgement, Label
+from station.music.score import NOTE_DTYPE
 from station.practice.headless.virtual_session import VirtualSession, practise_adaptively
 from station.practice.records.mastery_report import with_mastery
 from station.practice.records.session_report import practice_document, report_text, with_truth
@@ -27,8 +28,8 @@ from station.scoring.matching.hit_windows import Level
 from station.simulation.student_spec import parse_spec
 
 TODAY = date(2026, 3, 1)
-FILL = find_lesson("rock-fill-1")
-"""Four bars, target 104 bpm."""
+FILL = replace(find_lesson("rock-fill-1"), landing=np.zeros(0, NOTE_DTYPE))
+"""Four bars, target 104 bpm; what a landing adds has tests of its own."""
 
 
 def practised(
