@@ -15,7 +15,7 @@ import numpy as np
 from station.core.pieces import Dynamic, Limb
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
-from station.drills.library import find_lesson
+from station.drills.library import find_lesson, lessons_dir
 from station.drills.rudiments import RUDIMENTS, SOURCES, ChartStroke, Rudiment
 from station.music.score import Note
 
@@ -56,6 +56,10 @@ level lies under the tempo of the next. Rolls stand at 7, 10 and 13 strokes a se
 | | rudiment | slow | medium | fast |
 |---|---|---|---|---|
 """
+_FOLDERS = (
+    ("rolls", "Rolls", "Open rolls, press rolls, and the ways between them."),
+    ("orchestrated", "On the kit", "Rudiments with their strokes on drums and cymbals; the hands are the rudiment's."),
+)
 
 
 def main_strokes(lesson: Lesson) -> list[Note]:
@@ -103,11 +107,31 @@ def _tempi(rudiment: Rudiment) -> str:
     return f"| {rudiment.number} | {rudiment.title} | {' | '.join(cells)} |"
 
 
+def _more(folder: str, title: str, about: str) -> str:
+    """The table of the lessons in one folder, from easy to hard."""
+    lessons = sorted(
+        (find_lesson(p.stem) for p in (lessons_dir() / folder).glob("*.toml")), key=lambda x: (x.level, x.name)
+    )
+    rows = (
+        f"| `{x.name}` | {x.title} | {x.level} | {x.beats_a_minute:g} | {strokes_a_second(x):.1f}/s |\n"
+        for x in lessons
+    )
+    return f"\n## {title}\n{about}\n\n| lesson | | level | bpm | densest |\n|---|---|---|---|---|\n{''.join(rows)}"
+
+
 def page() -> str:
     """The whole page."""
     sources = "".join(f"* **{letter}** {text}\n" for letter, text in SOURCES.items())
     rows = "".join(f"{_row(r)}\n" for r in RUDIMENTS)
-    return _HEAD + sources + _RULES + rows + _TEMPI + "".join(f"{_tempi(r)}\n" for r in RUDIMENTS)
+    return (
+        _HEAD
+        + sources
+        + _RULES
+        + rows
+        + _TEMPI
+        + "".join(f"{_tempi(r)}\n" for r in RUDIMENTS)
+        + "".join(_more(*folder) for folder in _FOLDERS)
+    )
 
 
 if __name__ == "__main__":

@@ -11,8 +11,9 @@ from math import degrees, isfinite, radians
 
 from station.core.counts import is_count
 from station.core.errors import BadInput
+from station.core.named_view import NamedView
 from station.core.settings import LARGEST_PANELS, SMALLEST_PANELS, Settings, settings_path
-from station.render.camera import Camera, NamedView
+from station.render.camera import Camera
 from station.render.gpu.moving_parts import DoublePlace
 from station.render.notation.score_view import ScoreForm
 from station.render.palette import Theme

@@ -17,10 +17,10 @@ from station.cli.options.option_fields import (
     whole_number,
 )
 from station.core.errors import BadInput
+from station.core.named_view import NamedView
 from station.motion.kinematics.figure import DEFAULT_FIGURE, figure_names
 from station.motion.style.proposal import PROPOSED
 from station.motion.style.style_file import style_names
-from station.render.camera import NamedView
 
 MAX_PIXELS = 7680
 """No side of a picture is longer: what common drivers draw into at once is twice that; our choice."""

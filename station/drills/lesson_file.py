@@ -26,7 +26,7 @@ from station.drills.grid.cell_strokes import Origin, WrittenCell, expand
 from station.drills.grid.grid_reader import read_grid
 from station.drills.grid.grid_timing import GridTiming, timing_of
 from station.drills.grid.landing import read_landing
-from station.drills.grid.voice import MAX_BARS, MAX_CELLS
+from station.drills.grid.voice import MAX_BARS, MAX_CELLS, CellCount
 from station.drills.lesson import Goals, Lesson
 from station.drills.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
 from station.drills.stretches import (
@@ -140,10 +140,11 @@ def _read_grids(written: Sequence[WrittenGrid], timing: GridTiming, faults: Faul
     """The grids, each after what was said before it; raises `Wrong` where they are more than anyone practises."""
     grids: list[ReadGrid] = []
     bars = strokes = 0
+    cells = CellCount()
     for each in written:
         before = timing if not grids else grids[-1 if each.like is None else each.like].section.timing
         found = Faults()
-        section = read_grid(each.raw, each.path, before, found)
+        section = read_grid(each.raw, each.path, before, found, cells)
         is_sure = section.timing.is_sure and not found
         shape = GridShape(section.meters, section.times, section.timing.beat_ticks, is_sure)
         at_bars = Faults()

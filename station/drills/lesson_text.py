@@ -20,8 +20,8 @@ from station.drills.line_layout import Meters, bar_count, laid_out
 from station.drills.written_meters import written_meters
 
 _LINE_KEYS = frozenset({*LINE_PIECES, "sticking", "loudness"})
-_COUNT = re.compile(r"#[ ]{2,}1[\d&eat· ]*")
-"""A count that `show` or a teacher wrote above the lines: a 1 first, then digits and the syllables between them."""
+_COUNT = re.compile(r"#[ ]{2,}1[\d&.·a-z]*(?: +\d[\d&.·a-z]*)*")
+"""A count that `show` or a teacher wrote above the lines: words of a digit and syllables, the first with a 1."""
 _BLANKS_AT_END = re.compile(r"[ \t]+(?=\n|$)")
 
 
@@ -110,10 +110,9 @@ def _edits(raw: Mapping[str, object], places: Places) -> list[_Edit]:
         if table is not None and entry:
             header = max((h for h in places.headers if h < offset), default=0)
             blocks.setdefault((table, header), []).append(entry)
-    width = max((len(entry.key) for block in blocks.values() for entry in block), default=0)
     edits: list[_Edit] = []
     for (table, _), block in blocks.items():
-        edits += _block_edits(places.text, block, width, meters.get(table))
+        edits += _block_edits(places.text, block, meters.get(table))
     return edits
 
 
@@ -145,8 +144,9 @@ def _value_at(raw: object, path: KeyPath) -> object:
 # --- a block of lines -------------------------------------------------------------------------------------------------
 
 
-def _block_edits(text: str, block: Sequence[_Entry], width: int, meters: Meters | None) -> list[_Edit]:
-    """The rows of one block, their `=` in column `width`; `meters` None where lines are single letters (a landing)."""
+def _block_edits(text: str, block: Sequence[_Entry], meters: Meters | None) -> list[_Edit]:
+    """The rows of one block; `meters` None where lines are single letters (a landing)."""
+    width = max(len(entry.key) for entry in block)
     single = [entry for entry in block if not entry.has_rows]
     lines, count = [entry.line.strip() for entry in single], ""
     if meters:
@@ -164,9 +164,19 @@ def _count_edits(text: str, row: int, count: str) -> list[_Edit]:
     while start and text[:start].rsplit("\n", 2)[-2].lstrip().startswith("#"):
         start = text.rfind("\n", 0, start - 1) + 1
         end = _row_end(text, start)
-        if _COUNT.fullmatch(text[start:end].strip()):
-            return [(start, end, count)]
+        older = text[start:end].strip()
+        if _COUNT.fullmatch(older):
+            return [(start, end, _in_the_words_of(older, count))]
     return [(row, row, f"{count}\n")]
+
+
+def _in_the_words_of(older: str, count: str) -> str:
+    """The count with the letters of an older one that counts as many cells in each beat: people count as they like."""
+    theirs, ours = older[1:].split(), count[1:].split()
+    if [*map(len, theirs)] != [*map(len, ours)]:
+        return count
+    letters = iter("".join(theirs))
+    return "#" + "".join(" " if char == " " else next(letters) for char in count[1:])
 
 
 def _rows(line: str, meters: Meters | None) -> str:

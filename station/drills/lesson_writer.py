@@ -9,16 +9,17 @@ from dataclasses import asdict
 
 from station.core.errors import BadInput
 from station.core.pieces import word
+from station.core.toml_write import toml_text
 from station.core.units import PPQ
 from station.drills.grid.grid_writer import GridSetting, frame_of, with_repeats, write_lines
 from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines_of, strokes_by_bar
+from station.drills.grid.swing import Swing
 from station.drills.grid.touch import Graces, Velocities
-from station.drills.lesson import Goals, Lesson, Section, tidy_bpm
+from station.drills.lesson import Lesson, Section, tidy_bpm
 from station.drills.lesson_difference import score_difference
 from station.drills.lesson_file import parse_lesson
 from station.drills.lesson_text import show
 from station.music.score import Score
-from station.scoring.analysis.fault_table import MUTE
 
 _DYNAMICS = ("ghost", "normal", "accent")
 
@@ -29,19 +30,8 @@ def write_lesson(lesson: Lesson) -> str:
     Raises `BadInput` for music that the grid cannot write (times between its cells, velocities beside the lesson's
     dynamics, strokes without a letter): see `quantise.quantise_score`, which brings any score onto the grid.
     """
-    text = (
-        "\n".join(
-            [
-                *_head(lesson),
-                "",
-                *_dynamics(lesson.velocities),
-                *_graces(lesson.score),
-                *_goals(lesson),
-                *_grids(lesson),
-            ]
-        )
-        + "\n"
-    )
+    parts = [_head(lesson), _dynamics(lesson.velocities), _graces(lesson.score), _grids(lesson)]
+    text = "".join(f"{line}\n" for part in parts for line in part)
     read = parse_lesson(text, lesson.name, lesson.name)
     if read.lesson is None:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {read.faults[0].text}")
@@ -52,26 +42,16 @@ def write_lesson(lesson: Lesson) -> str:
 
 
 def _head(lesson: Lesson) -> list[str]:
-    defaults = Lesson("", "", lesson.score)
-    lines = [f"title = {quoted(lesson.title)}"]
-    lines += [f"author = {quoted(lesson.author)}"] if lesson.author else []
-    lines += [f"level = {lesson.level}"]
-    lines += [f"tags = [{', '.join(quoted(t) for t in lesson.tags)}]"] if lesson.tags else []
-    lines += [f"about = {_paragraph(lesson.about)}"] if lesson.about else []
-    lines += [f"kit = {quoted(lesson.kit)}"] if lesson.kit else []
-    lines += [f"tempo_bpm = {number(lesson.beats_a_minute)}", f"meter = {quoted(lesson.meter)}"]
-    lines += [f"beat = {quoted(note_length(lesson.beat_ticks))}"] if lesson.beat_ticks != PPQ else []
+    """What an import can know: the title, tempo, meter, beat and swing, and the loop where it is not all."""
+    lines = [f"title = {toml_text(lesson.title)}"]
+    lines += [f"tempo_bpm = {number(lesson.beats_a_minute)}", f"meter = {toml_text(lesson.meter)}"]
+    lines += [f"beat = {toml_text(note_length(lesson.beat_ticks))}"] if lesson.beat_ticks != PPQ else []
     lines += [f"swing_ratio = {number(lesson.swing.ratio)}"] if lesson.is_swung else []
-    if lesson.swing.unit_ticks != defaults.swing.unit_ticks:
-        lines += [f"swing_unit = {quoted(note_length(lesson.swing.unit_ticks))}"]
+    if lesson.swing.unit_ticks != Swing().unit_ticks:
+        lines += [f"swing_unit = {toml_text(note_length(lesson.swing.unit_ticks))}"]
     first, last = lesson.loop
     lines += [f"loop = [{first + 1}, {last + 1}]"] if lesson.loop != (0, lesson.score.bar_count - 1) else []
-    return [
-        *lines,
-        f"passes = {lesson.passes}",
-        f"count_in_bars = {lesson.count_in_bars}",
-        f"demonstrations = {lesson.demonstrations}",
-    ]
+    return [*lines, ""]
 
 
 def _dynamics(velocities: Velocities) -> list[str]:
@@ -95,28 +75,6 @@ def _three(values: tuple[int, int, int], usual: tuple[int, int, int]) -> list[st
     return [f"{key} = {v}" for key, v, u in zip(_DYNAMICS, values, usual, strict=True) if v != u]
 
 
-def _goals(lesson: Lesson) -> list[str]:
-    goals, defaults = lesson.goals, Goals()
-    if goals == defaults:
-        return []
-    levels = {
-        "level": goals.level,
-        "strictest_level": goals.strictest_level if goals.strictest_level != defaults.strictest_level else None,
-    }
-    values = {
-        "min_accuracy": goals.min_accuracy,
-        "max_sd_ms": goals.max_sd_ms,
-        "max_lean_ms": goals.max_lean_ms,
-        "max_swing_error": goals.max_swing_error,
-        "target_tempo_bpm": goals.target_tempo_bpm and goals.target_tempo_bpm * PPQ / lesson.beat_ticks,
-        "min_score": goals.min_score,
-    }
-    said = [f"{key} = {quoted(v)}" for key, v in levels.items() if v is not None]
-    out = ["[goals]", *said, *(f"{key} = {number(v)}" for key, v in values.items() if v is not None), ""]
-    sizes = {word: quoted(MUTE) if size is None else number(size) for word, size in goals.faults.sizes.items()}
-    return out + (["[goals.faults]", *(f"{word} = {size}" for word, size in sizes.items()), ""] if sizes else [])
-
-
 def _grids(lesson: Lesson) -> list[str]:
     sections = lesson.sections or (Section("", 0, lesson.score.bar_count - 1),)
     single = len(sections) == 1 and not sections[0].name
@@ -124,7 +82,7 @@ def _grids(lesson: Lesson) -> list[str]:
     out: list[str] = []
     for i, section in enumerate(sections):
         out += ["[grid]" if single else "[[grid]]"]
-        out += [f"name = {quoted(section.name)}"] if section.name else []
+        out += [f"name = {toml_text(section.name)}"] if section.name else []
         out += _changes(lesson, section) if i else []
         out += [*_lines(lesson, section, by_bar), ""]
     return out[:-1]
@@ -135,7 +93,7 @@ def _changes(lesson: Lesson, section: Section) -> list[str]:
     tempo_map = lesson.score.tempo_map
     start = tempo_map.bar_start(section.first_bar)
     meter, before = tempo_map.meter_at(start), tempo_map.meter_at(start - 1)
-    lines = [f"meter = {quoted(str(meter))}"] if str(meter) != str(before) else []
+    lines = [f"meter = {toml_text(str(meter))}"] if str(meter) != str(before) else []
     here = next((t for t in tempo_map.tempos if t.tick == start), None)
     return lines + ([f"tempo_bpm = {number(tidy_bpm(here.us_per_quarter, lesson.beat_ticks))}"] if here else [])
 
@@ -151,33 +109,6 @@ def _lines(lesson: Lesson, section: Section, by_bar: Mapping[int, Sequence[Writt
     write_lines(lines, count, setting)
     new = [True] + [any(line.bars[i] != line.bars[i - 1] for line in lines) for i in range(1, count)]
     return [f'{line.name} = "{with_repeats(line.bars, new)}"' for line in lines]
-
-
-# --- TOML -------------------------------------------------------------------------------------------------------------
-
-
-def quoted(text: str) -> str:
-    """A TOML basic string."""
-    escaped = "".join(_escape(c) for c in text)
-    return f'"{escaped}"'
-
-
-_ESCAPES = {"\\": "\\\\", '"': '\\"', "\n": "\\n", "\t": "\\t"}
-
-
-def _escape(char: str) -> str:
-    if char in _ESCAPES:
-        return _ESCAPES[char]
-    return f"\\u{ord(char):04X}" if ord(char) < 0x20 or ord(char) == 0x7F else char
-
-
-def _paragraph(text: str) -> str:
-    """A string of several lines between three quotes, if it has several."""
-    if "\n" not in text:
-        return quoted(text)
-    body = "\n".join("".join(c if c == '"' else _escape(c) for c in line) for line in text.split("\n"))
-    body = body.replace('""', '"\\"')
-    return f'"""\n{body}\n"""'
 
 
 def number(value: float) -> str:

@@ -5,6 +5,7 @@ name is its file's stem; names are unique, whatever folder a file lies in. Any o
 path. Files that end in `.course.toml` are courses.
 """
 
+from collections.abc import Collection
 from contextlib import suppress
 from difflib import get_close_matches
 from functools import cache
@@ -83,8 +84,10 @@ def find_lesson(name_or_path: str) -> Lesson:
 
 def lessons_for(folder: Path) -> Where:
     """Finds what a course in `folder` names: a shipped lesson by its name, or a file."""
-    shipped = frozenset(lesson_names())
+    return _found_in(folder, frozenset(lesson_names()))
 
+
+def _found_in(folder: Path, shipped: Collection[str]) -> Where:
     def where(word: str) -> str | None:
         path = folder / word
         if word in shipped:
@@ -105,9 +108,11 @@ def courses_in(folder: Path) -> tuple[list[Course], list[BadInput]]:
     """The courses in a folder and below it by level and name, and the faults of those that cannot be read."""
     courses: list[Course] = []
     faults: list[BadInput] = []
-    for path in sorted(folder.rglob(f"*{ENDING}")):
+    paths = sorted(folder.rglob(f"*{ENDING}"))
+    shipped = frozenset(lesson_names() if paths else ())
+    for path in paths:
         try:
-            courses.append(read_course(path, lessons_for(path.parent)))
+            courses.append(read_course(path, _found_in(path.parent, shipped)))
         except BadInput as fault:
             faults.append(fault)
     return sorted(courses, key=lambda course: (course.level, course.name)), faults

@@ -14,7 +14,7 @@ from station.music.tempo import MeterChange
 
 _REPEAT = re.compile(r"%(\d*)")
 _EIGHTH = 8
-_COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 6: "·t·a·", 8: "·e·&·a·"}
+_COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 6: "ta&ta", 8: "·e·&·a·"}
 """How drummers count the cells after the number of their beat; others are dots."""
 
 
@@ -141,13 +141,14 @@ def _shortest(text: str, frame: GridFrame) -> int:
 
 
 def _beat_starts(meter: MeterChange, shortest_ticks: int) -> tuple[int, ...]:
-    """Where a blank stands before a bar's beat: at the groups, else at each beat.
+    """Where a blank stands before a bar's beat: at each beat, in meters of eighths and shorter at the groups.
 
     A 7/8 or 5/8 whose groups nobody has said is one word as long as its cells are the meter's own.
     """
-    starts = tuple(beat * meter.beat_ticks for beat in meter.group_starts)
-    is_unsaid = meter.unit >= _EIGHTH and len(starts) == meter.beats
-    return (0,) if is_unsaid and shortest_ticks >= meter.beat_ticks else starts
+    beats = meter.group_starts if meter.unit >= _EIGHTH else range(meter.beats)
+    is_unsaid = meter.unit >= _EIGHTH and len(beats) == meter.beats
+    is_one_word = is_unsaid and shortest_ticks >= meter.beat_ticks
+    return (0,) if is_one_word else tuple(beat * meter.beat_ticks for beat in beats)
 
 
 def _words(text: str, frame: GridFrame, starts: Sequence[int]) -> list[str]:

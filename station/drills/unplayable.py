@@ -1,8 +1,8 @@
 """What nobody can play in a lesson: asked of `motion/feasibility`, told by letter and with the tempo that would do.
 
-Asked of the whole score, of the step from the end of the loop to its start, and of the landing; at the written tempo
-first, then at the goal's. A letter is blamed once however often the form plays it, and a limb that the written tempo
-asks too much of is not blamed for the goal's as well.
+Asked of the whole score, of the step from the end of the loop to its start, and of the landing; at the goal's tempo,
+and where there is something, at the written one too. A letter is blamed once however often the form plays it, and a
+limb that the written tempo asks too much of is not blamed for the goal's as well.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -36,44 +36,39 @@ def note_unplayable(
     lesson: Lesson, origins: Sequence[Origin], beat_ticks_at: Callable[[int], int], faults: Faults
 ) -> None:
     """Note what cannot be played, at its letter: `origins` of the score's rows; tempi in `beat_ticks_at` a tick."""
+    goal_speed = max(1.0, lesson.target_tempo_bpm / lesson.tempo_bpm)
+    at_goal = list(_findings(lesson, goal_speed))
+    written = list(_findings(lesson, 1.0)) if at_goal and goal_speed > 1 else at_goal  # what is slower is no harder
+    goal_bpm = lesson.target_tempo_bpm * PPQ / lesson.beat_ticks
     blamed: set[Origin | None] = set()
     overtaxed: set[str] = set()
-    for goal_bpm in (None, *_goals(lesson)):
-        speed = 1.0 if goal_bpm is None else lesson.target_tempo_bpm / lesson.tempo_bpm
-        findings = list(_findings(lesson, speed))
-        for found in findings:
-            origin = None if found.row is None else origins[found.row]
-            if origin not in blamed and found.what.too_fast_for not in overtaxed:
-                blamed.add(origin)
-                words = _words(lesson, found, goal_bpm, beat_ticks_at)
-                faults.add(
-                    (LANDING,) if origin is None else origin.path, words, None if origin is None else origin.char
-                )
-        overtaxed = {found.what.too_fast_for for found in findings} - {""}
-
-
-def _goals(lesson: Lesson) -> Iterator[float]:
-    """The tempo to reach in the lesson's own beat, if it is another than the written."""
-    if lesson.target_tempo_bpm > lesson.tempo_bpm:
-        yield lesson.target_tempo_bpm * PPQ / lesson.beat_ticks
+    for found, tempo in (*((each, None) for each in written), *((each, goal_bpm) for each in at_goal)):
+        origin = None if found.row is None else origins[found.row]
+        limb = found.what.too_fast_for
+        if origin in blamed or limb in overtaxed:
+            continue
+        blamed.add(origin)
+        overtaxed |= {limb} - {""}
+        words = _words(lesson, found, tempo, beat_ticks_at)
+        faults.add((LANDING,) if origin is None else origin.path, words, None if origin is None else origin.char)
 
 
 def _findings(lesson: Lesson, speed: float) -> Iterator[_Finding]:
-    """All that is impossible at `speed`; what repeats is found more than once."""
+    """All that is impossible at `speed`, in the whole, and as the loop is played twice and lands."""
     score, (first, last) = lesson.score.at_speed(speed), lesson.loop
-    if not len(score):
-        return
-    yield from (_Finding(found.note, found) for found in impossible(score))
     in_loop = np.flatnonzero((score.bar >= first) & (score.bar <= last)).tolist()
-    loop = score.bars(first, last)
-    for found in impossible(loop.repeated(2)) if in_loop else ():
-        if found.note >= len(in_loop):
-            yield _Finding(in_loop[found.note - len(in_loop)], found, " as the loop starts again")
-    if len(lesson.landing):
-        landing = Score.from_array(lesson.landing, loop.tempo_map)
-        for found in impossible(Score.joined([loop, landing])):
-            if found.note >= len(in_loop):
-                yield _Finding(None, found, " on the landing")
+    if len(in_loop) < len(score):
+        yield from (_Finding(found.note, found) for found in impossible(score))
+    if not in_loop:
+        return
+    loop, notes = score.bars(first, last), len(in_loop)
+    landing = [Score.from_array(lesson.landing, loop.tempo_map)] if len(lesson.landing) else []
+    for found in impossible(Score.joined([loop, loop, *landing])):
+        if found.note < 2 * notes:
+            again = " as the loop starts again" if found.note >= notes else ""
+            yield _Finding(in_loop[found.note % notes], found, again)
+        else:
+            yield _Finding(None, found, " on the landing")
 
 
 def _words(lesson: Lesson, found: _Finding, goal_bpm: float | None, beat_ticks_at: Callable[[int], int]) -> str:

@@ -12,9 +12,9 @@ from imgui_bundle import imgui
 
 from station.app.view_settings import SLOTS
 from station.core.labels import piece_name
+from station.core.named_view import NamedView
 from station.core.pieces import Articulation, Piece, Zone
 from station.engine.messages import KeyHit
-from station.render.camera import NamedView
 
 VELOCITY = 90
 """A plain stroke (HUMANS: normal 60–95); keys cannot tell more."""

@@ -22,8 +22,9 @@ from numpy.typing import NDArray
 from station.app.room_state import ShownResult
 from station.app.view_settings import ViewSettings
 from station.core.errors import DeviceError
+from station.core.named_view import NamedView
 from station.gui import theme
-from station.render.camera import Camera, NamedView
+from station.render.camera import Camera
 from station.render.framing import Stage, named, stage_of
 from station.render.gpu.gl import GL_VERSION, RenderTarget
 from station.render.painter import Area, Arrangement, Painter

@@ -7,9 +7,9 @@ words.
 
 import numpy as np
 
+from station.core.named_view import NamedView
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
-from station.render.camera import NamedView
 from station.render.framing import named
 from station.render.gpu.bone_palette import BoneFrame
 from station.render.gpu.gl import RenderTarget, standalone_context

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from station.core.named_view import NamedView as NamedView  # noqa: PLC0414  whoever has a camera has its views
+from station.core.named_view import NamedView
 from station.render.geometry.transforms import Matrix, look_at, perspective
 
 NARROW = 1.5

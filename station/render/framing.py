@@ -13,12 +13,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.named_view import NamedView
 from station.core.pieces import Piece
 from station.motion.kinematics.figure import Figure, Joint, figure_of
 from station.motion.kinematics.frame import STAND_M
 from station.motion.kit.kit import Kit, load_kit
 from station.motion.kit.piece import KitPiece
-from station.render.camera import NARROW, Camera, NamedView
+from station.render.camera import NARROW, Camera
 from station.render.geometry.transforms import look_at
 from station.render.snapshot import Snapshot
 

@@ -8,10 +8,11 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.named_view import NamedView
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
 from station.render import hud
-from station.render.camera import Camera, NamedView
+from station.render.camera import Camera
 from station.render.framing import named, stage_of
 from station.render.gpu.cached_layer import CachedLayer
 from station.render.gpu.edge_smoothing import EdgeSmoother

@@ -1,6 +1,9 @@
 """Bars of a lesson or of another score as a sheet on paper."""
 
+from collections.abc import Iterator
+
 from station.core.units import PPQ
+from station.drills.grid.swing import STRAIGHT, Swing
 from station.drills.lesson import Lesson, tidy_bpm
 from station.music.score import Score
 from station.render.files.pdf_file import pdf
@@ -15,18 +18,33 @@ def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
     first, last = bars
     beats = tidy_bpm(lesson.played_once.bars(*bars).tempo_map.tempos[0].us_per_quarter, lesson.beat_ticks)
     loop = (lesson.loop[0] - first, lesson.loop[1] - first)
-    sections = tuple((s.first_bar - first, s.name) for s in lesson.sections if s.name and first <= s.first_bar <= last)
     return SheetWords(
         title=lesson.title,
         author=lesson.author,
         beats_a_minute=round(beats, 1),
         beat_ticks=lesson.beat_ticks,
-        feel=f"swing {lesson.swing_ratio:.3g} : 1" if lesson.is_swung else "",
+        feel=_feel(lesson.swing_of_bar(first)) if lesson.swing_of_bar(first).ratio != STRAIGHT else "",
         about=" ".join(lesson.about.split()),
-        sections=sections,
+        sections=tuple(_sections(lesson, bars)),
         repeat=loop if first <= lesson.loop[0] and lesson.loop[1] <= last else None,
         first_bar=first + 1,
     )
+
+
+def _sections(lesson: Lesson, bars: Bars) -> Iterator[tuple[int, str]]:
+    """Where sections begin, by the sheet's bars, with their names and, where it changes there, their feel."""
+    first, last = bars
+    feel = _feel(lesson.swing_of_bar(first))
+    for section in lesson.sections:
+        if first <= section.first_bar <= last:
+            before, feel = feel, _feel(section.swing)
+            words = [section.name, feel if feel != before else ""]
+            if label := "   ".join(filter(None, words)):
+                yield section.first_bar - first, label
+
+
+def _feel(swing: Swing) -> str:
+    return "straight" if swing.ratio == STRAIGHT else f"swing {swing.ratio:.3g} : 1"
 
 
 def score_labels(score: Score, bars: Bars, name: str) -> SheetWords:

@@ -27,6 +27,7 @@ from station.app.settings_store import SettingsStore
 from station.app.view_settings import view_settings_of
 from station.app.window_state import State
 from station.core.measured_latency import load_calibration
+from station.core.named_view import NamedView
 from station.core.pieces import Piece
 from station.core.settings import Settings, load_settings, save_settings
 from station.core.units import ns_from_ms
@@ -56,7 +57,7 @@ from station.gui.window import Window
 from station.gui.window_frame import WindowOptions
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.self_estimate import SelfEstimate
-from station.render.camera import VIEW_NAMES, NamedView
+from station.render.camera import VIEW_NAMES
 from station.render.files.png_file import write_png
 from station.render.notation.score_view import ScoreForm
 from station.render.snapshot import Snapshot

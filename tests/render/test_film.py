@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from station.core.named_view import NamedView
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
-from station.render.camera import NamedView
 from station.render.framing import named
 from station.render.picture import PictureMaker, Shot
 from station.render.quality import QUALITIES

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from station.core.named_view import NamedView
 from station.core.pieces import Limb, Piece
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import Joint, figure_of
@@ -18,7 +19,7 @@ from station.motion.kinematics.pose import RIGHT, Pose
 from station.motion.kit.kit import load_kit
 from station.music.judgement import Label
 from station.music.score import Note
-from station.render.camera import Camera, NamedView
+from station.render.camera import Camera
 from station.render.framing import named
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.gpu.moving_parts import DoublePlace

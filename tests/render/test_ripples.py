@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from station.core.named_view import NamedView
 from station.core.pieces import Limb, Piece
 from station.core.units import PPQ
 from station.motion.drummer import Drummer
@@ -16,7 +17,6 @@ from station.motion.kit.instruments import NUMBERS
 from station.motion.kit.kit import load_kit
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.render.camera import NamedView
 from station.render.framing import named
 from station.render.gpu.bone_palette import BoneFrame
 from station.render.gpu.gl import RenderTarget, standalone_context

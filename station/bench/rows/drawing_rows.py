@@ -14,9 +14,9 @@ from pathlib import Path
 
 from station.bench.harness.benchmark import Benchmark, Measurement, median_s
 from station.bench.rigs.drawer import SIZE, snapshots
+from station.core.named_view import NamedView
 from station.music.judgement import Label
 from station.render.bare_scene import BareScene
-from station.render.camera import NamedView
 from station.render.framing import named
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.painter import Arrangement, Painter

@@ -222,14 +222,16 @@ def _rows(stroke: WrittenCell) -> list[tuple[float, ...]]:
 
 
 def _graces(stroke: WrittenCell, velocity: int) -> list[tuple[float, ...]]:
+    graces, ornament = stroke.touch.graces, stroke.letter.ornament
+    leads_ms = graces.leads_ms(ornament)
+    if not leads_ms:
+        return []
     grace = replace(
         stroke,
         limb=OTHER_HAND.get(stroke.limb, Limb.UNKNOWN),
         letter=replace(stroke.letter, dynamic=Dynamic.GHOST),
     )
-    graces, ornament = stroke.touch.graces, stroke.letter.ornament
-    soft = graces.velocity(velocity)
-    return [_row(grace, soft, ornament, {"lead_ms": lead}) for lead in graces.leads_ms(ornament)]
+    return [_row(grace, graces.velocity(velocity), ornament, {"lead_ms": lead}) for lead in leads_ms]
 
 
 def _row(

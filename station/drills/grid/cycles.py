@@ -12,7 +12,7 @@ from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, lines_of_table, plain_line
 from station.drills.grid.grid_timing import meter
 from station.drills.grid.sticking_line import STICKING
-from station.drills.grid.voice import agreed_bars, check_cells, parsed, voice_strokes
+from station.drills.grid.voice import CellCount, agreed_bars, parsed, voice_strokes
 from station.music.tempo import MeterChange
 
 CYCLE: Fields = {"meter": needed(meter, 'the meter of the cycle, such as meter = "5/8"'), **LINES}
@@ -50,7 +50,9 @@ def _read_cycle(raw: object, path: KeyPath, faults: Faults) -> list[Cycle]:
     return [Cycle(values["meter"], lines, plain_line(values, STICKING, path), are_all)]
 
 
-def cycle_strokes(cycle: Cycle, beat_ticks: int, clock: BarClock, end_tick: int, faults: Faults) -> list[WrittenCell]:
+def cycle_strokes(
+    cycle: Cycle, beat_ticks: int, clock: BarClock, end_tick: int, faults: Faults, count: CellCount
+) -> list[WrittenCell]:
     """The strokes of a cycle from tick 0, round after round, cut off at `end_tick`; it swings as the grid does."""
     frames = [GridFrame(cycle.meter, beat_ticks)]
     lines = [parsed(raw, frames, faults) for raw in cycle.lines]
@@ -58,7 +60,7 @@ def cycle_strokes(cycle: Cycle, beat_ticks: int, clock: BarClock, end_tick: int,
     bars = agreed_bars([*lines, *([under] if under else [])], faults)
     length = cycle.meter.bar_ticks
     rounds = -(-end_tick // (bars * length))
-    check_cells(lines, rounds)
+    count.add(lines, rounds)
     strokes: list[WrittenCell] = []
     for number in range(rounds):
         starts = [(number * bars + bar) * length for bar in range(bars)]

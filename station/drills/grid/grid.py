@@ -221,7 +221,7 @@ def _even_free(text: str, runs: list[_Run], frame: GridFrame) -> int:
         left = f"the {free / unit:g} beats of 1/{frame.meter.unit} that (…) leave of {frame.meter}"
         raise _BadBarError(runs[0].start, f"{count} cells for {left}")
     if not _fits(count, free // unit, whole_bar=not tuplets):
-        place = _odd_one_out(text, runs) if not tuplets else runs[0].chars[0][0]
+        place = _odd_one_out(text, runs, frame.meter.groups) if not tuplets else runs[0].chars[0][0]
         beside = " beside (…)" if tuplets else ""
         expected = _expected(free // unit, not tuplets)
         raise _BadBarError(place, f"{count} cells{beside} do not fill a {frame.meter} bar; expected {expected}")
@@ -269,8 +269,8 @@ def _expected(beats: int, whole_bar: bool) -> str:
     return ", ".join(counts[:-1]) + " or " + counts[-1]
 
 
-def _odd_one_out(text: str, runs: list[_Run]) -> int:
-    """Where the blank-separated group stands that is not as long as the most common one; else the bar's start."""
+def _odd_one_out(text: str, runs: list[_Run], groups: tuple[int, ...]) -> int:
+    """Where the word between blanks stands that has not as many cells a beat as most have; else the bar's start."""
     chars = runs[0].chars
     words: list[list[int]] = [[]]
     for (i, _), (after, _) in zip(chars, [*chars[1:], (len(text), "")], strict=True):
@@ -278,9 +278,10 @@ def _odd_one_out(text: str, runs: list[_Run]) -> int:
         if after - i > 1:
             words.append([])
     words = [w for w in words if w]
-    lengths = [len(w) for w in words]
-    usual = max(lengths, key=lambda n: (lengths.count(n), n))
-    return next((w[0] for w in words if len(w) != usual), chars[0][0])
+    beats = groups if len(groups) == len(words) else (1,) * len(words)
+    shares = [len(w) / n for w, n in zip(words, beats, strict=True)]
+    usual = max(shares, key=lambda n: (shares.count(n), n))
+    return next((w[0] for w, n in zip(words, shares, strict=True) if n != usual), chars[0][0])
 
 
 def _is_binary(count: int, ticks: int) -> bool:

@@ -16,7 +16,7 @@ from station.drills.grid.grid_timing import TIMING, GridTiming, timing_of
 from station.drills.grid.loudness import Loudness, read_loudness
 from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.swing import STRAIGHT
-from station.drills.grid.voice import MAX_BARS, ParsedLine, agreed_bars, check_cells, parsed, voice_strokes
+from station.drills.grid.voice import MAX_BARS, CellCount, ParsedLine, agreed_bars, parsed, voice_strokes
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
 MAX_TIMES = 100
@@ -81,8 +81,13 @@ GRID: Fields = {
 """The keys of a grid."""
 
 
-def read_grid(raw: object, path: KeyPath, before: GridTiming, faults: Faults) -> GridSection:
-    """One grid, after what was said `before` it: the lesson's own timing, or that of the grid that precedes it."""
+def read_grid(
+    raw: object, path: KeyPath, before: GridTiming, faults: Faults, count: CellCount | None = None
+) -> GridSection:
+    """One grid, after what was said `before` it: the lesson's own timing, or that of the grid that precedes it.
+
+    `count` has the cells of all grids of a lesson so far; raises `Wrong` where they are more than anyone practises.
+    """
     values, found = checked_values(raw, GRID, "line")
     timing = timing_of(values, before, found, path)
     lines = lines_of_table(values, path, found)
@@ -93,7 +98,8 @@ def read_grid(raw: object, path: KeyPath, before: GridTiming, faults: Faults) ->
     if not timing.is_sure:
         return _unread(values, timing)
     cycles = read_cycles(values["cycle"], (*path, "cycle"), faults)
-    return _Builder(values, path, timing, lines, cycles, faults, are_all).section()
+    count = CellCount() if count is None else count
+    return _Builder(values, path, timing, lines, cycles, faults, count, are_all).section()
 
 
 def _unread(values: Mapping[str, Any], timing: GridTiming) -> GridSection:
@@ -111,6 +117,7 @@ class _Builder:
     lines: Sequence[RawLine]
     cycles: Sequence[Cycle]
     faults: Faults
+    cells: CellCount
     are_all: bool
 
     def section(self) -> GridSection:
@@ -119,7 +126,7 @@ class _Builder:
         lines = [parsed(raw, frames, self.faults) for raw in self.lines]
         under, loudness = (self._beside(key, frames) for key in (STICKING, LOUDNESS))
         count = self._bar_count([*lines, *(line for line in (under, loudness) if line)], times)
-        check_cells(lines, times)
+        self.cells.add(lines, times)
         bars = _bars(self.timing.meters, count)
         length = bars[-1].tick + bars[-1].bar_ticks
         clock = BarClock(bars, self.timing.swing)
@@ -155,7 +162,7 @@ class _Builder:
         strokes = [
             stroke
             for cycle in self.cycles
-            for stroke in cycle_strokes(cycle, self.timing.beat_ticks, clock, length * times, self.faults)
+            for stroke in cycle_strokes(cycle, self.timing.beat_ticks, clock, length * times, self.faults, self.cells)
         ]
         return by_repetition(strokes, length, times)
 

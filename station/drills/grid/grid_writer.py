@@ -1,6 +1,6 @@
 """Strokes of a score set into the grid: the way back from `grid` and `cell_strokes`.
 
-For each bar a *skeleton* is chosen, a bar of rests such as `---- (---) ---- ----`, the simplest one on whose cells all
+For each bar a *skeleton* is chosen, a bar of rests such as `----(---)--------`, the simplest one on whose cells all
 strokes of the bar fall. The skeleton is read by the reader itself, so whatever is written here is read back alike,
 swing included; then the letters are put in their places. All lines of a bar share one skeleton where one fits all.
 """
@@ -60,27 +60,24 @@ class LineText:
     bars: list[str]
 
 
-def write_lines(lines: list[LineText], bar_count: int, setting: GridSetting) -> list[str]:
-    """Fill `bars` of every line; returns the skeleton of each bar that all lines share, "" where they do not.
+def write_lines(lines: list[LineText], bar_count: int, setting: GridSetting) -> None:
+    """Fill `bars` of every line; `line_layout` sets the blanks.
 
     Raises `BadInput` where a bar's strokes lie on no cell of any skeleton.
     """
-    shared: list[str] = []
     for bar in range(bar_count):
         needed = [_needs(line, bar, setting) for line in lines]
         common = _skeleton([mark for marks in needed for mark in marks], setting, MOST_SHARED_CELLS)
-        shared.append(common or "")
         for line, marks in zip(lines, needed, strict=True):
             skeleton = common or _skeleton(marks, setting, max(TUPLET_CELLS))
             if not skeleton:
                 raise BadInput(line.name, f"bar {bar + 1}", "strokes lie between the cells that the grid can write")
             line.bars.append(_filled(skeleton, marks, setting))
-    return shared
 
 
 def with_repeats(bars: Sequence[str], new_bar: Sequence[bool]) -> str:
     """The bars between bar lines; one that is not new is written as a repeat of the one before it."""
-    cells = [bar if new else REPEAT.ljust(len(bar)) for bar, new in zip(bars, new_bar, strict=True)]
+    cells = [bar if new else REPEAT for bar, new in zip(bars, new_bar, strict=True)]
     return "| " + " | ".join(cells) + " |"
 
 
@@ -173,30 +170,8 @@ def _skeleton(marks: Sequence[GridMark], setting: GridSetting, most: int) -> str
 
 
 def _plain(frame: GridFrame, cells: int) -> str | None:
-    """A bar of `cells` equal cells a beat of the meter, blanks between the beats that are counted."""
-    unit = frame.meter.beat_ticks
-    if unit % cells:
-        return None
-    length = unit // cells
-    return _spaced([REST] * (frame.meter.beats * cells), [length] * (frame.meter.beats * cells), frame)
-
-
-def _spaced(words: Sequence[str], lengths: Sequence[int], frame: GridFrame) -> str:
-    """The words with a blank before each that starts on a beat or group that is counted."""
-    starts = _counted_starts(frame)
-    out, tick = "", 0
-    for word, length in zip(words, lengths, strict=True):
-        out += (" " if out and tick in starts else "") + word
-        tick += length
-    return out
-
-
-def _counted_starts(frame: GridFrame) -> set[int]:
-    """Where the groups start, the beats that are counted where these are made of the meter's, or the meter's beats."""
-    unit = frame.meter.beat_ticks
-    if frame.meter.groups:
-        return {start for start, _ in frame.spans}
-    return set(range(0, frame.meter.bar_ticks, frame.beat_ticks if frame.beat_ticks % unit == 0 else unit))
+    """A bar of `cells` equal cells a beat of the meter; None where they do not divide it."""
+    return None if frame.meter.beat_ticks % cells else REST * (frame.meter.beats * cells)
 
 
 def _with_tuplets(points: Sequence[_Point], setting: GridSetting, most: int) -> str | None:
@@ -229,7 +204,7 @@ def _tupled(points: Sequence[_Point], setting: GridSetting, cells: int, most: in
         if not word:
             return None
         words.append(word)
-    return " ".join(words)
+    return "".join(words)
 
 
 def frame_of(meter: MeterChange, beat_ticks: int) -> GridFrame:

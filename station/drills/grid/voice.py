@@ -77,11 +77,17 @@ def agreed_bars(lines: Sequence[ParsedLine], faults: Faults) -> int:
     return count
 
 
-def check_cells(lines: Sequence[ParsedLine], times: int) -> None:
-    """Raises `Wrong` where lines that are played `times` times have more cells than a lesson may."""
-    cells = sum(len(bar.cells) for line in lines for bar in line.bars) * times
-    if cells > MAX_CELLS:
-        raise wrong(f"{cells} cells; a lesson has at most {MAX_CELLS}", *lines[0].raw.line.path)
+@dataclass(slots=True)
+class CellCount:
+    """How many cells a lesson has so far: reading stops at more than anyone practises."""
+
+    cells: int = 0
+
+    def add(self, lines: Sequence[ParsedLine], times: int) -> None:
+        """Count lines that are played `times` times; raises `Wrong` where the lesson has more cells than it may."""
+        self.cells += sum(len(bar.cells) for line in lines for bar in line.bars) * times
+        if self.cells > MAX_CELLS:
+            raise wrong(f"{self.cells} cells; a lesson has at most {MAX_CELLS}", *lines[0].raw.line.path)
 
 
 def voice_strokes(

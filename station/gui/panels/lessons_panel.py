@@ -3,7 +3,7 @@
 Every control has a tooltip, and every one is reached by the keyboard (Tab, arrows, Enter).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from datetime import date
 from itertools import groupby
@@ -90,6 +90,9 @@ class LessonsPanel:
             if selection.course is not None:
                 before = sum(len(earlier.cards) for earlier in groups[:number])
                 picked = self._part(selection, selection.course, group, before) or picked
+            elif selection.search:
+                imgui.separator_text(group.title)
+                picked = self._rows(selection, group.cards) or picked
             elif self._kind(selection, group):
                 picked = self._levels(selection, group) or picked
         if not groups:
@@ -112,9 +115,7 @@ class LessonsPanel:
     def _kind(selection: Selection, group: LessonGroup) -> bool:
         """The heading of a kind, which opens and closes; returns whether it is open."""
         has_chosen = selection.card is not None and any(card.name == selection.card.name for card in group.cards)
-        if selection.search:  # what was looked for is seen
-            imgui.set_next_item_open(True)
-        elif has_chosen:
+        if has_chosen:
             imgui.set_next_item_open(True, imgui.Cond_.once)
         counted = f"{selection.mastered(group.cards)} of {len(group.cards)}"
         is_open = imgui.collapsing_header(f"{group.title} · {counted}###kind-{group.title}")
@@ -126,9 +127,13 @@ class LessonsPanel:
         picked = None
         for level, cards in groupby(group.cards, key=lambda card: card.level_words):
             imgui.separator_text(level)
-            for card in cards:
-                picked = self._row(selection, card, card.title) or picked
+            picked = self._rows(selection, cards) or picked
         return picked
+
+    def _rows(self, selection: Selection, cards: Iterable[LessonCard]) -> LessonCard | None:
+        """A line for each of some lessons; returns the one that was pressed."""
+        rows = [self._row(selection, card, card.title) for card in cards]
+        return next((card for card in rows if card is not None), None)
 
     @staticmethod
     def _row(selection: Selection, card: LessonCard, words: str) -> LessonCard | None:

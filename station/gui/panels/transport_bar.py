@@ -14,6 +14,7 @@ from station.app.room_state import RoomState, Stage
 from station.app.sessions.demo_player import PlayerView
 from station.app.view_settings import ViewSettings
 from station.app.window_state import State
+from station.core.named_view import NamedView
 from station.gui import theme
 from station.gui.panels.panel import PANELS_WIDTH
 from station.gui.panels.player_controls import PlayerControls, counter
@@ -21,7 +22,7 @@ from station.gui.panels.ruler import Ruler
 from station.gui.panels.view_popup import LOOK_LABEL, POPUP, ViewActions, view_settings_popup
 from station.gui.widgets.flow_row import LINE_HEIGHT, FlowRow
 from station.practice.session.self_estimate import SelfEstimate
-from station.render.camera import VIEW_NAMES, NamedView
+from station.render.camera import VIEW_NAMES
 
 PAUSE_LABEL, GO_ON_LABEL = "Pause##hold", "Go on##hold"
 VETO_LABEL = "As it was##veto"

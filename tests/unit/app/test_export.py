@@ -12,12 +12,12 @@ from station.app.view_settings import ViewSettings
 from station.cli.animate_options import LEVELS, AnimateOptions
 from station.cli.options.option_fields import read_options
 from station.core.errors import DeviceError
+from station.core.named_view import NamedView
 from station.core.settings import Settings
 from station.drills.lesson_difference import first_difference
 from station.drills.library import find_lesson
 from station.motion.sticking.hand_notes import Hands
 from station.music.formats.smf.standard_midi import read_midi
-from station.render.camera import NamedView
 
 ROCK = find_lesson("rock-1")
 PATIENCE_S = 60.0

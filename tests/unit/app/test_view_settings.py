@@ -7,10 +7,10 @@ import pytest
 
 from station.app.view_settings import SLOTS, ViewSettings, view_settings_of, with_view_settings
 from station.core.errors import BadInput
+from station.core.named_view import NamedView
 from station.core.settings import Settings, load_settings, save_settings
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
-from station.render.camera import NamedView
 from station.render.framing import Stage, named
 from station.render.gpu.moving_parts import DoublePlace
 from station.render.painter import inset_area

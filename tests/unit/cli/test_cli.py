@@ -503,6 +503,25 @@ def test_a_file_that_is_no_text_is_told_in_a_teachers_words(
     assert "binary.toml: line 2, column 1: not UTF-8 text" in refused(capsys, *words)
 
 
+def test_a_lesson_is_shown_as_it_was_written(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = tmp_path / "own.toml"
+    path.write_text('title = "T"   # mine\n[grid]\ntimes = 2\nsnare="o---"\n')
+    assert main(["lesson", "show", str(path)]) == 0
+    rows = ['title = "T"   # mine', "[grid]", "times = 2", "#          1 2 3 4", 'snare = "| o - - - |"']
+    assert capsys.readouterr().out.splitlines() == rows
+
+
+def test_a_lesson_at_fault_is_not_shown_but_its_first_fault(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    path = tmp_path / "own.toml"
+    path.write_text('title = "T"\n[grid]\nsnare = "oq"\nkick = "oq"\n')
+    assert "line 3, column 11: 'q' is no letter" in refused(capsys, "lesson", "show", str(path))
+
+
+def test_the_schema_of_lessons_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["lesson", "schema"]) == 0
+    assert json.loads(capsys.readouterr().out)["properties"]["title"]["type"] == "string"
+
+
 @pytest.mark.parametrize("command", [("practice",), ("lesson", "show")])
 def test_a_midi_file_is_shown_the_way_to_a_lesson(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, command: tuple[str, ...]

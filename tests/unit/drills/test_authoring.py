@@ -7,6 +7,7 @@ from station.drills.authoring import NEW_LESSON
 from station.drills.grid.tab_symbols import SYMBOLS, TabFamily
 from station.drills.lesson_fields import FIELDS
 from station.drills.lesson_file import parse_lesson
+from station.drills.lesson_text import show
 
 
 def test_the_new_lesson_is_a_lesson() -> None:
@@ -14,6 +15,7 @@ def test_the_new_lesson_is_a_lesson() -> None:
     assert reading.faults == []
     assert reading.lesson
     assert reading.lesson.score.bar_count == 2
+    assert show(NEW_LESSON) == NEW_LESSON
 
 
 DOCS = Path(__file__).parents[3] / "docs" / "lessons.md"
@@ -25,6 +27,30 @@ def test_the_examples_of_the_manual_are_lessons() -> None:
     assert len(lessons) == 9
     for example in lessons:
         assert parse_lesson(example, "docs/lessons.md", "example").faults == []
+
+
+FAULTY = """\
+title = "T"
+tempo_bpm = 100
+form = ["groove", "fil"]
+
+[[grid]]
+name = "groove"
+#                1e&a 2e&a 3e&a 4e&a
+hihat       = "| x-x- x-x- x-x x-o- |"
+snare       = "| ---- O--g -q-- O--- |"
+[[grid]]
+name = "fill"
+kik         = "| o-o- ---- --o- ---- |"
+[goals]
+target_tempo_bpm = 90
+"""
+
+
+def test_the_faults_of_the_manual_are_told_so() -> None:
+    text = DOCS.read_text(encoding="utf-8")
+    faults = parse_lesson(FAULTY, "my-groove.toml", "my-groove").faults
+    assert "\n".join(map(str, faults)) in text
 
 
 def test_the_manual_has_every_letter_and_every_key() -> None:

@@ -8,7 +8,15 @@ from station.app.toml_files import check_files
 from station.core.errors import BadInput
 from station.drills.authoring import NEW_LESSON
 from station.drills.course import Course, CoursePart
-from station.drills.library import courses_in, find_lesson, lesson_names, shipped_courses
+from station.drills.library import (
+    course_prerequisites,
+    courses_in,
+    find_lesson,
+    lesson_names,
+    lesson_prerequisites,
+    shipped_courses,
+)
+from station.drills.prerequisites import order_faults
 from station.scoring.matching.hit_windows import Level
 
 GOOD = """\
@@ -154,3 +162,21 @@ def test_those_that_ship_begin_with_the_first_beats_and_have_shipped_lessons_alo
         assert course.about
         assert set(course.lessons) <= set(lesson_names())
         assert len(course.lessons) >= 8
+
+
+def test_what_ships_names_nothing_before_it_that_is_not_there_and_goes_in_no_circle() -> None:
+    for named, noun in ((lesson_prerequisites(), "lesson"), (course_prerequisites(), "course")):
+        assert order_faults(named, named.keys(), noun) == []
+
+
+def test_a_shipped_course_has_what_comes_before_a_lesson_before_it() -> None:
+    before = lesson_prerequisites()
+    for course in shipped_courses():
+        names = course.lesson_names
+        late = [
+            (course.name, name, first)
+            for place, name in enumerate(names)
+            for first in before[name]
+            if first in names[place:]
+        ]
+        assert late == []

@@ -112,6 +112,9 @@ def test_nine_ten_and_fourteen_to_every_beat() -> None:
         ("oo (ooo) ooo", 10, "5 cells beside (…) do not fill a 3+2+2/8 bar"),
         ("(o)(o)(o)(o)", 19, "a 3+2+2/8 bar holds 3 (…) of one group each; this is one too many"),
         ("oooooo", 10, "6 cells do not fill a 3+2+2/8 bar; expected 1, 7, 14, 21, 28, 42 or 56"),
+        ("xx", 10, "2 cells do not fill"),
+        ("ooo oo o-o-", 17, "9 cells do not fill"),
+        ("o-o-o- o-o o-o-", 17, "13 cells do not fill"),
         ("(o)(o)", 10, "0 cells beside (…) do not fill a 3+2+2/8 bar"),
     ],
 )

@@ -22,7 +22,14 @@ SCHEMA = lesson_schema()
 KNOWN = {"$schema", "$defs", "$ref", "title", "description", "type", "properties", "additionalProperties", "required"}
 KNOWN |= {"propertyNames", "items", "minItems", "maxItems", "prefixItems", "enum", "const", "anyOf"}
 KNOWN |= {"minimum", "maximum", "minLength", "pattern"}
-TYPES = {"string": str, "number": (int, float), "integer": (int, float), "object": dict, "array": list, "boolean": bool}
+TYPES: Mapping[str, tuple[type, ...]] = {
+    "string": (str,),
+    "number": (int, float),
+    "integer": (int, float),
+    "object": (dict,),
+    "array": (list,),
+    "boolean": (bool,),
+}
 
 
 def suits(value: object, schema: Mapping[str, Any]) -> bool:

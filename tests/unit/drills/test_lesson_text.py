@@ -7,6 +7,7 @@ from station.drills.lesson_difference import first_difference
 from station.drills.lesson_file import parse_lesson
 from station.drills.lesson_text import show, with_value
 from station.drills.library import find_lesson, lesson_names
+from tests.unit.drills.lesson_faults import GOOD
 
 HEAD = 'title = "T"\n'
 
@@ -67,6 +68,9 @@ def test_repeats_stay_and_stand_under_the_bars_that_they_repeat() -> None:
         ('meter = "7/8"\n', "xxxxxxx", " 1234567", "xxxxxxx"),
         ('meter = "7/8"\n', "x" * 14, " 1& 2& 3& 4& 5& 6& 7&", "xx xx xx xx xx xx xx"),
         ('meter = "3/4"\n', "x-x-(xxx)", " 1& 2&  3ta", "x- x- (xxx)"),
+        ('meter = "3+2/4"\n', "xxxxxxxxxx", " 1& 2& 3& 4& 5&", "xx xx xx xx xx"),
+        ('meter = "3+2+2/8"\n', "x" * 14, " 1&2&3& 1&2& 1&2&", "xxxxxx xxxx xxxx"),
+        ('meter = "3+2+2/8"\n', "(xx)xx(xxx)", "  1   12  1", "(xx) xx (xxx)"),
         ('meter = "2/2"\n', "xxxx", " 1& 2&", "xx xx"),
         ('beat = "1/2"\n', "(xxx)xx", "  1    3 4", "(xxx) x x"),
         ('meter = "6/8"\nbeat = "3/8"\n', "(xx)xxx", "  1   456", "(xx) xxx"),
@@ -85,6 +89,13 @@ def test_an_older_count_is_renewed_and_other_comments_are_not() -> None:
         "#          1e&a 2e&a 3e&a 4e&a",
         "# 1 is the loudest",
         'snare = "| oooo oooo oooo oooo |"',
+    ]
+
+
+def test_people_count_as_they_like() -> None:
+    assert shown('[grid]\nmeter = "6/8"\n#  1&a 2&a\nsnare = "oooooo"\n')[1:] == [
+        "#          1&a 2&a",
+        'snare = "| ooo ooo |"',
     ]
 
 
@@ -152,3 +163,43 @@ def test_a_key_is_set_in_its_place() -> None:
 )
 def test_a_key_that_is_not_there_follows_the_others(text: str, expected: str) -> None:
     assert with_value(text, "passes", 4) == expected
+
+
+# --- the same lesson --------------------------------------------------------------------------------------------------
+
+
+def test_a_lesson_that_uses_every_word_is_the_same_shown() -> None:
+    lesson = parse_lesson(GOOD, "rich", "rich").lesson
+    again = parse_lesson(show(GOOD), "rich", "rich").lesson
+    assert lesson
+    assert again
+    assert first_difference(lesson, again) == ""
+    assert show(show(GOOD)) == show(GOOD)
+
+
+CHANGES = {
+    "tempo_bpm = 80": "tempo_bpm = 81",
+    'name = "intro"': 'name = "Intro"',
+    "passes = 4": "passes = 5",
+    "loop = [1, 4]": "loop = [1, 3]",
+    'crash = "X"': 'crash = "x"',
+    "max_sd_ms = 30": "max_sd_ms = 31",
+    "bars = [3, 4]": "bars = [3, 5]",
+    '"Ghosts low"': '"Ghosts lower"',
+    "the left hand alone": "the left hand",
+    "x-x- x-x- x-x- x-x-": "x-x- x-x- x-x- x-X-",
+    "share = 0.5": "share = 0.6",
+    "p--- <---": "pp-- <---",
+    '"rock-1", ': "",
+    "swing_ratio = 1.5": "swing_ratio = 1.6",
+}
+
+
+@pytest.mark.parametrize("old", CHANGES)
+def test_a_difference_is_seen(old: str) -> None:
+    text = GOOD.replace(old, CHANGES[old]).replace('["intro"', '["Intro"' if "intro" in old else '["intro"')
+    lesson, other = (parse_lesson(each, "rich", "rich") for each in (GOOD, text))
+    assert other.faults == []
+    assert lesson.lesson
+    assert other.lesson
+    assert first_difference(lesson.lesson, other.lesson) != ""

@@ -150,3 +150,57 @@ def test_bounces_of_a_press_roll_are_not_judged(name: str, every_ms: int, clocke
     alignment = align(score, Performance.from_hits([*hits, *bounces]), clocked)
     counted = {label: alignment.count(label) for label in Label if alignment.count(label)}
     assert counted == {Label.MATCH: len(score), Label.IGNORED: len(bounces)}
+
+
+@pytest.mark.parametrize(
+    ("name", "slow_hz", "fast_hz"),
+    [
+        ("open-close-open-singles", 4.0, 140 * 4 / 60),
+        ("open-close-open-doubles", 4.0, 150 * 4 / 60),
+        ("open-close-open-paradiddles", 4.0, 130 * 4 / 60),
+    ],
+)
+def test_open_close_open_goes_there_and_back(name: str, slow_hz: float, fast_hz: float) -> None:
+    """Strokes a second at both ends and at the top, half-way, and only rising before it and falling after it.
+
+    A ramp goes by beats, each at the tempo of its middle: within 5 % at the slow end, whose sixteen beats are few.
+    """
+    gaps = gaps_s(find_lesson(name))
+    top = len(gaps) // 2
+    assert 1 / gaps[0] == pytest.approx(slow_hz, rel=0.05)
+    assert 1 / gaps[-1] == pytest.approx(slow_hz, rel=0.05)
+    assert 1 / gaps[top] == pytest.approx(fast_hz, rel=0.03)
+    assert (np.diff(gaps[:top]) <= 2e-9).all()
+    assert (np.diff(gaps[top + 1 :]) >= -2e-9).all()
+
+
+@pytest.mark.parametrize("name", ["long-roll-swell", "long-roll-swell-fast", "press-roll-swell"])
+def test_a_swell_grows_to_the_middle_and_fades(name: str) -> None:
+    velocity = [n.velocity for n in strokes(find_lesson(name))]
+    top = len(velocity) // 2
+    assert all(a <= b for a, b in pairwise(velocity[: top + 1]))
+    assert all(a >= b for a, b in pairwise(velocity[top:]))
+    assert velocity[top] > 1.4 * velocity[0]  # p to f by the sticks' heights: the root of 9 inches over 3
+    assert velocity[-1] == pytest.approx(velocity[0], abs=2)
+
+
+@pytest.mark.parametrize(
+    "name", ["thirteen-stroke-roll-fast", "fifteen-stroke-roll-fast", "seventeen-stroke-roll-fast"]
+)
+def test_a_fast_roll_grows_into_its_accent(name: str) -> None:
+    notes = strokes(find_lesson(name))
+    roll = [n.velocity for n in notes[: next(i for i, n in enumerate(notes) if n.dynamic is Dynamic.ACCENT)]]
+    assert all(a <= b for a, b in pairwise(roll))
+    assert roll[-1] > 1.4 * roll[0]
+
+
+def test_a_soft_roll_is_as_soft_as_ghosts() -> None:
+    notes = strokes(find_lesson("soft-roll"))
+    assert {n.velocity for n in notes[:16]} == {80}
+    assert {n.velocity for n in notes[16:]} == {32}
+
+
+@pytest.mark.parametrize("name", ["swiss-triplet-fill", "paradiddle-toms", "six-stroke-toms", "single-stroke-four-kit"])
+def test_what_ends_on_the_crash_says_so(name: str) -> None:
+    landing = find_lesson(name).landing
+    assert set(landing["piece"].tolist()) == {Piece.CRASH_1, Piece.KICK}

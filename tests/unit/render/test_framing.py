@@ -6,13 +6,13 @@ from itertools import product
 import numpy as np
 import pytest
 
+from station.core.named_view import NamedView
 from station.core.pieces import Piece
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import Joint, figure_names, load_figure
 from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import kit_names, load_kit
 from station.motion.style.style import Style
-from station.render.camera import NamedView
 from station.render.framing import Stage, named
 from tests.unit.render.scores import rock
 

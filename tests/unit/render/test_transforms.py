@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
+from station.core.named_view import NamedView
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
-from station.render.camera import Camera, NamedView
+from station.render.camera import Camera
 from station.render.framing import Stage, named
 from station.render.geometry.transforms import frame, gl_bytes, look_at, perspective, rotation, rotation_at
 
