@@ -36,6 +36,7 @@ def test_every_seed_is_a_lesson(family: str) -> None:
         loop = lesson.loop_score.repeated(2).at_speed(lesson.target_tempo_bpm / lesson.tempo_bpm)
         assert impossible(loop) == []
         assert len(lesson.about) > 60
+        assert len(lesson.landing), "something is struck where the last loop ends"
 
 
 @pytest.mark.parametrize("family", FAMILIES)
