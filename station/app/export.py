@@ -20,10 +20,11 @@ from station.app.view_settings import ViewSettings
 from station.core.errors import DeviceError, StationError
 from station.core.files import growing, write_whole
 from station.core.settings import Settings
-from station.drills.lesson import Lesson
+from station.drills.lesson import BarCue, Lesson
 from station.drills.lesson_text import show, with_value
 from station.drills.lesson_writer import write_lesson
 from station.practice.records.session_files import folder_name
+from station.scenes.printed_score import as_printed
 from station.scenes.sheets import lesson_labels, pdf_of
 
 FOLDER = "take-along"
@@ -56,10 +57,10 @@ class Exporter:
         """Write the bars of a lesson, or film; returns what to show, empty for nothing. Raises `StationError`."""
         match action:
             case Export(ExportKind.FILM):
-                self.film(lesson, bars, settings, film_words(view_settings, settings), FILM)
+                self.film(lesson, bars, settings, film_words(view_settings, settings, lesson.cues), FILM)
                 return ""
             case Export(ExportKind.LOOP):
-                self.film(lesson, bars, settings, film_words(view_settings, settings), LOOP)
+                self.film(lesson, bars, settings, film_words(view_settings, settings, lesson.cues), LOOP)
                 return ""
             case Export(kind):
                 write = {ExportKind.MIDI: self.midi, ExportKind.LESSON: self.lesson, ExportKind.SHEET: self.sheet}[kind]
@@ -91,7 +92,7 @@ class Exporter:
         """The bars as notation on paper, repeated; raises `DeviceError`."""
         path = _place(lesson, bars, settings, ".pdf")
         words = lesson_labels(replace(lesson, loop=bars), bars)
-        write_whole(path, pdf_of(lesson.score, bars, words, _PAPER))
+        write_whole(path, pdf_of(as_printed(lesson), bars, words, _PAPER))
         return path
 
     def film(
@@ -196,10 +197,14 @@ def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:
     return folder / f"{folder_name(lesson.name)}_{bars[0] + 1}-{bars[1] + 1}{ending}"
 
 
-def film_words(view_settings: ViewSettings, settings: Settings) -> tuple[str, ...]:
-    """How `station animate` is to film what is seen in the window."""
-    words = ["--quality", "low", "--view", view_settings.view.name.lower()]
-    words += ["--style", settings.style]
+def film_words(view_settings: ViewSettings, settings: Settings, cues: Sequence[BarCue] = ()) -> tuple[str, ...]:
+    """How `station animate` is to film what is seen in the window.
+
+    Views and styles that a lesson's `cues` ask for come before the user's own.
+    """
+    words = ["--quality", "low"]
+    words += [] if any(cue.camera for cue in cues) else ["--view", view_settings.view.name.lower()]
+    words += [] if any(cue.style for cue in cues) else ["--style", settings.style]
     words += ["--drummer", settings.figure] if settings.figure else []
     words += ["--drums", settings.stands] if settings.stands else []
     words += ["--mirror"] if view_settings.mirrored else []

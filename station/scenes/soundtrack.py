@@ -10,7 +10,7 @@ from station.engine.cue_queue import CueRun
 from station.engine.sound_player import SoundPlayer
 from station.music.score import Score
 from station.practice.session.click_pattern import PLAIN, click_cues
-from station.practice.session.plan import demonstration_cues
+from station.practice.session.stroke_cues import demonstration_cues
 from station.sound.click_sounds import DEFAULT_TIMBRE, click_sounds
 from station.sound.drum_kit import DrumKit, Frames
 from station.sound.mixer import Mixer

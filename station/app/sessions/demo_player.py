@@ -33,7 +33,7 @@ from station.motion.sticking.hand_notes import Hands
 from station.practice.demonstration.song_cues import SOUNDED_NS, CountIn, after, count_in_of, song_cues
 from station.practice.demonstration.song_player import FLAGS, Song, SongPlayer, SongStep
 from station.practice.session.click_pattern import PLAIN, ClickPattern
-from station.practice.session.plan import with_sticking
+from station.practice.session.leading_hand import with_sticking
 from station.render.snapshot import BarNumbers, Hud, Snapshot
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator, as_taught

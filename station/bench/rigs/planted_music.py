@@ -23,7 +23,8 @@ from station.music.formats.smf.drum_tracks import score_from_midi
 from station.music.formats.smf.standard_midi import read_midi
 from station.music.score import Score
 from station.music.tempo import TempoMap
-from station.practice.session.plan import PlanOptions, plan_practice, with_sticking
+from station.practice.session.leading_hand import with_sticking
+from station.practice.session.plan import PlanOptions, plan_practice
 
 GMD_BARS = (8, 24)
 """Fewest and most bars of a groove: a minute at 100 bpm is 24, which is also about what a lesson takes."""

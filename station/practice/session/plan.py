@@ -5,7 +5,7 @@ segments of the timeline out. Times are nanoseconds from the transport's zero un
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 import numpy as np
@@ -14,10 +14,8 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S, PPQ
 from station.drills.lesson import Lesson
-from station.engine.messages import CUE_DTYPE, Bus
 from station.motion.kit.kit import Kit
 from station.motion.sticking.hand_notes import Hands
-from station.motion.sticking.limbs import as_led, assign_limbs
 from station.music.score import NOTE_DTYPE, Score
 from station.practice.session.click_pattern import (
     PLAIN,
@@ -28,7 +26,8 @@ from station.practice.session.click_pattern import (
     pickup_of,
     silences,
 )
-from station.practice.session.leading_hand import drummers_kit
+from station.practice.session.leading_hand import drummers_kit, led_to_landing
+from station.practice.session.stroke_cues import demonstration_cues, in_order, moved_by
 from station.scoring.matching.hit_windows import Level
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 20.0, 400.0
@@ -195,7 +194,7 @@ def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:
     first, last = _checked_bars(options.bars, lesson)
     kit = drummers_kit(lesson, options.hands, options.stands)
     section = lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm)
-    section, landing = _led(section, lesson.landing_after(last), kit, options.hands)
+    section, landing = led_to_landing(section, lesson.landing_after(last), kit, options.hands)
     demonstrations = lesson.demonstrations if options.demonstrations is None else options.demonstrations
 
     line = _Timeline(section, landing, lesson.count_in_bars, options)
@@ -212,7 +211,7 @@ def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:
         segments=tuple(line.segments),
         passes_start_ns=passes_start_ns,
         end_ns=line.end_ns,
-        cues=_in_order(line.cues),
+        cues=in_order(line.cues),
         click=options.click,
         level=lesson.levels.level(options.level),
         landing=landing,
@@ -278,53 +277,10 @@ class _Timeline:
         self.cues += [moved_by(each, at_ns) for each in cues]
 
 
-def _led(section: Score, landing: NDArray[np.void], kit: Kit, hands: Hands | None) -> tuple[Score, NDArray[np.void]]:
-    """Both with a limb for every stroke; the hands land as they come out of the section."""
-    led = with_sticking(section.landing_on(landing), kit, hands).notes
-    rows = led[len(section) :].copy()
-    rows["tick"] = 0
-    return replace(section, notes=led[: len(section)]), rows
-
-
-def demonstration_cues(score: Score) -> NDArray[np.void]:
-    """Every stroke of `score`, and a cue of velocity 0 wherever a cymbal is grabbed."""
-    strokes = np.zeros(len(score), CUE_DTYPE)
-    for name in ("piece", "zone", "articulation", "velocity", "openness"):
-        strokes[name] = score.notes[name]
-    strokes["at_ns"] = score.onset_ns
-    strokes["bus"] = Bus.DEMONSTRATION
-    grabbed = score.notes["choke_ticks"] > 0
-    chokes = strokes[grabbed]
-    chokes["at_ns"] = score.tempo_map.ns_at(score.notes["tick"][grabbed] + score.notes["choke_ticks"][grabbed])
-    chokes["velocity"] = 0
-    return np.concatenate([strokes, chokes])
-
-
-def with_sticking(section: Score, kit: Kit, hands: Hands | None) -> Score:
-    """The section with a limb for every stroke: the written one, else the one that the drummer takes.
-
-    So the demonstration, the per-limb figures and the advice all speak of the same hands.
-    """
-    led = as_led(section, kit, hands)
-    return led.with_limbs(assign_limbs(led, kit, hands=hands).limbs)
-
-
 def _count_in(section: Score, bars: int) -> Score:
     """Empty bars at the section's first tempo and meter, up to its pickup if it has one."""
     tempo_map, end_tick = count_in(section.tempo_map, bars, pickup_of(section.tempo_map, section.end_tick))
     return Score.from_notes([], tempo_map, end_tick)
-
-
-def moved_by(cues: NDArray[np.void], by_ns: int) -> NDArray[np.void]:
-    """The cues, each so much later; negative is earlier."""
-    moved = cues.copy()
-    moved["at_ns"] += by_ns
-    return moved
-
-
-def _in_order(parts: Iterable[NDArray[np.void]]) -> NDArray[np.void]:
-    cues = np.concatenate(list(parts))
-    return cues[np.argsort(cues["at_ns"], kind="stable")]
 
 
 def _checked_tempo(requested_bpm: float | None, lesson: Lesson) -> float:

@@ -9,16 +9,21 @@ import numpy as np
 
 from station.app.actions import SetCountIn, SetDemoClick
 from station.app.sessions.demo_player import LEAD_NS, Control, DemonstratedLesson, DemoPlayer
+from station.core.named_view import NamedView
+from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
+from station.drills.lesson import BarCue
 from station.drills.library import find_lesson
 from station.engine.messages import Bus, Command, Play, Stop
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
 from station.motion.style.style import Style
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
 from station.practice.demonstration.song_player import SongPlayer
 from station.practice.session.click_pattern import PLAIN
-from station.practice.session.plan import with_sticking
+from station.practice.session.leading_hand import with_sticking
 from station.scenes.demonstrator import Demonstrator
 
 BAR_NS = 3 * NS_PER_S
@@ -232,3 +237,21 @@ def test_a_loop_is_counted_in_once_however_long_it_is_played() -> None:
     first, again = plays(sent)
     assert first.cues["at_ns"][first.cues["bus"] == Bus.DEMONSTRATION].min() == BAR_NS
     assert again.cues["at_ns"][again.cues["bus"] == Bus.DEMONSTRATION].min() < BAR_NS // 4
+
+
+def test_a_lesson_is_watched_with_its_cues_and_to_its_landing() -> None:
+    """The lesson's two bars, and the landing's."""
+    crash = Score.from_notes([Note(0, Piece.CRASH_1, Zone.EDGE)], TempoMap()).notes
+    cues = (BarCue(1, say="Ghosts low", camera="feet"),)
+    lesson = replace(ROCK, landing=crash, cues=cues, loop=(0, ROCK.score.bar_count - 1))
+    sent: list[Command] = []
+    made = DemoPlayer(sent.append, DemonstratedLesson(lesson, KIT))
+    made.advance(NS_PER_S)
+    assert (made.snapshot().view, made.snapshot().hud.say) == (None, "")
+    use(made, SongPlayer.played)
+    [play] = plays(sent)
+    crashes = play.cues["at_ns"][play.cues["piece"] == Piece.CRASH_1]
+    assert crashes[-1] == lesson.score.length_ns
+    use(made, lambda player, now_ns: player.stopped(now_ns).sought(now_ns, BAR_NS))
+    second = made.snapshot()
+    assert (second.view, second.hud.say, second.hud.bar_count) == (NamedView.FEET, "Ghosts low", 3)

@@ -8,12 +8,13 @@ from pathlib import Path
 import pytest
 
 from station.app.export import LOOP, Exporter, film_words
-from station.app.view_settings import ViewSettings
+from station.app.view_settings import ViewSettings, view_settings_of
 from station.cli.animate_options import LEVELS, AnimateOptions
 from station.cli.options.option_fields import read_options
 from station.core.errors import DeviceError
 from station.core.named_view import NamedView
 from station.core.settings import Settings
+from station.drills.lesson import BarCue
 from station.drills.lesson_difference import first_difference
 from station.drills.library import find_lesson
 from station.motion.sticking.hand_notes import Hands
@@ -172,3 +173,12 @@ def test_the_bars_as_a_sheet(tmp_path: Path) -> None:
     path = Exporter().sheet(ROCK, (1, 1), settings(tmp_path))
     assert path == tmp_path / "Ann" / "take-along" / "rock-1_2-2.pdf"
     assert path.read_bytes().startswith(b"%PDF-")
+
+
+def test_a_film_leaves_to_the_lesson_what_its_cues_ask_for() -> None:
+    look = view_settings_of(Settings())
+    cues = (BarCue(0, say="Ghosts low"), BarCue(1, camera="feet"))
+    assert "--view" not in film_words(look, Settings(), cues)
+    assert "--style" in film_words(look, Settings(), cues)
+    assert "--view" in film_words(look, Settings(), cues[:1])
+    assert "--style" not in film_words(look, Settings(), (BarCue(0, style="funk"),))
