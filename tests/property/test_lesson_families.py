@@ -1,6 +1,7 @@
 """Lessons that are made: whatever the seed, each is a lesson that two hands and two feet can play, and lands on 1."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -50,6 +51,13 @@ def test_a_higher_level_is_harder_on_average(family: str) -> None:
 def test_the_same_words_give_the_same_text(family: str) -> None:
     assert lesson_text(family, 3, 17, 4) == lesson_text(family, 3, 17, 4)
     assert len({lesson_text(family, 4, seed, 8) for seed in range(20)}) >= 10 or family == "polyrhythms"
+
+
+def test_the_manual_has_every_family() -> None:
+    manual = (Path(__file__).parents[2] / "docs" / "lessons.md").read_text(encoding="utf-8")
+    assert re.findall(r"^\| `(\w+)` \| [^|]*\|$", manual.split("## Drills that are made")[1], re.MULTILINE) == [
+        *FAMILIES
+    ]
 
 
 def hands(lesson: Lesson) -> str:
