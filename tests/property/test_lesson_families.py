@@ -13,6 +13,8 @@ from station.drills.families.family_table import FAMILIES, MAX_BARS, lesson_text
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import parse_lesson
 from station.motion.feasibility.playable import impossible
+from station.motion.kit.kit import load_kit
+from station.motion.sticking.limbs import assign_limbs
 
 SEEDS = 200
 BARS = (1, 2, 3, 4, 8)
@@ -79,6 +81,15 @@ def test_a_turned_paradiddle_is_a_paradiddle() -> None:
         assert len(sticking) == 16
         assert sticking[:8] in around
         assert sticking[8:] in around
+
+
+@pytest.mark.parametrize("family", ["paradiddles", "linear", "ostinato"])
+def test_no_hand_flies_over_the_kit(family: str) -> None:
+    """The drummer's own judgement of what limbs can reach in time, at the tempo to reach."""
+    for seed in range(10):
+        lesson = made(family, 5 - seed % 2, seed, 2)
+        loop = lesson.loop_score.repeated(2).at_speed(lesson.target_tempo_bpm / lesson.tempo_bpm)
+        assert assign_limbs(loop, load_kit()).warnings == ()
 
 
 def test_linear_patterns_never_strike_two_at_once_and_leave_no_sixteenth_empty() -> None:
