@@ -178,6 +178,7 @@ def _lesson(shelf: _Shelf, row: LessonRow) -> dict[str, object]:
         "title": row.title,
         "kind": row.folder,
         "level": row.level,
+        "difficulty": row.difficulty,
         "beats_a_minute": row.beats_a_minute,
         "meter": row.meter,
         "bars": row.bars,
