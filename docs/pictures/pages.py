@@ -80,7 +80,7 @@ def _learnt(drive: Drive) -> None:
 def _courses(drive: Drive, ctx: Context) -> None:
     ctx.set_ref("//Lessons")
     ctx.item_click("##course")
-    ctx.item_click("//$FOCUSED/First beats##first-beats")
+    ctx.item_click("//$FOCUSED/###course-first-beats")
     ctx.yield_(3)
 
 

@@ -39,10 +39,11 @@ from station.drills.stretches import (
     sections_of,
     tempos_of,
 )
-from station.drills.unplayable import LANDING, note_unplayable
+from station.drills.unplayable import note_unplayable
 from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoMap
 
+LANDING = "landing"
 _MIDI = b"MThd"
 """How a MIDI file begins."""
 
@@ -94,6 +95,7 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     stretches = faults.attempt(lambda _: laid_out(order, grids), grids, nothing) if grids else nothing
     are_sure = timing.is_sure and len(faults) == before  # else there may be more bars than could be read
     score, origins = _score(stretches, written, faults)
+    landing, landing_origins = _landing(values[LANDING], timing, faults)
     lesson = Lesson(
         name=name,
         score=replace(score, title=values["title"]),
@@ -103,13 +105,13 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
         sections=sections_of(stretches),
         velocities=timing.velocities,
         cues=cues_of(stretches),
-        landing=_landing(values[LANDING], timing, faults),
+        landing=landing,
         **{key: values[key] for key in AS_THEY_ARE},
     )
     lesson = replace(lesson, goals=_goals(values["goals"], lesson, faults))
     _check_prerequisites(lesson, faults)
     beats = _Beats(stretches, lesson.beat_ticks)
-    note_unplayable(lesson, origins, beats.ticks_at, faults)
+    note_unplayable(lesson, [*origins, *landing_origins], beats.ticks_at, faults)
     faults.check()
     return lesson
 
@@ -194,9 +196,9 @@ class _Beats:
         return self.usual if found is None else found.grid.section.timing.beat_ticks
 
 
-def _landing(raw: object, timing: GridTiming, faults: Faults) -> NDArray[np.void]:
-    """The strokes of the landing; none where the file has none."""
-    return np.zeros(0, NOTE_DTYPE) if raw is None else read_landing(raw, timing, faults, (LANDING,))
+def _landing(raw: object, timing: GridTiming, faults: Faults) -> tuple[NDArray[np.void], list[Origin]]:
+    """The strokes of the landing and the letter of each; none where the file has none."""
+    return (np.zeros(0, NOTE_DTYPE), []) if raw is None else read_landing(raw, timing, faults, (LANDING,))
 
 
 # --- how it is practised ----------------------------------------------------------------------------------------------

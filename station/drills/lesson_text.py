@@ -8,6 +8,7 @@ Texts here are those of lessons without a fault; offsets and key paths are those
 """
 
 import re
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
@@ -20,8 +21,8 @@ from station.drills.line_layout import Meters, bar_count, laid_out
 from station.drills.written_meters import written_meters
 
 _LINE_KEYS = frozenset({*LINE_PIECES, "sticking", "loudness"})
-_COUNT = re.compile(r"#[ ]{2,}1[\d&.·a-z]*(?: +\d[\d&.·a-z]*)*")
-"""A count that `show` or a teacher wrote above the lines: words of a digit and syllables, the first with a 1."""
+_COUNT = re.compile(r"#[ ]{2,}1[\d&.·a-z]*(?: +(?:\d[\d&.·a-z]*|[&·eat]+))*")
+"""A count that `show` or a teacher wrote above the lines: digits and the syllables after them, first a 1."""
 _BLANKS_AT_END = re.compile(r"[ \t]+(?=\n|$)")
 
 
@@ -65,17 +66,20 @@ _Edit = tuple[int, int, str]
 
 
 def _edited(text: str, edits: Sequence[_Edit]) -> str:
-    for start, end, new in sorted(edits, reverse=True):
-        text = text[:start] + new + text[end:]
-    return text
+    parts, done = [], 0
+    for start, end, new in sorted(edits):
+        parts += [text[done:start], new]
+        done = end
+    return "".join(parts) + text[done:]
 
 
 def _tidied(text: str) -> str:
     """No blanks at the ends of rows, but for those within a string; one line end at the end."""
     places = Places.of(text)
-    inside = [(places.values[path], places.ends[path]) for path in places.chars]
-    blanks = [m.span() for m in _BLANKS_AT_END.finditer(text)]
-    cut = [(a, b, "") for a, b in blanks if not any(start < a < end for start, end in inside)]
+    strings = sorted((places.values[path], places.ends[path]) for path in places.chars)
+    ends_before = [0, *(end for _, end in strings)]
+    blanks = (m.span() for m in _BLANKS_AT_END.finditer(text))
+    cut = [(a, b, "") for a, b in blanks if a >= ends_before[bisect_left(strings, (a, 0))]]
     return _edited(text, cut).strip("\n") + "\n"
 
 
@@ -108,7 +112,7 @@ def _edits(raw: Mapping[str, object], places: Places) -> list[_Edit]:
         table = _table_of(path)
         entry = None if table is None else _entry(raw, places, path)
         if table is not None and entry:
-            header = max((h for h in places.headers if h < offset), default=0)
+            header = bisect_left(places.headers, offset)
             blocks.setdefault((table, header), []).append(entry)
     edits: list[_Edit] = []
     for (table, _), block in blocks.items():
@@ -160,13 +164,15 @@ def _block_edits(text: str, block: Sequence[_Entry], meters: Meters | None) -> l
 
 def _count_edits(text: str, row: int, count: str) -> list[_Edit]:
     """The count above the line that begins at `row`: in the place of an older one among the comments there, or new."""
-    start = row
-    while start and text[:start].rsplit("\n", 2)[-2].lstrip().startswith("#"):
-        start = text.rfind("\n", 0, start - 1) + 1
-        end = _row_end(text, start)
+    end = row - 1
+    while end >= 0:
+        start = text.rfind("\n", 0, end) + 1
         older = text[start:end].strip()
+        if not older.startswith("#"):
+            break
         if _COUNT.fullmatch(older):
             return [(start, end, _in_the_words_of(older, count))]
+        end = start - 1
     return [(row, row, f"{count}\n")]
 
 

@@ -55,8 +55,15 @@ def laid_out(lines: Sequence[str], meters: Meters) -> tuple[list[str], str]:
     """
     parts = [_parts(line) for line in lines]
     edges = sorted({edge for line in parts for part in line for edge in (part.first, part.end)})
-    columns = [_column(parts, first, end, meters) for first, end in pairwise(edges)]
-    rows = [f"| {' | '.join(_row(line, columns))} |" for line in parts]
+    column_at = {edge: i for i, edge in enumerate(edges)}
+    here: list[list[_Part]] = [[] for _ in edges[1:]]
+    for part in (part for line in parts for part in line):
+        for i in range(column_at[part.first], column_at[part.end]):
+            here[i].append(part)
+    columns = [_column(each, *span, meters) for each, span in zip(here, pairwise(edges), strict=True)]
+    rows = [
+        f"| {' | '.join(_cell(p, columns[column_at[p.first] : column_at[p.end]]) for p in line)} |" for line in parts
+    ]
     count = "  " + "   ".join(column.count.ljust(column.width) for column in columns)
     return rows, count.rstrip()
 
@@ -99,8 +106,7 @@ class _Column:
         return " ".join(word.ljust(width) for word, width in zip(words, self.widths, strict=True)).ljust(self.width)
 
 
-def _column(lines: Sequence[Sequence[_Part]], first: int, end: int, meters: Meters) -> _Column:
-    here = [part for line in lines for part in line if part.first < end and part.end > first]
+def _column(here: Sequence[_Part], first: int, end: int, meters: Meters) -> _Column:
     written = [part.text for part in here if part.is_written]
     frame = meters.frame(first)
     signs = max((len(p.text) for p in here if (p.first, p.end) == (first, end) and not p.is_written), default=1)
@@ -116,16 +122,11 @@ def _column(lines: Sequence[Sequence[_Part]], first: int, end: int, meters: Mete
     return _Column(first, end, starts, widths, frame, len(finest), counted(finest, frame))
 
 
-def _row(line: Sequence[_Part], columns: Sequence[_Column]) -> list[str]:
-    """The parts of one line, each as wide as the columns that it covers."""
-    out: list[str] = []
-    for part in line:
-        covered = [column for column in columns if part.first <= column.first < part.end]
-        if part.is_written:
-            out.append(covered[0].bar(part.text))
-        else:
-            out.append(part.text.ljust(sum(c.width for c in covered) + 3 * (len(covered) - 1)))
-    return out
+def _cell(part: _Part, covered: Sequence[_Column]) -> str:
+    """A part of a line, as wide as the columns that it covers."""
+    if part.is_written:
+        return covered[0].bar(part.text)
+    return part.text.ljust(sum(column.width for column in covered) + 3 * (len(covered) - 1))
 
 
 # --- a bar ------------------------------------------------------------------------------------------------------------

@@ -18,16 +18,15 @@ from station.drills.lesson import Lesson
 from station.motion.feasibility.playable import Impossible, impossible
 from station.music.score import Score
 
-LANDING = "landing"
 _COARSE_FROM_BPM = 20.0
 """Tempi from here on are told in whole beats a minute, slower ones in tenths (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Finding:
-    """What is impossible at `row` of the lesson's score, or in its landing where that is None; and `when`."""
+    """What is impossible at `row` of the lesson's score, the rows of its landing behind it; and `when`."""
 
-    row: int | None
+    row: int
     what: Impossible
     when: str = ""
 
@@ -35,22 +34,24 @@ class _Finding:
 def note_unplayable(
     lesson: Lesson, origins: Sequence[Origin], beat_ticks_at: Callable[[int], int], faults: Faults
 ) -> None:
-    """Note what cannot be played, at its letter: `origins` of the score's rows; tempi in `beat_ticks_at` a tick."""
+    """Note what cannot be played at its letter, one of `origins`: the score's rows, then the landing's.
+
+    `beat_ticks_at` is the beat in which a teacher counts at a tick.
+    """
     goal_speed = max(1.0, lesson.target_tempo_bpm / lesson.tempo_bpm)
     at_goal = list(_findings(lesson, goal_speed))
     written = list(_findings(lesson, 1.0)) if at_goal and goal_speed > 1 else at_goal  # what is slower is no harder
     goal_bpm = lesson.target_tempo_bpm * PPQ / lesson.beat_ticks
-    blamed: set[Origin | None] = set()
+    blamed: set[Origin] = set()
     overtaxed: set[str] = set()
     for found, tempo in (*((each, None) for each in written), *((each, goal_bpm) for each in at_goal)):
-        origin = None if found.row is None else origins[found.row]
-        limb = found.what.too_fast_for
+        origin, limb = origins[found.row], found.what.too_fast_for
         if origin in blamed or limb in overtaxed:
             continue
         blamed.add(origin)
         overtaxed |= {limb} - {""}
         words = _words(lesson, found, tempo, beat_ticks_at)
-        faults.add((LANDING,) if origin is None else origin.path, words, None if origin is None else origin.char)
+        faults.add(origin.path, words, origin.char)
 
 
 def _findings(lesson: Lesson, speed: float) -> Iterator[_Finding]:
@@ -68,7 +69,7 @@ def _findings(lesson: Lesson, speed: float) -> Iterator[_Finding]:
             again = " as the loop starts again" if found.note >= notes else ""
             yield _Finding(in_loop[found.note % notes], found, again)
         else:
-            yield _Finding(None, found, " on the landing")
+            yield _Finding(len(score) + found.note - 2 * notes, found, " on the landing")
 
 
 def _words(lesson: Lesson, found: _Finding, goal_bpm: float | None, beat_ticks_at: Callable[[int], int]) -> str:
@@ -80,11 +81,11 @@ def _words(lesson: Lesson, found: _Finding, goal_bpm: float | None, beat_ticks_a
     return f"too fast at {at}: {found.what.text}{found.when}; playable up to {_floored(tempo * share):g} bpm"
 
 
-def _tempo_at(lesson: Lesson, row: int | None, beat_ticks_at: Callable[[int], int]) -> float:
+def _tempo_at(lesson: Lesson, row: int, beat_ticks_at: Callable[[int], int]) -> float:
     """The tempo that is written where `row` stands, as a teacher counts it there; at the loop's start for a landing."""
-    tempo_map = lesson.score.tempo_map
-    tick = tempo_map.bar_start(lesson.loop[0]) if row is None else int(lesson.score.notes["tick"][row])
-    return round(tempo_map.bpm_at(tick) * PPQ / beat_ticks_at(tick), 1)
+    score = lesson.score
+    tick = int(score.notes["tick"][row]) if row < len(score) else score.tempo_map.bar_start(lesson.loop[0])
+    return round(score.tempo_map.bpm_at(tick) * PPQ / beat_ticks_at(tick), 1)
 
 
 def _floored(bpm: float) -> float:

@@ -185,6 +185,7 @@ def test_no_text_is_too_strange(parts: list[str]) -> None:
 
 
 LESSON = """title = "T"
+tempo_bpm = 60
 loop = [1, 2]
 [dynamics]
 ghost = 30
@@ -195,7 +196,7 @@ sticking = "| R--- L--- R--- L--- | - |"
 loudness = "| p--- <--- ---- ---f | - |"
 [[grid]]
 meter = ["3+2+2/8", "4/4"]
-tempo_to_bpm = 60
+tempo_to_bpm = 50
 left_hand.tom_1 = "oov ww (ooooooooo) | oo"
 [[grid.cycle]]
 meter = "5/8"

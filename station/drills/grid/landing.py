@@ -9,14 +9,13 @@ from station.core.pieces import Ornament
 from station.core.schema import checked_values
 from station.core.toml_faults import Faults
 from station.core.toml_places import KeyPath
-from station.drills.grid.cell_strokes import BarClock, expand
+from station.drills.grid.cell_strokes import BarClock, Origin, expand
 from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, lines_of_table, plain_line
 from station.drills.grid.grid_timing import GridTiming
 from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.tab_symbols import CHOKE, HOLD, RESTS, SYMBOLS, family_of
 from station.drills.grid.voice import parsed, voice_strokes
-from station.music.score import NOTE_DTYPE
 from station.music.tempo import MeterChange
 
 _NOTHING_STRUCK = RESTS + HOLD + CHOKE + "%()|"
@@ -24,10 +23,13 @@ _BEAT = MeterChange(0, 1, 4)
 """A buzz on the landing lasts a quarter."""
 
 
-def read_landing(raw: object, timing: GridTiming, faults: Faults, path: KeyPath = ("landing",)) -> NDArray[np.void]:
-    """The strokes (n,) of `NOTE_DTYPE` of the table at `path`, all on tick 0; `timing` says how they are struck.
+def read_landing(
+    raw: object, timing: GridTiming, faults: Faults, path: KeyPath = ("landing",)
+) -> tuple[NDArray[np.void], list[Origin]]:
+    """The strokes (n,) of `NOTE_DTYPE` of the table at `path`, all on tick 0, and their letters.
 
-    Faults are noted in full; where there are some the strokes are those that could be read.
+    `timing` says how they are struck. Faults are noted in full; where there are some, the strokes are those that
+    could be read.
     """
     values, found = checked_values(raw, LINES, "line")
     lines = lines_of_table(values, path, found)
@@ -44,8 +46,9 @@ def read_landing(raw: object, timing: GridTiming, faults: Faults, path: KeyPath 
     voices = [parsed(line, frames, faults) for line in sound]
     hands = parsed(under, frames, faults) if under and len(sound) == len(lines) else None
     strokes = voice_strokes(voices, hands, [0], BarClock([_BEAT], timing.swing), faults, are_all=are_all)
-    rows, _ = expand([replace(stroke, touch=timing.touch) for stroke in strokes])
-    return rows[np.lexsort((rows["piece"], -rows["lead_ms"]))] if len(rows) else np.zeros(0, NOTE_DTYPE)
+    rows, origins = expand([replace(stroke, touch=timing.touch) for stroke in strokes])
+    order = np.lexsort((rows["piece"], -rows["lead_ms"]))
+    return rows[order], [origins[i] for i in order]
 
 
 def _is_one_stroke(line: RawLine, faults: Faults) -> bool:

@@ -39,7 +39,8 @@ _ROWS = 9
 
 
 _MOST_BEFORE = 2
-"""So many of the lessons that should come before are named; the tooltip in the list has all (our choice)."""
+"""So many of the lessons that should come before are named, one where there is little room; the tooltip in the list has
+all (our choice)."""
 
 
 class LessonsPanel:
@@ -153,8 +154,8 @@ class LessonsPanel:
         theme.heading(card.title, 20)
         author = f" · {card.author}" if card.author else ""
         theme.soft(f"{card.bars} bars · {card.meter} · {card.beats_a_minute:g} bpm{author}")
-        for line in selection.first_words(card)[:_MOST_BEFORE]:
-            theme.soft(theme.one_line(line, imgui.get_content_region_avail().x))
+        for line in selection.first_words(card)[: _MOST_BEFORE if lines > 0 else 1]:
+            theme.soft(line)
             theme.tooltip("What should come before; nothing is forbidden")
         if card.about and lines > 0 and not self._is_low:  # the list's tooltip has it too
             before = imgui.get_cursor_pos_y()

@@ -16,7 +16,7 @@ TIMING = GridTiming(80, (MeterChange(0, 4, 4),), PPQ, touch=Touch(graces=Graces(
 
 def landed(table: dict[str, object]) -> list[Note]:
     faults = Faults()
-    rows = read_landing(table, TIMING, faults)
+    rows, _ = read_landing(table, TIMING, faults)
     assert faults.noted == []
     return list(Score.from_array(rows, TempoMap()))
 

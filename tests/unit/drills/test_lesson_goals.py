@@ -136,8 +136,8 @@ def test_the_landing_and_the_graces(lesson: Lesson) -> None:
         ("bars = [5, 5]\n", "", 35, 1, "bars is missing; expected two bar numbers such as bars = [3, 4]"),
         ("bars = [5, 5]", "bars = 5", 36, 8, "expected two bar numbers such as [3, 4]"),
         ("max_tempo_error_pct = 2", "max_tempo_error_pct = 60", 33, 23, "expected a number from 0.1 to 50"),
-        ('kick = "o"', 'kick = "o"\nsnare = "o"\nhihat = "x"', 10, 1, "3 hands needed at once"),
-        ('kick = "o"', 'kick = "o"\nsnare = "f"', 10, 1, "with its grace strokes on the landing"),
+        ('kick = "o"', 'kick = "o"\nsnare = "o"\nhihat = "x"', 11, 10, "3 hands needed at once"),
+        ('kick = "o"', 'kick = "o"\nsnare = "f"', 11, 10, "with its grace strokes on the landing"),
     ],
 )
 def test_faults_of_what_is_asked(old: str, new: str, line: int, column: int, words: str) -> None:
@@ -160,7 +160,7 @@ right_hand.crash = "X"
 right_hand.snare = "---- ---- ---- ---- ---- ---- ---- ---o"
 """
     (found,) = faults(text)
-    assert found.line == 3
+    assert (found.line, found.column) == (4, 21)
     assert "the right hand needs 2 strokes in 44 ms; people need 45 on the landing" in found.text
     assert "playable up to 166 bpm" in found.text
     assert faults(text.replace("170", "166")) == []

@@ -8,6 +8,8 @@ import pytest
 from station.core.errors import BadInput
 from station.drills import lesson_row
 from station.drills.authoring import NEW_LESSON
+from station.drills.lesson import Lesson
+from station.drills.lesson_file import read_lesson
 from station.drills.lesson_row import rows_below
 from station.scoring.matching.hit_windows import Level
 
@@ -50,8 +52,12 @@ def test_a_row_says_what_the_lesson_says(cache: Path, folder: Path) -> None:
 def test_what_has_not_changed_is_not_read_again(cache: Path, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     said = titles(folder)
     read: list[Path] = []
-    real = lesson_row.read_lesson
-    monkeypatch.setattr(lesson_row, "read_lesson", lambda path: read.append(path) or real(path))
+
+    def counted(path: Path) -> Lesson:
+        read.append(path)
+        return read_lesson(path)
+
+    monkeypatch.setattr(lesson_row, "read_lesson", counted)
     assert titles(folder) == said == ["grooves/a: My groove", "grooves/b: My groove"]
     assert read == []
     changed = folder / "grooves" / "b.toml"

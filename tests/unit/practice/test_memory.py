@@ -100,7 +100,6 @@ def test_who_struggles_is_sent_to_what_comes_before(tmp_path: Path) -> None:
     """Every other stroke is missing, pass after pass; once rock 1 is mastered it is no reason any more."""
     lesson = replace(find_lesson("rock-3"), prerequisites=("rock-1",))
     followed = Remembered.of(lesson, PlanOptions(loops=2), TODAY, Memory.of(tmp_path, "Ben", "rock-3", lesson.loop))
-    assert not followed.adaptation.struggles
     practise_adaptively(followed.adaptation, parse_spec("miss_pct=50,seed=1"))
     assert followed.adaptation.struggles
     turn = followed.next_turn()
