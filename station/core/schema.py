@@ -11,7 +11,7 @@ from datetime import date, datetime
 from enum import IntEnum
 from typing import Any, Generic, TypeVar
 
-from station.core.did_you_mean import did_you_mean, nearest
+from station.core.did_you_mean import did_you_mean, nearest, nearest_word
 from station.core.expected import LINE, TEXT, JsonSchema, expected_by, expects, later, list_like
 from station.core.pieces import word
 from station.core.toml_faults import Fault, Faults, Noted, Wrong, placed, refused, wrong
@@ -78,10 +78,11 @@ def checked_values(raw: object, fields: Fields, noun: str = "key") -> tuple[dict
             values[key] = faults.attempt(fields[key].read, value, fields[key].default, key)
         elif not faults.are_many:
             faults.add((key,), no_such(noun, key, fields), at_key=True)
+    meant = {found for key in table if key not in fields and (found := nearest_word(key, fields))}
     for key, each in fields.items():
         if key not in table:
             values[key] = each.default
-            if each.must is not None and table is not nothing:
+            if each.must is not None and table is not nothing and key not in meant:
                 faults.noted.append(Noted(_missing(each.must), (key,), at_key=True, is_missing=True))
     return values, faults
 

@@ -46,6 +46,13 @@ _PLAIN_WORDS = (
 
 _AT_LINE_START = ("Cannot overwrite a value", "Cannot declare")
 """Complaints that `tomllib` places after the statement that they are about."""
+_SPREADING = (
+    "a list is not closed; expected , or ]",
+    "a table in braces is not closed; expected , or }",
+    "a text is not closed; expected its closing quotes",
+    "expected a key, [a table] or a # comment",
+)
+"""Plain words that are true of each line after the one at fault; they are told of the first of these lines."""
 _AFTER_ESCAPE = "Unescaped '\\' in a string"
 """Placed after the backslash and its letter."""
 
@@ -97,7 +104,8 @@ def load(text: str) -> tuple[dict[str, object], str, tuple[SyntaxFault, ...]]:
     if endless := _ENDLESS_KEY.search(text):
         return {}, "", ((*_end(text[: endless.start()]), f"a key of more than {_MOST_KEYS} parts"),)
     faults: list[SyntaxFault] = []
-    while len(faults) < min(MAX_SYNTAX_FAULTS, 1 + _MOST_READ // (len(text) + 1)):
+    set_aside = -1
+    for _ in range(min(MAX_SYNTAX_FAULTS, 1 + _MOST_READ // (len(text) + 1))):
         try:
             return tomllib.loads(text), text, tuple(faults)
         except tomllib.TOMLDecodeError as error:
@@ -108,6 +116,10 @@ def load(text: str) -> tuple[dict[str, object], str, tuple[SyntaxFault, ...]]:
             return {}, "", ((1, 1, "lists or tables nested too deeply"),)
         lines = text.split("\n")
         line = faults[-1][0] - 1
+        follows = len(faults) > 1 and not "".join(lines[set_aside + 1 : line]).strip()
+        if follows and faults[-1][2] == faults[-2][2] in _SPREADING:
+            del faults[-1]
+        set_aside = line
         if not lines[line].strip() or lines[line].lstrip().startswith("["):
             break
         lines[line] = ""

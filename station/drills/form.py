@@ -228,6 +228,8 @@ def played_order(raw: object, grids: Sequence[WrittenGrid], faults: Faults) -> l
     for place, name in enumerate(entries):
         path: KeyPath = ("form", place) if isinstance(raw, list) else ("form",)
         found = by_name.get(name)
+        if found is None and any(_is_doubtful(grids[i], faults) for i in mains):
+            continue  # the grid that is meant may be the one that is at fault
         if found is None:
             known = [grids[i].name for i in mains if grids[i].name]
             faults.add(path, no_such("grid", name, known) if known else "no grid has a name; expected name = …")
@@ -250,9 +252,16 @@ def _entries(value: object) -> tuple[str, ...]:
     return names
 
 
+def _is_doubtful(grid: WrittenGrid, faults: Faults) -> bool:
+    """Whether the grid has no name and a fault: that may be why it has none, or seems to be no ending."""
+    return not grid.name and any(fault.path[: len(grid.path)] == grid.path for fault in faults.noted)
+
+
 def _all_played(order: Sequence[int], mains: Sequence[int], grids: Sequence[WrittenGrid], faults: Faults) -> None:
     """Note grids that the form never plays."""
     for grid in (grids[i] for i in sorted(set(mains) - set(order))):
+        if _is_doubtful(grid, faults):
+            continue
         if grid.name:
             faults.add((*grid.path, NAME), f"never played; expected {grid.name} in form")
         else:

@@ -122,6 +122,7 @@ class _Builder:
 
     def section(self) -> GridSection:
         times: int = self.values["times"]
+        before = len(self.faults)
         frames = [GridFrame(meter, self.timing.beat_ticks) for meter in self.timing.meters]
         lines = [parsed(raw, frames, self.faults) for raw in self.lines]
         under, loudness = (self._beside(key, frames) for key in (STICKING, LOUDNESS))
@@ -134,7 +135,15 @@ class _Builder:
         own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults, are_all=self.are_all)
         level = self._loudness(loudness, bars)
         parts = [self._struck([*own, *more], level) for more in self._cycled(bars, length, times)]
+        if len(self.faults) == before:
+            self._check_said(count)
         return GridSection(self.values["name"], self.timing, bars, tuple(parts))
+
+    def _check_said(self, count: int) -> None:
+        """Note that the grid says it has more or fewer bars than its lines."""
+        said: int | None = self.values["bars"]
+        if said is not None and said != count:
+            self.faults.add((*self.path, "bars"), f"{said}, but the lines have {count}")
 
     def _beside(self, key: str, frames: Sequence[GridFrame]) -> ParsedLine | None:
         raw = plain_line(self.values, key, self.path)
@@ -147,8 +156,6 @@ class _Builder:
             text = "bars is missing; expected how many bars the cycles run, such as bars = 4"
             self.faults.add(self.path, text, at_key=True)
         count = agreed_bars(lines, self.faults) if lines else said or 1
-        if said is not None and said != count:
-            self.faults.add((*self.path, "bars"), f"{said}, but the lines have {count}")
         if count * times > MAX_BARS:
             where = lines[0].raw.line.path if lines else (*self.path, "bars")
             self.faults.add(where, f"{count * times} bars; a lesson has at most {MAX_BARS}")

@@ -136,3 +136,31 @@ def test_deep_nesting_is_a_fault() -> None:
 def test_a_list_of_tables_stands_where_its_first_does() -> None:
     places = Places.of("a = 1\n\n[[gird]]\nb = 2\n")
     assert places.find(("gird",), at_key=True)[0] == 3
+
+
+@pytest.mark.parametrize(
+    ("path", "written"),
+    [
+        (("title",), '"Été"'),
+        (("tags",), "[\n  \"one\",  # first\n  'two',\n]"),
+        (("point",), '{ x = 1, "y z" = 2.5 }'),
+        (("point", "x"), "1"),
+        (("date",), "2020-01-01"),
+        (("goals", "min"), "0.5"),
+        (("note",), "'''\nfirst\nsecond'''"),
+    ],
+)
+def test_a_value_ends_where_its_text_does(path: tuple[str | int, ...], written: str) -> None:
+    places = Places.of(TEXT)
+    assert places.text[places.values[path] : places.ends[path]] == written
+
+
+def test_headers_stand_in_the_order_of_the_text() -> None:
+    places = Places.of(TEXT)
+    headers = [places.text[at:].split("\n")[0] for at in places.headers]
+    assert headers == ["[goals]", "[[grid]]", "[[grid]]", "[grid.left_hand]"]
+
+
+def test_what_is_true_of_every_line_that_follows_is_told_once() -> None:
+    _, _, found = load('a = ["x"\nb = 2\n\nc = 3\nd = 4\n')
+    assert [fault[:2] for fault in found] == [(2, 1)]
