@@ -153,7 +153,7 @@ class _Blocks:
 
 
 def _tracker(written: Written) -> Tracker:
-    return Tracker(written.at_s, written.classes)
+    return Tracker(*written.lanes)
 
 
 def free_way(written: Written, hits: Hits, ends: bool = True) -> tuple[RawWay, float]:

@@ -31,7 +31,7 @@ class Warp:
 
 def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
     """The way of the hits (m,), sorted, through the score; at least one hit has the class of a note."""
-    known = np.flatnonzero(np.isin(hit_classes, written.classes))
+    known = np.flatnonzero(np.isin(hit_classes, written.lanes[1]))
     hits = Hits(hit_s[known], hit_classes[known])
     way, tempo = free_way(written.of_classes(hits.classes), hits)
     stretch = _stretches(way, len(known))
@@ -43,7 +43,7 @@ def click_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp | 
 
     None where there are none.
     """
-    known = np.flatnonzero(np.isin(hit_classes, written.classes))
+    known = np.flatnonzero(np.isin(hit_classes, written.lanes[1]))
     if not len(known):
         return None
     hits = Hits(hit_s[known], hit_classes[known])
