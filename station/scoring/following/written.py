@@ -80,10 +80,16 @@ class Written:
         return self.beats.beat(self.at_s)
 
     @cached_property
+    def answered(self) -> Indices:
+        """The classes of hits that may answer something here: those of the notes, and of what may be their bounces."""
+        buzzed = self.classes[~np.isnan(self.buzz_s)]
+        return np.unique(np.concatenate((self.classes, buzzed + MAYBE_BOUNCE)))
+
+    @cached_property
     def lanes(self) -> tuple[Floats, Indices]:
         """Times, rising, and classes of what hits may answer (k,): the notes, and for hits that may be bounces strokes.
 
-        A buzz leads no clock by its bounces; a class that is only buzzed has no strokes, and its bounces tell nothing.
+        A buzz leads no clock by its bounces: where a class has no other strokes, the click alone can place them.
         """
         is_buzz = ~np.isnan(self.buzz_s)
         strokes = np.flatnonzero(np.isin(self.classes, self.classes[is_buzz]) & ~is_buzz)
