@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from datetime import date, datetime
 from enum import IntEnum
 from typing import Any, Generic, TypeVar
+from unicodedata import category
 
 from station.core.did_you_mean import did_you_mean, nearest, nearest_word
 from station.core.expected import LINE, TEXT, JsonSchema, expected_by, expects, later, list_like
@@ -213,8 +214,12 @@ def text(value: object) -> str:
 
 @expects(TEXT)
 def prose(value: object) -> str:
-    """A string, blanks at its ends stripped."""
-    return text(value).strip()
+    """A string, blanks at its ends stripped; of control characters, which terminals obey, only line ends and tabs."""
+    stripped = text(value).strip()
+    control = next((c for c in stripped if category(c) == "Cc" and c not in "\n\t"), None)
+    if control:
+        raise wrong(f"expected text without control characters, found {control}")
+    return stripped
 
 
 @expects(LINE)

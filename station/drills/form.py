@@ -19,6 +19,8 @@ from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
 
 LIKE, ENDING, AT, NAME, TIMES = "like", "ending", "at", "name", "times"
+MAX_GRIDS = 500
+"""One for every fourth bar of the longest lesson (our choice)."""
 MAX_FORM = 1000
 """Entries of a form: more than one for every other bar of the longest lesson (our choice)."""
 
@@ -65,7 +67,12 @@ class WrittenGrid:
 
 
 def written_grids(raw: object, faults: Faults) -> list[WrittenGrid]:
-    """The one `[grid]` or the several `[[grid]]` of a file; `faults` have paths from the top."""
+    """The one `[grid]` or the several `[[grid]]` of a file; `faults` have paths from the top.
+
+    Raises `Wrong` where there are more than anyone practises.
+    """
+    if isinstance(raw, list) and len(raw) > MAX_GRIDS:
+        raise wrong(f"{len(raw)} grids; a lesson has at most {MAX_GRIDS}", "grid", MAX_GRIDS)
     grids: list[WrittenGrid] = []
     names: dict[str, int] = {}
     for i, each in enumerate(raw if isinstance(raw, list) else [raw]):
@@ -144,13 +151,14 @@ def told_at_home(found: Faults, grid: WrittenGrid, grids: Sequence[WrittenGrid],
     them only here is told at `like`. Where nobody knows what it is like, its own lines say nothing of what it lacks.
     """
     told: list[Noted] = []
+    already = {(other.path, other.char) for other in known.noted}
     for fault in found.noted:
         if grid.like is None and (LIKE,) in grid.own and fault.path[len(grid.path) :] in ((), (STICKING,)):
             continue
         key = fault.path[len(grid.path)] if len(fault.path) > len(grid.path) else None
         if grid.like is None or not isinstance(key, str) or _says(grid, fault.path[len(grid.path) :]):
             told.append(fault)
-        elif not any(_same(fault, other, grid, grids) for other in known.noted):
+        elif (home_of(fault.path, grid, grids), fault.char) not in already:
             name = ".".join(str(part) for part in fault.path[len(grid.path) :])
             told.append(Noted(f"{name}, as in {grids[grid.like].name}: {fault.text}", (*grid.path, LIKE)))
     return told
@@ -178,10 +186,6 @@ def home_of(path: KeyPath, grid: WrittenGrid, grids: Sequence[WrittenGrid]) -> K
     return path
 
 
-def _same(fault: Noted, other: Noted, grid: WrittenGrid, grids: Sequence[WrittenGrid]) -> bool:
-    return (home_of(fault.path, grid, grids), fault.char) == (other.path, other.char)
-
-
 # --- endings ----------------------------------------------------------------------------------------------------------
 
 
@@ -205,11 +209,11 @@ def _no_late_endings(grids: Sequence[WrittenGrid], faults: Faults) -> None:
     for grid in grids:
         main = None if grid.ending_of is None else grids[grid.ending_of]
         times = main.raw.get(TIMES, 1) if main and isinstance(main.raw, dict) else None
-        late = [n + 1 for n in grid.repetitions if isinstance(times, int) and n >= times]
-        if late:
-            faults.add(
-                (*grid.path, ENDING), f"the grid before is played {times} times; there is no repetition {late[0]}"
-            )
+        if isinstance(times, bool) or not isinstance(times, int):
+            continue  # none, or what is told as no number of times
+        if late := [n + 1 for n in grid.repetitions if n >= times]:
+            often = "once" if times == 1 else f"{times} times"
+            faults.add((*grid.path, ENDING), f"the grid before is played {often}; there is no repetition {late[0]}")
 
 
 # --- the order --------------------------------------------------------------------------------------------------------
@@ -224,22 +228,36 @@ def played_order(raw: object, grids: Sequence[WrittenGrid], faults: Faults) -> l
     entries = faults.attempt(_entries, raw, nothing, "form")
     by_name = {grid.name: i for i, grid in reversed(list(enumerate(grids))) if grid.name}
     order: list[int] = []
-    before = len(faults)
+    wrong_names: set[str] = set()
     for place, name in enumerate(entries):
-        path: KeyPath = ("form", place) if isinstance(raw, list) else ("form",)
         found = by_name.get(name)
-        if found is None and any(_is_doubtful(grids[i], faults) for i in mains):
-            continue  # the grid that is meant may be the one that is at fault
-        if found is None:
-            known = [grids[i].name for i in mains if grids[i].name]
-            faults.add(path, no_such("grid", name, known) if known else "no grid has a name; expected name = …")
-        elif grids[found].is_ending:
-            faults.add(path, f"{name} is an ending, which is played after its grid; expected that grid's name")
-        else:
+        if found is not None and not grids[found].is_ending:
             order.append(found)
-    if entries and len(faults) == before:  # a name that nobody knows may be meant for what is never played
+        elif found is None and any(_is_doubtful(grids[i], faults) for i in mains):
+            wrong_names.add(name)  # the grid that is meant may be the one that is at fault
+        elif name not in wrong_names:  # each is told once
+            wrong_names.add(name)
+            faults.noted.append(Noted(_not_played(name, found, mains, grids), *_place_in_form(raw, place)))
+    if entries and not wrong_names:  # a name that nobody knows may be meant for what is never played
         _all_played(order, mains, grids, faults)
     return order or mains
+
+
+def _not_played(name: str, found: int | None, mains: Sequence[int], grids: Sequence[WrittenGrid]) -> str:
+    """Why the form cannot play `name`, which is the grid `found` or none."""
+    if found is not None:
+        return f"{name} is an ending, which is played after its grid; expected that grid's name"
+    known = [grids[i].name for i in mains if grids[i].name]
+    return no_such("grid", name, known) if known else "no grid has a name; expected name = …"
+
+
+def _place_in_form(raw: object, place: int) -> tuple[KeyPath, int | None]:
+    """Where an entry of the form stands: the path of the list's, or the index of its first letter in the text."""
+    if not isinstance(raw, str):
+        return ("form", place), None
+    entries = raw.split(",")
+    before = sum(len(entry) + 1 for entry in entries[:place])
+    return ("form",), before + len(entries[place]) - len(entries[place].lstrip())
 
 
 def _entries(value: object) -> tuple[str, ...]:

@@ -44,6 +44,9 @@ from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoMap
 
 LANDING = "landing"
+MAX_CUES_WRITTEN = 1000
+"""Entries of `at` in all grids, those that variations take over too: one for every other bar of the longest lesson (our
+choice)."""
 _MIDI = b"MThd"
 """How a MIDI file begins."""
 
@@ -104,7 +107,7 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
         beat_ticks=timing.beat_ticks,
         sections=sections_of(stretches),
         velocities=timing.velocities,
-        cues=cues_of(stretches),
+        cues=faults.attempt(lambda _: cues_of(stretches), None, ()),
         landing=landing,
         **{key: values[key] for key in AS_THEY_ARE},
     )
@@ -123,7 +126,11 @@ def _written(raw: object, faults: Faults) -> list[WrittenGrid]:
     """The grids as the file has them; raises `Wrong` where there is more to read than anyone practises."""
     if raw == []:
         faults.add(("grid",), "no grid to play; expected a table [grid] with lines in it")
-    grids = written_grids(raw, faults)
+    nothing: list[WrittenGrid] = []
+    grids = faults.attempt(lambda value: written_grids(value, faults), raw, nothing)
+    if (entries := sum(len(grid.at) for grid in grids if isinstance(grid.at, list))) > MAX_CUES_WRITTEN:
+        faults.add(("grid",), f"{entries} entries of at; a lesson has at most {MAX_CUES_WRITTEN}")
+        return []
     if (cells := sum(_cell_count(grid.raw) for grid in grids)) > MAX_CELLS:
         faults.add(("grid",), f"{cells} letters; a lesson has at most {MAX_CELLS}")
         return []
@@ -157,7 +164,7 @@ def _read_grids(written: Sequence[WrittenGrid], timing: GridTiming, faults: Faul
         bars, strokes = bars + section.bar_count * section.times, strokes + sum(map(len, section.parts))
         check_size(bars, strokes, each)
     if grids and not any(any(grid.section.parts) for grid in grids) and not faults:
-        faults.add(("grid",), "nothing to play: every cell is a rest", at_key=True)
+        faults.miss(("grid",), "has nothing to play: every cell is a rest")
     return grids
 
 
@@ -236,8 +243,10 @@ def _goals(goals: Goals, lesson: Lesson, faults: Faults) -> Goals:
 
 
 def _check_prerequisites(lesson: Lesson, faults: Faults) -> None:
+    earlier: set[str] = set()
     for i, name in enumerate(lesson.prerequisites):
         if name == lesson.name:
             faults.add(("prerequisites", i), f"{name} is this lesson itself; expected another")
-        elif name in lesson.prerequisites[:i]:
+        elif name in earlier:
             faults.add(("prerequisites", i), f"{name} stands here twice")
+        earlier.add(name)

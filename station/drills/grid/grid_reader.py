@@ -92,7 +92,7 @@ def read_grid(
     timing = timing_of(values, before, found, path)
     lines = lines_of_table(values, path, found)
     if not lines and values["cycle"] is None and not found:
-        found.add((), 'no line to play; expected one such as snare = "----o-------o---"', at_key=True)
+        found.miss((), 'has no line to play; expected one such as snare = "----o-------o---"')
     are_all = not found
     faults.merge(found, *path)
     if not timing.is_sure:
@@ -153,8 +153,8 @@ class _Builder:
         """The bars of the grid, as its lines have them, or as it says where all of them are cycles."""
         said: int | None = self.values["bars"]
         if not lines and self.cycles and said is None:
-            text = "bars is missing; expected how many bars the cycles run, such as bars = 4"
-            self.faults.add(self.path, text, at_key=True)
+            text = "is missing; expected how many bars the cycles run, such as bars = 4"
+            self.faults.miss((*self.path, "bars"), text)
         count = agreed_bars(lines, self.faults) if lines else said or 1
         if count * times > MAX_BARS:
             where = lines[0].raw.line.path if lines else (*self.path, "bars")

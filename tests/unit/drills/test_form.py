@@ -160,7 +160,7 @@ def test_an_unplayable_letter_is_blamed_once_however_often_it_is_played() -> Non
 @pytest.mark.parametrize(
     ("text", "line", "column", "words"),
     [
-        ('form = "A, C"\n' + A + B, 3, 8, "no such grid: C"),
+        ('form = "A, C"\n' + A + B, 3, 12, "no such grid: C"),
         ('form = ["A", "Bb", "B"]\n' + A + B, 3, 14, "no such grid: Bb; did you mean B?"),
         ('form = "A, , B"\n' + A + B, 3, 8, "expected one line of text"),
         ("form = []\n" + A, 3, 8, "0 entries; expected 1 to 1000"),
@@ -168,7 +168,7 @@ def test_an_unplayable_letter_is_blamed_once_however_often_it_is_played() -> Non
         ('form = ["A"]\n' + A + B, 8, 8, "never played; expected B in form"),
         ('form = ["A"]\n' + A + '[[grid]]\nsnare = "o"\n', 7, 1, "never played, for it has no name"),
         ('form = ["A", "B"]\n' + A + '[[grid]]\nname = "B"\nending = 1\nsnare = "o"\n', 3, 14, "B is an ending"),
-        ('form = "A"\n[grid]\nsnare = "o"\n', 3, 8, "no grid has a name; expected name = …"),
+        ('form = "A"\n[grid]\nsnare = "o"\n', 3, 9, "no grid has a name; expected name = …"),
         (A + A, 7, 8, "two grids are called A; expected another name"),
         ('[grid]\nending = 1\nsnare = "o"\n', 4, 10, "no grid before this one that it could end"),
         (A + FIRST + FIRST, 10, 10, "repetition 1 has an ending already"),
