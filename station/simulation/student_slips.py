@@ -99,7 +99,8 @@ class Slipper:
         if count == 0:
             return np.empty(0, np.int64), np.empty(0, np.uint8)
         step = _grid(score)
-        ticks = np.arange(0, max(score.end_tick, step), step)
+        last_beat_end = (int(score.notes["tick"].max()) // PPQ + 1) * PPQ  # nobody slips when all is played
+        ticks = np.arange(0, max(min(score.end_tick, last_beat_end), step), step)
         wrongly_played = np.flatnonzero(label != Label.MATCH)
         # a stroke at the very end would be the landing that nobody counts
         disputed_ns = np.sort(np.append(where.onset_ns[wrongly_played], score.length_ns))

@@ -196,7 +196,12 @@ def test_a_fill_lesson_is_three_bars_and_a_fill_that_lands(name: str) -> None:
     assert Piece.CRASH_1 in landing or {"country", "funk", "latin"} & set(lesson.tags)
 
 
-@pytest.mark.parametrize("name", sorted(path.stem for path in (lessons_dir() / "fills").glob("*.toml")))
+WITHOUT_LANDING = {"train-fill-1"}
+"""Its bars are so alike that with one more the analysis takes a round for played again (three of eight students)."""
+FILLS_FOLDER = {path.stem for path in (lessons_dir() / "fills").glob("*.toml")}
+
+
+@pytest.mark.parametrize("name", sorted(FILLS_FOLDER - WITHOUT_LANDING))
 def test_the_last_fill_lands_on_crash_and_kick(name: str) -> None:
     assert {Piece.KICK, Piece.CRASH_1} <= set(find_lesson(name).landing["piece"].tolist())
 
