@@ -40,6 +40,7 @@ from station.drills.stretches import (
     tempos_of,
 )
 from station.drills.unplayable import note_unplayable
+from station.music.loudness_marks import joined_marks
 from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoMap
 
@@ -181,7 +182,8 @@ def _score(stretches: Sequence[Stretch], written: Sequence[WrittenGrid], faults:
         for origin in {(o.path): o for o in origins}.values()
     }
     at_home = [Origin(homes[origin.path], origin.char) for origin in origins]
-    return Score.from_array(rows[order], tempo_map, end), [at_home[i] for i in order]
+    loudness = joined_marks((s.start_tick, s.grid.section.loudness) for s in stretches)
+    return Score.from_array(rows[order], tempo_map, end, loudness=loudness), [at_home[i] for i in order]
 
 
 def _grid_path(origin: Origin) -> tuple[str | int, ...]:

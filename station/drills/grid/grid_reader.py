@@ -17,6 +17,7 @@ from station.drills.grid.loudness import Loudness, read_loudness
 from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.swing import STRAIGHT
 from station.drills.grid.voice import MAX_BARS, CellCount, ParsedLine, agreed_bars, parsed, voice_strokes
+from station.music.loudness_marks import LoudnessMark
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
 MAX_TIMES = 100
@@ -28,13 +29,15 @@ class GridSection:
     """One grid, read, from tick 0.
 
     `meters` has each bar of one repetition, the tick of each its start; `parts` the strokes of each repetition, their
-    ticks counted from its own start: repetitions differ where cycles run on over them.
+    ticks counted from its own start: repetitions differ where cycles run on over them. `loudness` has the marks of each
+    repetition, from its start.
     """
 
     name: str
     timing: GridTiming
     meters: tuple[MeterChange, ...]
     parts: tuple[tuple[WrittenCell, ...], ...]
+    loudness: tuple[LoudnessMark, ...] = ()
 
     @property
     def times(self) -> int:
@@ -137,7 +140,7 @@ class _Builder:
         parts = [self._struck([*own, *more], level) for more in self._cycled(bars, length, times)]
         if len(self.faults) == before:
             self._check_said(count)
-        return GridSection(self.values["name"], self.timing, bars, tuple(parts))
+        return GridSection(self.values["name"], self.timing, bars, tuple(parts), level.marks)
 
     def _check_said(self, count: int) -> None:
         """Note that the grid says it has more or fewer bars than its lines."""
