@@ -123,7 +123,7 @@ def _too_fast(score: Score) -> list[Impossible]:
 
 @dataclass(frozen=True, slots=True)
 class _Crew:
-    """Whose strokes share a speed limit: a `name` and its `verb`, how many limbs, `rows` of the score (n,), spans (s)."""
+    """Whose strokes share a speed limit: `name` and `verb`, how many limbs, `rows` of the score (n,), spans in s."""
 
     name: str
     verb: str
