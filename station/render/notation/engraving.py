@@ -14,7 +14,16 @@ from numpy.typing import NDArray
 from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
 from station.music.score import Score
 from station.music.tempo_words import TempoWord, tempo_words
-from station.render.notation.beams import STEM, STEM_X, Anchor, StaffVoice, draw_beams, draw_flags, draw_tuplet
+from station.render.notation.beams import (
+    BEAM_STEP,
+    STEM,
+    STEM_X,
+    Anchor,
+    StaffVoice,
+    draw_beams,
+    draw_flags,
+    draw_tuplet,
+)
 from station.render.notation.loudness_row import LOUDNESS_Y, ROW_BOTTOM, draw_loudness
 from station.render.notation.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
 from station.render.notation.rhythm import BeatGroup, TimedValue, beat_groups, spell
@@ -49,6 +58,8 @@ _TUPLET_FAR = 2.0
 _GRACE = 0.62
 _GRACE_STEP = 1.0
 _GRACE_GAP = 1.5
+_BUZZ_OFF = 1.4
+"""From a stem's end to the middle of a buzz's sign on it, clear of one beam."""
 _BRACKET = 0.55
 """How much farther a dot or a grace stroke stands from a note in brackets."""
 
@@ -276,6 +287,9 @@ class _BarEngraver:
             if stroke.value.dots:
                 dot_x = 1.15 + (_BRACKET if self._is_bracketed(i) else 0.0)
                 self._draw_list.ellipse((dot_x, height(self._step(i) | 1)), (0.2, 0.2), INK)
+        if any(self._e.score.notes["articulation"][i] == Articulation.BUZZ for i in chord.mains):
+            below = _BUZZ_OFF + BEAM_STEP * max(stroke.value.beams - 1, 0)
+            self._draw_list.sign("buzz", (voice.stem_x, beam_y - voice.way * below), INK)
         self._above(chord, voice, beam_y)
         self._sticking(chord)
 
@@ -303,10 +317,8 @@ class _BarEngraver:
         return bool(row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0)
 
     def _above(self, chord: _Chord, voice: StaffVoice, beam_y: float) -> None:
-        """Hi-hat signs, accents and buzz strokes, stacked outward from the stem's end."""
+        """Hi-hat signs and accents, stacked outward from the stem's end."""
         notes, way = self._e.score.notes, voice.way
-        if any(notes["articulation"][i] == Articulation.BUZZ for i in chord.mains):
-            self._draw_list.sign("buzz", (voice.stem_x, beam_y - way * 1.4), INK)
         y = beam_y + way * (0.85 if voice is _HANDS else 0.65)
         for kind in self._hat_signs(chord):
             draw_hat_sign(self._draw_list, kind, (voice.stem_x, y))

@@ -352,3 +352,17 @@ def test_a_dot_stands_outside_the_bracket() -> None:
     """A dotted eighth as a ghost: its bracket is centred a space right of the head, and about a third wide."""
     soft = bar_of(Note(0, Piece.SNARE, dynamic=Dynamic.GHOST), Note(3 * PPQ // 4, Piece.SNARE))
     assert of_kind(soft, ShapeKind.ELLIPSE)["centre"][:, 0].max() > 1.0 + 0.36
+
+
+@pytest.mark.parametrize(("step", "beams_drawn"), [(PPQ // 2, 1), (PPQ // 4, 2), (PPQ // 8, 3)])
+def test_a_buzz_s_sign_stands_on_the_stem_clear_of_its_beams(step: int, beams_drawn: int) -> None:
+    shapes = bar_of(*(Note(k * step, Piece.SNARE, articulation=Articulation.BUZZ) for k in range(PPQ // step)))
+    thick = (shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"][:, 1], 0.25) & (shapes["time_s"][:, 1] > 0)
+    lowest = (shapes["centre"][thick, 1] + 0.25).max()
+    assert len(shapes[thick]) == beams_drawn
+    uv = np.array(ATLAS.sign("buzz").uv, np.float32)
+    buzz = shapes[(shapes["uv"] == uv).all(axis=1)]
+    assert len(buzz) == PPQ // step
+    assert (buzz["centre"][:, 1] - buzz["half"][:, 1]).min() > lowest
+    heads = of_kind(shapes, ShapeKind.ELLIPSE)
+    assert (buzz["centre"][:, 1] + buzz["half"][:, 1]).max() < (heads["centre"][:, 1] - heads["half"][:, 1]).min()
