@@ -38,8 +38,9 @@ def _sections(lesson: Lesson, bars: Bars) -> Iterator[tuple[int, str]]:
     for section in lesson.sections:
         if first <= section.first_bar <= last:
             before, feel = feel, _feel(section.swing)
-            words = [section.name, feel if feel != before else ""]
-            if label := "   ".join(filter(None, words)):
+            changed = feel if feel != before else ""
+            name = "" if section.name and changed.startswith(section.name) else section.name  # "swing" says its name
+            if label := "   ".join(filter(None, (name, changed))):
                 yield section.first_bar - first, label
 
 

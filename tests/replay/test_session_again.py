@@ -310,6 +310,8 @@ def test_a_damaged_remark_is_named(text: str) -> None:
         (("notes", "tick"), -1),
         (("notes", "openness"), 1e308),
         (("notes", "piece"), 99),
+        (("notes", "swing_ticks"), 2**61),
+        (("notes", "swing_ticks"), -1),
     ],
 )
 def test_a_score_that_none_can_be_is_named(key: str | tuple[str, str], value: object) -> None:
@@ -322,6 +324,15 @@ def test_a_score_that_none_can_be_is_named(key: str | tuple[str, str], value: ob
         fields[key[0]][0][(NOTE_DTYPE.names or ()).index(key[1])] = value
     with pytest.raises(BadInput, match="remark at 5 ns"):
         said_in(LoggedText(5, json.dumps(fields)))
+
+
+def test_captures_from_before_swing_was_kept_with_the_strokes_can_be_read() -> None:
+    plan = plan_of("rock-1", 1)
+    fields = json.loads(text_of(PassBegan(0, plan, LATENCY, waits=False)))
+    fields["notes"] = [row[:13] for row in fields["notes"]]
+    said = said_in(LoggedText(5, json.dumps(fields)))
+    assert isinstance(said, PassBegan)
+    assert said.plan.section.notes.tobytes() == plan.section.notes.tobytes()
 
 
 def test_what_a_later_version_says_is_passed_over() -> None:

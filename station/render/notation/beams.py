@@ -15,7 +15,7 @@ from station.render.text.fonts import Face
 STEM, STEM_X = 0.13, 0.56
 """A stem's thickness, and how far from its head's middle it stands."""
 _BEAM = 0.50
-_BEAM_STEP = 0.78
+BEAM_STEP = 0.78
 _FLAG_STEP = 0.85
 _STUB = 1.1
 _GAP = 0.7
@@ -71,7 +71,7 @@ def draw_flags(anchor: Anchor, tick: int, count: int, voice: StaffVoice, beam_y:
 def draw_beams(anchor: Anchor, stems: Sequence[tuple[int, int]], voice: StaffVoice, beam_y: float) -> None:
     """Beams over `stems`, the tick and the number of beams of each, the outermost at `beam_y`."""
     for level in range(max(count for _, count in stems)):
-        y = beam_y - voice.way * level * _BEAM_STEP - (0.0 if voice.is_up else _BEAM)
+        y = beam_y - voice.way * level * BEAM_STEP - (0.0 if voice.is_up else _BEAM)
         for first, last in _runs([count > level for _, count in stems]):
             anchor.at(stems[first][0])
             if first == last:  # broken off: towards the stroke before, or after where there is none before

@@ -14,8 +14,17 @@ from numpy.typing import NDArray
 from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
 from station.music.score import Score
 from station.music.tempo_words import TempoWord, tempo_words
-from station.render.notation.beams import STEM, STEM_X, Anchor, StaffVoice, draw_beams, draw_flags, draw_tuplet
-from station.render.notation.loudness_row import ROW_BOTTOM, draw_loudness
+from station.render.notation.beams import (
+    BEAM_STEP,
+    STEM,
+    STEM_X,
+    Anchor,
+    StaffVoice,
+    draw_beams,
+    draw_flags,
+    draw_tuplet,
+)
+from station.render.notation.loudness_row import LOUDNESS_Y, ROW_BOTTOM, draw_loudness
 from station.render.notation.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
 from station.render.notation.rhythm import BeatGroup, TimedValue, beat_groups, spell
 from station.render.notation.staff import FOOT_PIECES, PLACES, head_of, height, ledger_steps
@@ -27,12 +36,12 @@ from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 
 STAFF_TOP, STAFF_BOTTOM = -2.0, 2.0
-STICKING_Y = 6.5
-"""Baseline of the R and L below the staff."""
+STICKING_Y = 7.0
+"""Baseline of the R and L below the staff, clear of the accents and numbers below the feet's beams."""
 BAR_NUMBER_Y = -7.4
 _NUMBER_X = 0.35
 """A bar's number begins so far left of its line: clear of what stands over the first beat."""
-TOP_Y, BOTTOM_Y = -8.3, 7.0
+TOP_Y, BOTTOM_Y = -8.3, 7.5
 """What a staff takes with everything above and below it, but for how loud it is."""
 
 _WORDS_Y = BAR_NUMBER_Y + 0.3
@@ -42,13 +51,17 @@ _RAMPS = {1: "accel. to", -1: "rit. to"}
 
 _UP_BEAM_Y, _DOWN_BEAM_Y = -5.4, 4.35
 """Stems of a voice reach at least here, so that beams stand level along the line."""
-_TUPLET_OFF = {-1: 1.0, 1: 0.4}
+_TUPLET_OFF = {-1: 1.0, 1: 0.75}
 """How far a tuplet's number stands from the stems' ends: below there are the sticking's letters."""
 _TUPLET_FAR = 2.0
 """And where an accent stands between: no farther, for there the staff's room ends (`TOP_Y`)."""
 _GRACE = 0.62
 _GRACE_STEP = 1.0
 _GRACE_GAP = 1.5
+_BUZZ_OFF = 1.4
+"""From a stem's end to the middle of a buzz's sign on it, clear of one beam."""
+_BRACKET = 0.55
+"""How much farther a dot or a grace stroke stands from a note in brackets."""
 
 
 _HANDS, _FEET = StaffVoice(-1, 0.0), StaffVoice(1, 2.5)
@@ -73,17 +86,27 @@ def bottom_of(score: Score) -> float:
 
 
 class Engraver:
-    """Engraves the bars of one score; `limbs` (n,) of `Limb` writes the sticking, None that of the score itself."""
+    """Engraves the bars of one score; `limbs` (n,) of `Limb` writes the sticking, None that of the score itself.
+
+    `meter_words`: new meters stand above the staff; a sheet has room for them within.
+    """
 
     def __init__(
-        self, score: Score, atlas: Atlas, limbs: NDArray[np.int8] | None = None, numbers: BarNumbers | None = None
+        self,
+        score: Score,
+        atlas: Atlas,
+        limbs: NDArray[np.int8] | None = None,
+        numbers: BarNumbers | None = None,
+        meter_words: bool = True,
     ) -> None:
         self.score = score
         self.numbers = numbers or BarNumbers()
         self._atlas = atlas
         self._limbs = score.notes["limb"] if limbs is None else limbs
+        self.loudness_y = LOUDNESS_Y if np.isin(self._limbs, list(_LETTERS)).any() else STICKING_Y
         self._closing = _closing_hats(score)
         self._tempo_words = tempo_words(score.tempo_map)
+        self._new_meters = {meter.tick for meter in score.tempo_map.meters if meter_words and meter.tick > 0}
         self._swing_words = swing_words(score)
         feet = [int(p) for p in FOOT_PIECES]
         self._is_foot = np.isin(score.notes["piece"], feet)
@@ -123,6 +146,10 @@ class Engraver:
     def tempo_words(self, start: int, end: int) -> list[TempoWord]:
         """What is written of the tempo in [start, end) ticks."""
         return [word for word in self._tempo_words if start <= word.tick < end]
+
+    def meter_word(self, start: int) -> str:
+        """The new meter of the bar that starts at tick `start`; empty where there is none, or no word for it."""
+        return str(self.score.tempo_map.meter_at(start)) if start in self._new_meters else ""
 
     def swing_word(self, bar: int) -> str:
         """The feel that begins with the bar; empty where none does."""
@@ -168,7 +195,7 @@ class _BarEngraver:
             self._voice(hands, _HANDS, beside=bool(feet))
             if feet:
                 self._voice(feet, _FEET, beside=True)
-        draw_loudness(self._anchor, self._e.score, self._start, self._end)
+        draw_loudness(self._anchor, self._e.score, (self._start, self._end), self._e.loudness_y)
         return self._draw_list.shapes()
 
     # --- bars ---------------------------------------------------------------------------------------------------------
@@ -182,11 +209,8 @@ class _BarEngraver:
             return
         number = str(self._e.numbers.of(self._bar))
         x += _NUMBER_X + self._draw_list.text(number, (x - _NUMBER_X, _WORDS_Y), TypeStyle(1.25, INK_SOFT, Face.BOLD))
-        meter = self._tempo.meter_at(self._start)
-        if self._bar > 0 and meter.tick == self._start:
-            x += _WORD_GAP + self._draw_list.text(str(meter), (x, _WORDS_Y), _WORD)
-        if feel := self._e.swing_word(self._bar):
-            x += _WORD_GAP + self._draw_list.text(feel, (x, _WORDS_Y), _WORD)
+        for word in filter(None, (self._e.meter_word(self._start), self._e.swing_word(self._bar))):
+            x += _WORD_GAP + self._draw_list.text(word, (x, _WORDS_Y), _WORD)
         self._tempo_words(x)
 
     def _tempo_words(self, x: float) -> None:
@@ -261,8 +285,11 @@ class _BarEngraver:
         for i in chord.mains:
             self._head(i, 0.0, 1.0)
             if stroke.value.dots:
-                dot_y = height(self._step(i) | 1)
-                self._draw_list.ellipse((1.15, dot_y), (0.2, 0.2), INK)
+                dot_x = 1.15 + (_BRACKET if self._is_bracketed(i) else 0.0)
+                self._draw_list.ellipse((dot_x, height(self._step(i) | 1)), (0.2, 0.2), INK)
+        if any(self._e.score.notes["articulation"][i] == Articulation.BUZZ for i in chord.mains):
+            below = _BUZZ_OFF + BEAM_STEP * max(stroke.value.beams - 1, 0)
+            self._draw_list.sign("buzz", (voice.stem_x, beam_y - voice.way * below), INK)
         self._above(chord, voice, beam_y)
         self._sticking(chord)
 
@@ -276,7 +303,7 @@ class _BarEngraver:
                 (x - 1.05 * scale, height(line)), (x + 1.05 * scale, height(line)), STAFF_LINE, INK_SOFT
             )
         draw_head(self._draw_list, head_of(piece, zone, how), (x, y), scale)
-        if row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0:  # grace strokes are soft by themselves
+        if self._is_bracketed(index):
             self._draw_list.sign("bracket_left", (x - 1.0 * scale, y), INK, scale)
             self._draw_list.sign("bracket_right", (x + 1.0 * scale, y), INK, scale)
         if how is Articulation.RIM_SHOT:
@@ -284,11 +311,14 @@ class _BarEngraver:
         if row["choke_ticks"] > 0:
             self._draw_list.sign("choke", (x + 1.3, y - 0.7), INK)
 
+    def _is_bracketed(self, index: int) -> bool:
+        """Whether brackets say that the stroke is soft; grace strokes are so by themselves."""
+        row = self._e.score.notes[index]
+        return bool(row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0)
+
     def _above(self, chord: _Chord, voice: StaffVoice, beam_y: float) -> None:
-        """Hi-hat signs, accents and buzz strokes, stacked outward from the stem's end."""
+        """Hi-hat signs and accents, stacked outward from the stem's end."""
         notes, way = self._e.score.notes, voice.way
-        if any(notes["articulation"][i] == Articulation.BUZZ for i in chord.mains):
-            self._draw_list.sign("buzz", (voice.stem_x, beam_y - way * 1.4), INK)
         y = beam_y + way * (0.85 if voice is _HANDS else 0.65)
         for kind in self._hat_signs(chord):
             draw_hat_sign(self._draw_list, kind, (voice.stem_x, y))
@@ -341,10 +371,11 @@ class _BarEngraver:
         self._anchor.at(chord.tick)
         count = len(chord.graces)
         notes = self._e.score.notes
+        gap = _GRACE_GAP + (_BRACKET if any(map(self._is_bracketed, chord.mains)) else 0.0)
         top = min(height(self._step(i)) for i in chord.graces) - 2.4
         stems: list[float] = []
         for k, i in enumerate(sorted(chord.graces, key=lambda i: -notes["lead_ms"][i])):
-            x = -_GRACE_GAP - (count - 1 - k) * _GRACE_STEP
+            x = -gap - (count - 1 - k) * _GRACE_STEP
             self._head(i, x, _GRACE)
             stems.append(x + STEM_X * _GRACE)
             self._draw_list.line((stems[-1], height(self._step(i))), (stems[-1], top), STEM * 0.8, INK)
@@ -355,4 +386,4 @@ class _BarEngraver:
             for level in range(2):
                 self._draw_list.box((stems[0], top + 0.5 * level), (stems[-1] - stems[0], 0.3), INK)
         low = max(height(self._step(i)) for i in chord.graces)
-        self._draw_list.sign("slur", (-_GRACE_GAP / 2 - 0.1, low + 0.7), INK_SOFT, 0.95)
+        self._draw_list.sign("slur", (-gap / 2 - 0.1, low + 0.7), INK_SOFT, 0.95)

@@ -4,7 +4,7 @@ Widths are staff spaces. A bar wants room for its shortest step between strokes;
 bars where it can, so that phrases stand under each other, and is then spread to its full width.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +15,7 @@ from station.music.score import Score
 _STEP, _GRACE_STEP = 2.4, 1.1
 """What two strokes after each other take at the least, and each grace stroke between them; our choice, from the
 engraved head's width of 1.3 and what hangs on it."""
-_INSET, _REPEAT, _BRACKET = 1.25, 1.5, 0.9
+_INSET, REPEAT, _BRACKET = 1.25, 1.5, 0.9
 """From a bar line to its first beat; what a repeat sign takes besides; what a grace stroke's bracket does."""
 _LEAST_BAR = 9.0
 _FINEST = PPQ // 8
@@ -45,8 +45,8 @@ class Want:
     width: float
 
 
-def want(score: Score, bar: int, is_repeated: bool = False) -> Want:
-    """What the bar needs, in staff spaces; a repeat sign, where it `is_repeated` from there, takes some of it."""
+def want(score: Score, bar: int, before: float = 0.0) -> Want:
+    """What the bar needs, in staff spaces, where so much stands `before` its notes."""
     tempo = score.tempo_map
     start, end = tempo.bar_start(bar), tempo.bar_start(bar + 1)
     first, last = np.searchsorted(score.notes["tick"], [start, end])
@@ -56,15 +56,15 @@ def want(score: Score, bar: int, is_repeated: bool = False) -> Want:
     shortest = max(int(steps.min()), _FINEST) if len(ticks) else end - start
     graced, counts = np.unique(notes["tick"][is_grace], return_counts=True)
     step = _STEP + (_GRACE_STEP * (1 + int(counts.max())) if len(counts) else 0.0)
-    inset = _INSET + (_REPEAT if is_repeated else 0.0)
+    inset = _INSET + before
     if len(graced) and graced[0] == start:
         inset += _GRACE_STEP * int(counts[0]) + _BRACKET
     return Want(inset, max(_LEAST_BAR, step * (end - start) / shortest))
 
 
-def systems(score: Score, width: float, repeat_from: int | None = None) -> list[list[BarBox]]:
-    """The lines of the score, each at most `width` staff spaces long; a repeat sign stands before `repeat_from`."""
-    wanted = [want(score, bar, bar == repeat_from) for bar in range(score.bar_count)]
+def systems(score: Score, width: float, before: Mapping[int, float] | None = None) -> list[list[BarBox]]:
+    """The lines of the score, each at most `width` staff spaces long; `before` is what stands before a bar's notes."""
+    wanted = [want(score, bar, (before or {}).get(bar, 0.0)) for bar in range(score.bar_count)]
     found: list[list[BarBox]] = []
     at, stretch = 0, 1.0
     while at < len(wanted):

@@ -10,28 +10,28 @@ from station.render.palette import INK
 from station.render.text.draw_list import TypeStyle
 from station.render.text.fonts import Face
 
-LOUDNESS_Y = 8.6
+LOUDNESS_Y = 9.1
 """The words' baseline, below the sticking's."""
-ROW_BOTTOM = 9.2
+ROW_BOTTOM = 9.8
 _WORD = TypeStyle(1.9, INK, Face.BOLD, 0.5)
-_MIDDLE_Y, _OPENING, _THICK = LOUDNESS_Y - 0.5, 0.6, 0.13
-"""A hairpin's axis, half its width where it is open, and how thick its lines are."""
+_RAISED, _OPENING, _THICK = 0.5, 0.6, 0.13
+"""How far a hairpin's axis lies above the words' baseline, half its width where it is open, its lines' thickness."""
 _STEPS = 32
 """Its lines slope in so many level steps a bar, for time stretches level shapes alone: 0.02 spaces each."""
 _AFTER_WORD, _LETTER = 0.5, 0.55
 """What it leaves free beside a word, and what half of each letter takes."""
 
 
-def draw_loudness(anchor: Anchor, score: Score, start: int, end: int) -> None:
-    """What the row says in [start, end) ticks of `score`."""
-    marks = score.loudness
+def draw_loudness(anchor: Anchor, score: Score, bar: tuple[int, int], y: float = LOUDNESS_Y) -> None:
+    """What the row says from one tick of `score` up to another, the words' baseline at `y`."""
+    marks, (start, end) = score.loudness, bar
     for i, mark in enumerate(marks):
         after = marks[i + 1] if i + 1 < len(marks) else None
         if mark.is_hairpin:
-            _hairpin(anchor, (marks[i - 1] if i else None, mark, after), score.end_tick, (start, end))
+            _hairpin(anchor, (marks[i - 1] if i else None, mark, after), score.end_tick, bar, y)
         elif start <= mark.tick < end:
             anchor.at(mark.tick)
-            anchor.draw_list.text(mark.sign, (0.0, LOUDNESS_Y), _WORD)
+            anchor.draw_list.text(mark.sign, (0.0, y), _WORD)
 
 
 def _hairpin(
@@ -39,6 +39,7 @@ def _hairpin(
     marks: tuple[LoudnessMark | None, LoudnessMark, LoudnessMark | None],
     end_tick: int,
     bar: tuple[int, int],
+    y: float,
 ) -> None:
     """As much of a hairpin as lies in `bar`; `marks` are the one before it, itself, and the one that ends it."""
     before, pin, after = marks
@@ -53,14 +54,15 @@ def _hairpin(
         share = ((ticks[0] + ticks[1]) / 2 - pin.tick) / (until - pin.tick)
         open_by = _OPENING * (share if pin.sign == GROW else 1 - share)
         begin_x, end_x = (left * (1 - (k + side) / _STEPS) - right * (k + side) / _STEPS for side in (0, 1))
-        _level(anchor, (ticks[0], ticks[1]), (begin_x - 0.03, end_x + 0.03), open_by)
+        _level(anchor, (ticks[0], ticks[1]), (begin_x - 0.03, end_x + 0.03), (y - _RAISED, open_by))
 
 
-def _level(anchor: Anchor, ticks: tuple[int, int], ends_x: tuple[float, float], open_by: float) -> None:
-    """One step of both lines, between two ticks and so far beside them."""
+def _level(anchor: Anchor, ticks: tuple[int, int], ends_x: tuple[float, float], lines: tuple[float, float]) -> None:
+    """One step of both lines, between two ticks and so far beside them; `lines`: their axis, and how far they open."""
+    axis_y, open_by = lines
     anchor.at(ticks[0])
     anchor.until(ticks[1])
-    for y in (_MIDDLE_Y - open_by, _MIDDLE_Y + open_by):
+    for y in (axis_y - open_by, axis_y + open_by):
         anchor.draw_list.box((ends_x[0], y - _THICK / 2), (ends_x[1] - ends_x[0], _THICK), INK)
     anchor.draw_list.span_s = 0.0
 

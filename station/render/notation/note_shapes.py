@@ -16,7 +16,9 @@ STAFF_LINE = 0.10
 _HEAD_HALF = (0.66, 0.46)
 _HEAD_TURN = -0.38
 _SIGNATURE, _GROUPS, _WIDEST = 2.75, 2.1, 8.0
-"""The letters of a time signature fill two spaces; the groups of a meter are set smaller, the smaller the more."""
+"""The letters of a time signature fill two spaces; one with groups is set smaller, the smaller the more they are."""
+_FIGURE = 0.711
+"""How high a figure of the typeface is, in em."""
 SIGNATURE_GAP = 0.8
 """What a time signature leaves free on either side at the least."""
 
@@ -48,26 +50,21 @@ def draw_hat_sign(draw_list: DrawList, kind: str, at: tuple[float, float]) -> No
 def time_signature(draw_list: DrawList, meter: MeterChange, left: float) -> None:
     """The beats, in their groups where the meter has them, over their unit, from `left` on."""
     beats, _, unit = str(meter).partition("/")
-    x, style = left + signature_width(draw_list, meter) / 2, _beats_style(draw_list, meter)
-    draw_list.text(beats, (x, -0.06 - (_SIGNATURE - style.size) / 4), style)
-    draw_list.text(unit, (x, 1.94), _UNIT)
+    x, style = left + signature_width(draw_list, meter) / 2, _signature_style(draw_list, meter)
+    for text, middle in ((beats, -1.04), (unit, 0.96)):
+        draw_list.text(text, (x, middle + _FIGURE / 2 * style.size), style)
 
 
 def signature_width(draw_list: DrawList, meter: MeterChange) -> float:
     """How wide the time signature of `meter` is."""
-    beats, _, unit = str(meter).partition("/")
-    return max(draw_list.width(beats, _beats_style(draw_list, meter)), draw_list.width(unit, _UNIT))
+    style = _signature_style(draw_list, meter)
+    return max(draw_list.width(text, style) for text in str(meter).split("/"))
 
 
-_UNIT = TypeStyle(_SIGNATURE, INK, Face.BOLD, 0.5)
-
-
-def _beats_style(draw_list: DrawList, meter: MeterChange) -> TypeStyle:
-    if not meter.groups:
-        return _UNIT
-    style = replace(_UNIT, size=_GROUPS)
-    beats = str(meter).partition("/")[0]
-    return replace(style, size=_GROUPS * min(1.0, _WIDEST / draw_list.width(beats, style)))
+def _signature_style(draw_list: DrawList, meter: MeterChange) -> TypeStyle:
+    style = TypeStyle(_GROUPS if meter.groups else _SIGNATURE, INK, Face.BOLD, 0.5)
+    widest = draw_list.width(str(meter).partition("/")[0], style)
+    return replace(style, size=style.size * min(1.0, _WIDEST / widest))
 
 
 CLEF_WIDTH = 1.35

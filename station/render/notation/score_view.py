@@ -189,11 +189,8 @@ class ScoreView:
         return engraver
 
     def _lead_spaces(self, score: Score) -> float:
-        """What the clef and the widest of the score's time signatures take."""
         if self._led is not score:
-            letters, self._led = DrawList(self._atlas), score
-            widest = max(note_shapes.signature_width(letters, meter) for meter in score.tempo_map.meters)
-            self._lead = max(_LEAST_LEAD, _SIGNATURE_X + widest + _AFTER_SIGNATURE)
+            self._led, self._lead = score, lead_spaces(score, self._atlas)
         return self._lead
 
     def _visible_bars(self, engraver: Engraver, first_s: float, last_s: float) -> NDArray[np.void]:
@@ -251,6 +248,13 @@ def pages(score: Score) -> list[ScorePage]:
         found.append(ScorePage(starts[first], (starts[first], starts[min(after + 1, score.bar_count)])))
         first = after
     return found or [ScorePage(0.0, (0.0, PAGE_S))]
+
+
+def lead_spaces(score: Score, atlas: Atlas) -> float:
+    """What the clef and the widest of the score's time signatures take on the left, in staff spaces."""
+    letters = DrawList(atlas)
+    widest = max(note_shapes.signature_width(letters, meter) for meter in score.tempo_map.meters)
+    return max(_LEAST_LEAD, _SIGNATURE_X + widest + _AFTER_SIGNATURE)
 
 
 def visible_bars(score: Score, first_s: float, last_s: float) -> range:

@@ -12,7 +12,7 @@ from station.core.units import PPQ
 from station.music.score import Score
 from station.render.notation import engraving, note_shapes
 from station.render.notation.engraving import Engraver
-from station.render.notation.line_breaks import BarBox, ruler, systems
+from station.render.notation.line_breaks import REPEAT, BarBox, ruler, systems
 from station.render.notation.sheet_key import KEY_HEIGHT, draw_key
 from station.render.palette import INK, INK_SOFT
 from station.render.snapshot import BarNumbers
@@ -91,8 +91,12 @@ class _SheetPage:
         self._atlas = OutlineAtlas()
         limbs = score.notes["limb"]
         shown = limbs if setting.with_sticking else np.full_like(limbs, Limb.UNKNOWN)
-        self._engraver = Engraver(score, self._atlas, shown, BarNumbers(words.first_bar - 1))
+        self._engraver = Engraver(score, self._atlas, shown, BarNumbers(words.first_bar - 1), meter_words=False)
         self._pages = [_Page()]
+        tempo = score.tempo_map
+        self._new_meters = {
+            int(tempo.bars_at(meter.tick)): meter for meter in tempo.meters if 0 < meter.tick < score.end_tick
+        }
         self._bottom = engraving.bottom_of(score) + _BELOW
         widest = note_shapes.signature_width(DrawList(self._atlas), score.tempo_map.meter_at(0))
         self._lead = max(LEAD, _SIGNATURE_X + widest + note_shapes.SIGNATURE_GAP)
@@ -100,9 +104,8 @@ class _SheetPage:
     def pages(self) -> list[list[Filled]]:
         """Lay out everything."""
         self._head()
-        repeat_from = None if self._words.repeat is None else self._words.repeat[0]
         named = {bar for bar, _ in self._words.sections}
-        for boxes in systems(self._score, self._width / self._space - self._lead, repeat_from):
+        for boxes in systems(self._score, self._width / self._space - self._lead, self._before()):
             top = _TOP - (2.0 if any(box.bar in named for box in boxes) else 0.0)
             page = self._room((self._bottom - top) * self._space)
             self._system(boxes, page, page.y - top * self._space)
@@ -118,6 +121,16 @@ class _SheetPage:
     @property
     def _width(self) -> float:
         return self._size[0] - 2 * MARGIN
+
+    def _before(self) -> dict[int, float]:
+        """What stands between a bar line and the notes: repeat signs and new meters, by their bars."""
+        letters, found = DrawList(self._atlas), {}
+        if self._words.repeat is not None:
+            found[self._words.repeat[0]] = REPEAT
+        for bar, meter in self._new_meters.items():
+            width = note_shapes.signature_width(letters, meter)
+            found[bar] = found.get(bar, 0.0) + width + note_shapes.SIGNATURE_GAP
+        return found
 
     def _room(self, height: float) -> _Page:
         """A page that has so much left."""
@@ -196,6 +209,9 @@ class _SheetPage:
                 _repeat(draw_list, x, 1)
             elif box is not boxes[0] and box.bar - 1 != last:
                 _bar_line(draw_list, x)
+            if box.bar in self._new_meters:
+                left = x + note_shapes.SIGNATURE_GAP + (REPEAT if box.bar == first else 0.0)
+                note_shapes.time_signature(draw_list, self._new_meters[box.bar], left)
             if box.bar == last:
                 _repeat(draw_list, self._lead + box.right, -1)
         if boxes[-1].bar != last:

@@ -1,11 +1,14 @@
 """The key of a sheet: what each note and sign that the score uses means. Units are staff spaces, y down."""
 
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.core.labels import piece_name
 from station.core.pieces import Articulation, Dynamic, Ornament, Piece, Zone
+from station.music.loudness_marks import FADE, GROW
 from station.music.score import Score
 from station.render.notation import note_shapes
 from station.render.notation.staff import PLACES, NoteHead, head_of, height, ledger_steps
@@ -67,18 +70,13 @@ def notes_used(score: Score) -> Iterator[tuple[Piece, NoteHead, str]]:
 def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
     """The other signs of the score, each as what draws it and what it means."""
     notes = score.notes
-    hat = notes[notes["piece"] == Piece.HIHAT]["openness"]
     graced = notes["ornament"][score.is_grace]
     if (notes["dynamic"] == Dynamic.ACCENT).any():
         yield lambda draw_list, at: draw_list.sign("accent", at, INK, 0.95), "accent: loud"
     if (notes["dynamic"][~score.is_grace] == Dynamic.GHOST).any():
         yield _ghost, "ghost: very soft"
-    if (hat >= _WIDE_FROM).any():
-        yield lambda draw_list, at: note_shapes.draw_hat_sign(draw_list, "open", at), "hi-hat open"
-    if ((hat >= _OPEN_FROM) & (hat < _WIDE_FROM)).any():
-        yield lambda draw_list, at: note_shapes.draw_hat_sign(draw_list, "half", at), "hi-hat half open"
-    if ((hat[:-1] >= _OPEN_FROM) & (hat[1:] < _OPEN_FROM)).any():
-        yield lambda draw_list, at: note_shapes.draw_hat_sign(draw_list, "closed", at), "closed again"
+    yield from _hairpins_used(score)
+    yield from _hat_signs_used(notes[notes["piece"] == Piece.HIHAT]["openness"])
     if (graced == Ornament.FLAM).any():
         yield lambda draw_list, at: _graces(draw_list, at, 1), "flam"
     if (graced == Ornament.DRAG).any():
@@ -91,6 +89,27 @@ def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
         yield lambda draw_list, at: draw_list.sign("choke", at, INK), "choke: grab it"
     if with_sticking and (notes["limb"] >= 0).any():
         yield _letters, "right and left hand"
+
+
+def _hairpins_used(score: Score) -> Iterator[tuple[Draw, str]]:
+    for sign, words in ((GROW, "growing louder"), (FADE, "growing softer")):
+        if any(mark.sign == sign for mark in score.loudness):
+            yield partial(_hairpin, sign=sign), words
+
+
+def _hat_signs_used(openness: NDArray[np.float32]) -> Iterator[tuple[Draw, str]]:
+    is_open = openness >= _OPEN_FROM
+    for kind, used, words in (
+        ("open", openness >= _WIDE_FROM, "hi-hat open"),
+        ("half", is_open & (openness < _WIDE_FROM), "hi-hat half open"),
+        ("closed", is_open[:-1] & ~is_open[1:], "closed again"),
+    ):
+        if used.any():
+            yield partial(_hat_sign, kind=kind), words
+
+
+def _hat_sign(draw_list: DrawList, at: tuple[float, float], kind: str) -> None:
+    note_shapes.draw_hat_sign(draw_list, kind, at)
 
 
 def _signs(draw_list: DrawList, signs: list[tuple[Draw, str]], width: float) -> None:
@@ -110,6 +129,12 @@ def _ghost(draw_list: DrawList, at: tuple[float, float]) -> None:
     note_shapes.draw_head(draw_list, NoteHead.ROUND, at, 0.9)
     for name, side in (("bracket_left", -0.95), ("bracket_right", 0.95)):
         draw_list.sign(name, (at[0] + side, at[1]), INK, 0.95)
+
+
+def _hairpin(draw_list: DrawList, at: tuple[float, float], sign: str) -> None:
+    (x, y), half = at, 1.4 if sign == GROW else -1.4
+    for opening in (-0.5, 0.5):
+        draw_list.line((x - half, y), (x + half, y + opening), 0.13, INK)
 
 
 def _graces(draw_list: DrawList, at: tuple[float, float], count: int) -> None:

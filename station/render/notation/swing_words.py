@@ -14,9 +14,11 @@ SWING, STRAIGHT = "swing", "straight"
 def swing_words(score: Score) -> dict[int, str]:
     """The word over each bar, from 0, from which on another feel holds than before; straight at first."""
     words: dict[int, str] = {}
+    if not score.notes["swing_ticks"].any():
+        return words
     late: set[int] = set()
-    for bar in np.unique(score.bar).tolist():
-        rows = score.notes[score.bar == bar]
+    bars, firsts = np.unique(score.bar, return_index=True)
+    for bar, rows in zip(bars.tolist(), np.split(score.notes, firsts[1:]), strict=True):
         cells = (rows["tick"] - rows["swing_ticks"] - score.tempo_map.bar_start(bar)) % PPQ
         swung = set(cells[rows["swing_ticks"] > 0].tolist())
         if swung and not late:

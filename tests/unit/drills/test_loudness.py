@@ -5,6 +5,8 @@ from math import log10, sqrt
 
 import pytest
 
+from station.core.units import PPQ
+from station.drills.lesson_file import parse_lesson
 from tests.unit.drills.reading import faults, notes, text_of
 
 NORMAL = 80
@@ -86,3 +88,25 @@ def test_each_fault_is_told_once_at_its_place(line: str, column: int, words: str
     (fault,) = faults(text_of(f'kick = "-"\nsnare = "oooo oooo"\nloudness = "{line}"'))
     assert (fault.line, fault.column) == (6, column), fault
     assert words in fault.text
+
+
+def marks_of(grids: str) -> list[tuple[float, str]]:
+    """The lesson's marks, each with the quarter on which it stands."""
+    lesson = parse_lesson(f'title = "T"\n{grids}', "t", "t").lesson
+    assert lesson
+    return [(mark.tick / PPQ, mark.sign) for mark in lesson.score.loudness]
+
+
+def test_notation_shows_the_marks_and_each_hairpin_once() -> None:
+    assert marks_of('[grid]\nsnare = "oooo oooo"\nloudness = "p-<< <<ff"\nmeter = "2/4"') == [
+        (0, "p"),
+        (0.5, "<"),
+        (1.5, "ff"),
+    ]
+    assert marks_of('[grid]\nsnare = "oooo oooo oooo oooo"') == []
+
+
+def test_notation_says_where_a_grid_is_as_loud_as_usual_again() -> None:
+    loud = '[[grid]]\nname = "a"\nmeter = "2/4"\nsnare = "oooo oooo"\nloudness = "---- f---"\ntimes = 2\n'
+    plain = '[[grid]]\nname = "b"\nsnare = "oooo oooo"\n'
+    assert marks_of(loud + plain) == [(0, "mf"), (1, "f"), (2, "mf"), (3, "f"), (4, "mf")]

@@ -35,3 +35,16 @@ def test_each_section_is_printed_by_its_own_swing() -> None:
     straight = '[[grid]]\nname = "a"\nsnare = "oo -- -- --"\n'
     lesson = lesson_of(f'{straight}[[grid]]\nname = "b"\nswing_ratio = 1.5\nsnare = "oo -- -- --"')
     assert quarters(lesson) == [0, 0.5, 4, 4.5]
+
+
+def test_strokes_sound_where_swing_has_them_and_know_where_they_are_written() -> None:
+    """At 3:1 the second eighth lies three quarters into the beat: a quarter of it later than it is written."""
+    notes = lesson_of('swing_ratio = 3\n[grid]\nsnare = "oo (oo) -- --"').score.notes
+    assert [(row["tick"] / PPQ, row["swing_ticks"] / PPQ) for row in notes] == [(0, 0), (0.75, 0.25), (1, 0), (1.5, 0)]
+
+
+def test_a_loop_of_swung_bars_keeps_them() -> None:
+    score = lesson_of('swing_ratio = 1.5\n[grid]\nsnare = "oo -- -- -- | -o -- -- --"').score
+    looped = score.bars(1, 1).repeated(2).at_speed(1.2)
+    assert (looped.as_written.notes["tick"] / PPQ).tolist() == [0.5, 4.5]
+    assert (looped.notes["tick"] / PPQ).tolist() == pytest.approx([0.6, 4.6], abs=1e-4)

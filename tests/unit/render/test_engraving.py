@@ -1,6 +1,7 @@
 """Engraved bars, counted and measured: places by the published staff table, beams and signs by hand."""
 
 import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,10 +9,12 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
+from station.music.loudness_marks import LoudnessMark
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
-from station.render.notation.engraving import BOTTOM_Y, TOP_Y, Engraver
+from station.render.notation.engraving import BOTTOM_Y, TOP_Y, Engraver, bottom_of
 from station.render.notation.staff import PLACES, NoteHead, head_of, height, ledger_steps
+from station.render.notation.swing_words import swing_words
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import ShapeKind
@@ -251,3 +254,115 @@ def test_a_new_tempo_is_a_number_and_a_ramp_a_word_with_its_target() -> None:
     assert [letters(shapes, "9") for shapes in bars] == [0, 1, 0]
     assert [(letters(bars[2], character)) for character in "rit."] == [1, 1, 2, 1]
     assert letters(bars[2], "5") == 2, "the target, 55"
+
+
+# --- swing in words ---------------------------------------------------------------------------------------------------
+
+
+def swung(*quarters: float, ratio: float = 1.6) -> list[Note]:
+    """Snares at straight places, the eighths off the beat played late by `ratio`, at 120 bpm half a second a beat."""
+    late = round(PPQ * ratio / (ratio + 1)) - PPQ // 2
+    offs = [late if q % 1 == 0.5 else 0 for q in quarters]
+    return [Note(round(q * PPQ) + off, Piece.SNARE, swing_ticks=off) for q, off in zip(quarters, offs, strict=True)]
+
+
+def test_swung_eighths_are_written_straight_and_stand_where_they_sound() -> None:
+    shapes = bar_of(*swung(0, 0.5, 1, 1.5, 2, 3))
+    heads = of_kind(shapes, ShapeKind.ELLIPSE)
+    late_s = 0.5 * 1.6 / 2.6
+    assert sorted(heads["time_s"][:, 0].tolist()) == pytest.approx([0, late_s, 0.5, 0.5 + late_s, 1, 1.5], abs=1e-4)
+    assert beams(shapes) == pytest.approx([late_s] * 2, abs=1e-4), "one beam from each beat to its late half"
+    for figure in "023456789":
+        assert letters(shapes, figure) == 0, "no tuplet"
+
+
+def test_swing_is_said_where_it_begins_and_where_it_ends() -> None:
+    straight = [Note(round(q * PPQ), Piece.SNARE) for q in (0, 0.5, 2)]
+    bars = [straight, swung(0, 0.5), swung(1, 1.5), swung(0, 2), straight, straight]
+    notes = [replace(note, tick=note.tick + bar * BAR) for bar, some in enumerate(bars) for note in some]
+    assert swing_words(score_of(*notes)) == {1: "swing", 4: "straight"}, "the bar of plain beats says nothing"
+    assert swing_words(score_of(*straight)) == {}
+    said = Engraver(score_of(*notes), ATLAS)
+    assert [letters(said.bar(bar), "w") for bar in range(6)] == [0, 1, 0, 0, 0, 0]
+
+
+# --- loudness ---------------------------------------------------------------------------------------------------------
+
+
+def swell(*marks: tuple[int, str], limb: Limb = Limb.RIGHT_HAND) -> Score:
+    """Two bars of quarters at 120 bpm, a second for two of them."""
+    plain = score_of(*(Note(k * PPQ, Piece.SNARE, limb=limb) for k in range(8)))
+    return replace(plain, loudness=tuple(LoudnessMark(quarter * PPQ, sign) for quarter, sign in marks))
+
+
+def hairpin_openings(shapes: Shapes) -> list[tuple[float, float]]:
+    """Where each step of a hairpin begins, in seconds, and how far apart its lines are there."""
+    thin = (shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"][:, 1], 0.065) & (shapes["time_s"][:, 1] > 0)
+    by_time: dict[float, list[float]] = {}
+    for row in shapes[thin]:
+        by_time.setdefault(float(row["time_s"][0]), []).append(float(row["centre"][1]))
+    return [(time_s, max(ys) - min(ys)) for time_s, ys in sorted(by_time.items())]
+
+
+def test_a_hairpin_opens_evenly_over_its_bars() -> None:
+    engraver = Engraver(swell((0, "p"), (2, "<"), (6, "f")), ATLAS)
+    first, second = (hairpin_openings(engraver.bar(bar)) for bar in (0, 1))
+    assert first[0][0] == pytest.approx(1.0), "it begins on beat 3"
+    assert second[0][0] == pytest.approx(2.0)
+    assert first[0][1] < 0.05, "closed at first"
+    assert first[-1][1] == pytest.approx(0.6, abs=0.05), "half way at the bar line: 1.2 spaces at the end"
+    assert second[0][1] == pytest.approx(first[-1][1], abs=0.05)
+    assert second[-1][1] == pytest.approx(1.2, abs=0.05)
+    assert second[-1][0] < 3.0, "the mark ends it, on the second bar's beat 3"
+
+
+def test_a_fading_hairpin_closes_and_marks_stand_at_their_beats() -> None:
+    engraver = Engraver(swell((0, "f"), (1, ">"), (4, "p")), ATLAS)
+    first, second = engraver.bar(0), engraver.bar(1)
+    openings = [opening for _, opening in hairpin_openings(first)]
+    assert openings == sorted(openings, reverse=True)
+    assert (letters(first, "f"), letters(first, "p")) == (1, 0)
+    assert (letters(second, "f"), letters(second, "p")) == (0, 1)
+    assert hairpin_openings(second) == []
+
+
+def test_loudness_stands_below_the_sticking_and_in_its_place_where_there_is_none() -> None:
+    def lowest(limb: Limb) -> float:
+        shapes = Engraver(swell((0, "p"), (1, "<"), (4, "f"), limb=limb), ATLAS).bar(0)
+        return float((shapes["centre"][:, 1] + shapes["half"][:, 1]).max())
+
+    assert BOTTOM_Y + 1 < lowest(Limb.RIGHT_HAND) < bottom_of(swell((0, "p")))
+    assert lowest(Limb.UNKNOWN) < BOTTOM_Y + 0.5
+    assert bottom_of(rock()) == BOTTOM_Y
+
+
+# --- notes in brackets ------------------------------------------------------------------------------------------------
+
+
+def test_a_soft_flam_s_grace_note_keeps_off_the_brackets() -> None:
+    def grace_x(dynamic: Dynamic) -> float:
+        grace = Note(PPQ, Piece.SNARE, lead_ms=30.0, dynamic=Dynamic.GHOST, ornament=Ornament.FLAM)
+        main = Note(PPQ, Piece.SNARE, dynamic=dynamic, ornament=Ornament.FLAM)
+        return float(of_kind(bar_of(grace, main), ShapeKind.ELLIPSE)["centre"][:, 0].min())
+
+    assert grace_x(Dynamic.NORMAL) - grace_x(Dynamic.GHOST) > 0.5
+
+
+def test_a_dot_stands_outside_the_bracket() -> None:
+    """A dotted eighth as a ghost: its bracket is centred a space right of the head, and about a third wide."""
+    soft = bar_of(Note(0, Piece.SNARE, dynamic=Dynamic.GHOST), Note(3 * PPQ // 4, Piece.SNARE))
+    assert of_kind(soft, ShapeKind.ELLIPSE)["centre"][:, 0].max() > 1.0 + 0.36
+
+
+@pytest.mark.parametrize(("step", "beams_drawn"), [(PPQ // 2, 1), (PPQ // 4, 2), (PPQ // 8, 3)])
+def test_a_buzz_s_sign_stands_on_the_stem_clear_of_its_beams(step: int, beams_drawn: int) -> None:
+    shapes = bar_of(*(Note(k * step, Piece.SNARE, articulation=Articulation.BUZZ) for k in range(PPQ // step)))
+    thick = (shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"][:, 1], 0.25) & (shapes["time_s"][:, 1] > 0)
+    lowest = (shapes["centre"][thick, 1] + 0.25).max()
+    assert len(shapes[thick]) == beams_drawn
+    uv = np.array(ATLAS.sign("buzz").uv, np.float32)
+    buzz = shapes[(shapes["uv"] == uv).all(axis=1)]
+    assert len(buzz) == PPQ // step
+    assert (buzz["centre"][:, 1] - buzz["half"][:, 1]).min() > lowest
+    heads = of_kind(shapes, ShapeKind.ELLIPSE)
+    assert (buzz["centre"][:, 1] + buzz["half"][:, 1]).max() < (heads["centre"][:, 1] - heads["half"][:, 1]).min()

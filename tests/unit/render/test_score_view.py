@@ -7,9 +7,12 @@ from station.core.pieces import Piece
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
 from station.music.judgement import Judgement, Label
+from station.music.score import Score
+from station.music.tempo import MeterChange, TempoMap
+from station.render.notation import note_shapes
 from station.render.notation.highway import Highway, lanes
 from station.render.notation.judgement_marks import draw_dynamics, draw_mark, off_db, timing_colour
-from station.render.notation.score_view import ScorePlace, pages, visible_bars
+from station.render.notation.score_view import ScorePlace, lead_spaces, pages, visible_bars
 from station.render.palette import EARLY, GOOD, LATE
 from station.render.snapshot import MARK_DTYPE, PENDING, Snapshot, mark, no_marks
 from station.render.text.atlas import Atlas
@@ -33,8 +36,8 @@ def test_timing_colours() -> None:
 
 
 def test_the_staff_fills_its_place() -> None:
-    place = ScorePlace(0, 100, 1600, 306)
-    assert place.space == pytest.approx(20.0)  # 15.3 spaces from above the bar numbers to below the sticking
+    place = ScorePlace(0, 100, 1600, 316)
+    assert place.space == pytest.approx(20.0)  # 15.8 spaces from above the bar numbers to below the sticking
     assert place.middle_line == pytest.approx(100 + 8.3 * 20)
 
 
@@ -138,10 +141,28 @@ def test_the_highway_s_notes_roll_at_their_times_in_their_lanes() -> None:
     assert snares["time_s"][:, 0].tolist() == pytest.approx([0.5, 1.5])
 
 
-@pytest.mark.parametrize(("width", "height", "space"), [(1280.0, 216.0, 216 / 15.3), (300.0, 180.0, 300 / 48)])
+@pytest.mark.parametrize(("width", "height", "space"), [(1280.0, 216.0, 216 / 15.8), (300.0, 180.0, 300 / 48)])
 def test_a_narrow_score_is_engraved_smaller_in_the_middle(width: float, height: float, space: float) -> None:
     place = ScorePlace(0.0, 420.0, width, height)
     assert place.space == pytest.approx(space)
-    above, below = place.middle_line - 420 - 8.3 * space, 420 + height - place.middle_line - 7.0 * space
-    assert above == pytest.approx(below, abs=1e-9)  # 8.3 spaces are engraved above the middle line, 7 below
+    above, below = place.middle_line - 420 - 8.3 * space, 420 + height - place.middle_line - 7.5 * space
+    assert above == pytest.approx(below, abs=1e-9)  # 8.3 spaces are engraved above the middle line, 7.5 below
     assert place.middle_line + place.top_y * space == pytest.approx(420.0)
+
+
+def test_the_groups_of_a_meter_have_room_between_the_clef_and_the_notes() -> None:
+    plain, twelve, seven, long = (
+        Score.from_notes([], TempoMap.build([], [MeterChange(0, sum(groups), unit, groups if len(groups) > 1 else ())]))
+        for groups, unit in (((4,), 4), ((12,), 8), ((2, 2, 3), 8), ((3,) * 10, 16))
+    )
+    leads = [lead_spaces(score, Atlas()) for score in (plain, twelve, seven, long)]
+    assert leads[0] == 7.0
+    assert leads == sorted(leads)
+    assert leads[2] > 8.5
+    assert leads[3] < 14, "the smaller the more groups there are"
+    letters = DrawList(Atlas())
+    note_shapes.time_signature(letters, seven.tempo_map.meter_at(0), 3.55)
+    shapes = letters.shapes()
+    middles, halves = shapes["centre"][:, 0], shapes["half"][:, 0]
+    assert (middles - halves).min() > 1.4 + 1.35, "the clef ends there"
+    assert (middles + halves).max() < leads[2] - 0.8

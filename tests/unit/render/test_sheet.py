@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from station.core.pieces import Piece
 from station.core.units import PPQ
+from station.drills.lesson_file import parse_lesson
 from station.drills.library import find_lesson
-from station.music.score import Score
+from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.files.pdf_file import pdf
 from station.render.notation.line_breaks import ruler, systems
@@ -20,6 +22,7 @@ from station.render.palette import INK, INK_FAINT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 from station.render.text.paper import Filled, OutlineAtlas, PaperSpot, filled
+from station.scenes.sheets import lesson_labels, pdf_of
 
 A4 = PAPERS["a4"]
 WORDS = SheetWords("Title", "Author", 80.0)
@@ -182,3 +185,28 @@ def test_the_file_is_a_pdf_whose_table_points_at_its_objects() -> None:
         "10.00 20.00 m 30.00 20.00 l 30.00 40.00 l 10.00 40.00 l h",
         "f",
     ]
+
+
+def test_a_new_meter_stands_within_the_staff_before_its_notes() -> None:
+    """What stands before a bar's notes moves them by as much."""
+    four = Score.from_notes([Note(k * PPQ, Piece.SNARE) for k in range(11)], TempoMap.constant(120))
+    (plain,), (after,) = systems(four, 400.0), systems(four, 400.0, {1: 3.0})
+    assert (after[1].start - after[1].left) - (plain[1].start - plain[1].left) == pytest.approx(3.0)
+    assert after[0].start - after[0].left == pytest.approx(plain[0].start - plain[0].left)
+
+
+def test_swing_is_printed_straight() -> None:
+    late = round(PPQ * 0.6)
+    straight, swung = (
+        Score.from_notes([Note(0, Piece.SNARE), Note(tick, Piece.SNARE, swing_ticks=more)], TempoMap.constant(120))
+        for tick, more in ((PPQ // 2, 0), (late, late - PPQ // 2))
+    )
+    bars, words = (0, 0), SheetWords(title="T")
+    assert pdf_of(swung, bars, words, "a4") == pdf_of(straight, bars, words, "a4")
+
+
+def test_a_section_called_after_its_feel_says_it_once() -> None:
+    text = 'title = "T"\n[[grid]]\nname = "a"\nsnare = "oo -- -- --"\n[[grid]]\nname = "swing"\nswing_ratio = 1.5\n'
+    lesson = parse_lesson(f'{text}snare = "oo -- -- --"', "t", "t").lesson
+    assert lesson
+    assert lesson_labels(lesson, (0, 1)).sections == ((0, "a"), (1, "swing 1.5 : 1"))
