@@ -24,9 +24,9 @@ from station.scoring.following.beat_offsets import (
     offsets_of,
     pauses_of,
 )
-from station.scoring.following.prices import NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
+from station.scoring.following.prices import BOUNCED, NEW_TEMPO_SD, POSSIBLE, TEMPO_SD
 from station.scoring.following.tempo_tracker import Place, Tracker
-from station.scoring.following.written import PARTS, Nats, Written
+from station.scoring.following.written import MAYBE_BOUNCE, PARTS, Nats, Written
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -424,7 +424,9 @@ _SAME_TEMPO = 0.04
 
 
 def _possible(hits: Hits) -> float:
-    return POSSIBLE * len(hits.at_s)
+    """Nats that hits bring where each is exactly what is written, a stroke or a bounce."""
+    bounces = int((hits.classes >= MAYBE_BOUNCE).sum())
+    return POSSIBLE * (len(hits.at_s) - bounces) + BOUNCED * bounces
 
 
 def _unlike(written: Written, rivals: list[tuple[float, Place]]) -> list[Place]:

@@ -246,11 +246,13 @@ def gained(said: Nats, unanswered: Nats, slack: int = 0, bouncing: Nats | None =
     """What hits that together `said` so much gain over the notes that were passed, of the same shape.
 
     A note is answered once: where more hits lie near than notes were passed, and `slack`, the rest are strays; or
-    bounces, where so many hits may be some (`bouncing`, of the same shape).
+    bounces, where so many hits may be some (`bouncing`, of the same shape), one that came early among them.
     """
-    most = (_MOST / MISS) * unanswered + slack * _MOST
-    if bouncing is not None:
-        most = most + BOUNCED * np.maximum(bouncing - unanswered / MISS - slack, 0.0)
+    most = (_MOST / MISS) * unanswered
+    if bouncing is None:
+        most = most + slack * _MOST
+    else:
+        most = most + np.where(bouncing > 0.0, BOUNCED * np.maximum(bouncing - unanswered / MISS, 0.0), slack * _MOST)
     return np.asarray(np.minimum(said, most) - unanswered, np.float64)
 
 

@@ -4,6 +4,7 @@ A second stroke of a fast double comes as soon after the first as a slow bounce;
 must not lose against any other explanation of its hits.
 """
 
+from dataclasses import replace
 from itertools import permutations
 
 import numpy as np
@@ -32,23 +33,19 @@ def bar(kind: str) -> list[Note]:
         return [Note(k * PPQ // 4, Piece.SNARE) for k in range(16)] + feet
     if kind == "singles":
         return [Note(k * PPQ // 2, Piece.SNARE) for k in range(8)] + feet
-    buzz = {"articulation": Articulation.BUZZ, "ornament": Ornament.ROLL, "duration_ticks": PPQ // 2}
-    return [Note(k * PPQ // 2, Piece.SNARE, **buzz) for k in range(8)] + feet
+    return [buzz(k * PPQ // 2, PPQ // 2) for k in range(8)] + feet
+
+
+def buzz(tick: int, duration_ticks: int) -> Note:
+    """One press of the snare."""
+    return Note(
+        tick, Piece.SNARE, articulation=Articulation.BUZZ, ornament=Ornament.ROLL, duration_ticks=duration_ticks
+    )
 
 
 def bars(kinds: tuple[str, ...], loops: int) -> Score:
     """A bar of each kind in turn, so many times."""
-    notes = [
-        Note(
-            note.tick + k * BAR,
-            note.piece,
-            articulation=note.articulation,
-            ornament=note.ornament,
-            duration_ticks=note.duration_ticks,
-        )
-        for k, kind in enumerate(kinds)
-        for note in bar(kind)
-    ]
+    notes = [replace(note, tick=note.tick + k * BAR) for k, kind in enumerate(kinds) for note in bar(kind)]
     return Score.from_notes(notes, TempoMap.constant(TEMPO_BPM)).repeated(loops)
 
 
@@ -99,16 +96,7 @@ def test_who_plays_what_is_written_is_where_it_is_written(
 @pytest.mark.parametrize("every_ms", [30.0, 55.0])
 def test_a_roll_whose_presses_may_be_bounces(every_ms: float) -> None:
     """Presses 143 ms apart and hardly louder than what they follow by 33 ms: 64 of them, and 8 of the foot."""
-    notes = [
-        Note(
-            k * PPQ // 4,
-            Piece.SNARE,
-            articulation=Articulation.BUZZ,
-            ornament=Ornament.ROLL,
-            duration_ticks=PPQ // 4,
-        )
-        for k in range(64)
-    ]
+    notes = [buzz(k * PPQ // 4, PPQ // 4) for k in range(64)]
     feet = [Note(beat * PPQ, Piece.HIHAT_PEDAL) for beat in range(1, 16, 2)]
     score = Score.from_notes(notes + feet, TempoMap.constant(105))
     performance = played(score, 0.0, 2, every_ms, softer=0.9)
