@@ -109,3 +109,11 @@ def test_a_grid_that_is_played_once_has_no_second_ending() -> None:
 def test_times_that_are_no_number_are_told_once() -> None:
     (found,) = faults(HEAD + '[[grid]]\ntimes = true\nsnare = "o"\n[[grid]]\nending = 2\nsnare = "o"\n')
     assert "expected a whole number from 1 to 100, found true" in found.text
+
+
+def test_a_name_as_long_as_a_book_is_not_repeated_in_full() -> None:
+    name = "x" * 500_000
+    found = faults(f'{HEAD}form = "A"\n[[grid]]\nname = "{name}"\nsnare = "o"\n[[grid]]\nname = "A"\nsnare = "o"\n')
+    assert [(f.line, f.column) for f in found] == [(4, 8)]
+    assert "never played" in found[0].text
+    assert len(found[0].text) <= 600
