@@ -16,7 +16,8 @@ BEGIN, END = "<!-- keys: made by python -m tools.lesson_reference -->\n", "<!-- 
 def page_with_tables(page: str) -> str:
     """The text of the page with the tables between its two marks."""
     before, _, rest = page.partition(BEGIN)
-    _, _, after = rest.partition(END)
+    _, end, after = rest.partition(END)
+    assert end, "the page has both marks"
     return f"{before}{BEGIN}\n{reference_tables()}\n\n{END}{after}"
 
 

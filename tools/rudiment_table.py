@@ -39,7 +39,8 @@ longer. A drag's grace strokes are as the hand plays them, in milliseconds; the 
 """
 _RULES = """
 P gives every sticking, the accents of all but 4, 16–19, 21, 22, 24 and 26, and the rhythm of 2, 3, 7, 8, 23, 25, 28–30
-and 32–40. What it does not give is from the other sources of the row.
+and 32–40. What it does not give is from the other sources of the row. Accents and rhythms of P go back
+to B's worksheet of August 2026: there the two are one source, and only the stickings were checked twice.
 
 ## Strokes and rhythm
 

@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from station.app.lesson_cards import card, own_lessons
+from station.app.lesson_cards import card
 from station.app.room_state import LessonCard
 from station.app.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.drills.course import Course
 from station.drills.lesson import Lesson
 from station.drills.lesson_row import row_of
-from station.drills.library import courses_in, find_lesson, lesson_rows, shipped_courses
+from station.drills.library import courses_in, find_lesson, lesson_rows, own_lessons, shipped_courses
 from station.practice.records.lesson_progress import LessonProgress
 from station.practice.records.memory import LevelMemory
 from station.practice.records.student_progress import student_progress

@@ -59,10 +59,9 @@ class _Shelf:
 
 
 def _shelf() -> _Shelf:
-    from station.app.lesson_cards import own_lessons
     from station.app.settings_store import SettingsStore
     from station.drills.lesson_row import row_of
-    from station.drills.library import courses_in, lesson_rows, shipped_courses
+    from station.drills.library import courses_in, lesson_rows, own_lessons, shipped_courses
     from station.practice.records.student_progress import student_progress
 
     settings = SettingsStore().now
@@ -179,6 +178,7 @@ def _lesson(shelf: _Shelf, row: LessonRow) -> dict[str, object]:
         "title": row.title,
         "kind": row.folder,
         "level": row.level,
+        "difficulty": row.difficulty,
         "beats_a_minute": row.beats_a_minute,
         "meter": row.meter,
         "bars": row.bars,

@@ -8,10 +8,15 @@ FEW = 12
 _ALIKE = 0.6
 
 
+def nearest_word(word: str, known: Iterable[str]) -> str:
+    """The known word that looks most like `word`; empty if none does."""
+    return next(iter(get_close_matches(word, list(known), 1, _ALIKE)), "")
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """The known word that looks most like `word`, as a question; empty if none does."""
-    found = get_close_matches(word, list(known), 1, _ALIKE)
-    return f"; did you mean {found[0]}?" if found else ""
+    found = nearest_word(word, known)
+    return f"; did you mean {found}?" if found else ""
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

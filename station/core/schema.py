@@ -12,7 +12,7 @@ from enum import IntEnum
 from typing import Any, Generic, TypeVar
 from unicodedata import category
 
-from station.core.did_you_mean import did_you_mean, nearest
+from station.core.did_you_mean import did_you_mean, nearest, nearest_word
 from station.core.expected import LINE, TEXT, JsonSchema, expected_by, expects, later, list_like
 from station.core.pieces import word
 from station.core.toml_faults import Fault, Faults, Noted, Wrong, placed, refused, wrong
@@ -78,11 +78,12 @@ def checked_values(raw: object, fields: Fields, noun: str = "key") -> tuple[dict
         if key in fields:
             values[key] = faults.attempt(fields[key].read, value, fields[key].default, key)
         elif not faults.are_many:
-            faults.add((key,), no_such(noun, key, fields), at_key=True)
+            faults.noted.append(Noted(no_such(noun, key, fields), (key,), at_key=True, is_unknown=True))
+    meant = {found for key in table if key not in fields and (found := nearest_word(key, fields))}
     for key, each in fields.items():
         if key not in table:
             values[key] = each.default
-            if each.must is not None and table is not nothing:
+            if each.must is not None and table is not nothing and key not in meant:
                 faults.noted.append(Noted(_missing(each.must), (key,), at_key=True, is_missing=True))
     return values, faults
 
@@ -124,7 +125,7 @@ def table_of(read_key: Reader[K], read: Reader[T]) -> Reader[dict[K, T]]:
             try:
                 name = read_key(key)
             except Wrong as fault:
-                faults.noted += [replace(each, path=(key,), at_key=True) for each in fault.faults]
+                faults.noted += [replace(each, path=(key,), at_key=True, is_unknown=True) for each in fault.faults]
                 continue
             if name in found:
                 faults.add((key,), f"{key} is here twice", at_key=True)

@@ -26,13 +26,17 @@ _LONGEST = 500
 
 @dataclass(frozen=True, slots=True)
 class Noted:
-    """A fault of the value at `path`, of its character `char`, or of the key itself; or that the key is missing."""
+    """A fault of the value at `path`, of its character `char`, or of the key itself.
+
+    The key may be at fault for being missing, or unknown where it stands.
+    """
 
     text: str
     path: KeyPath = ()
     char: int | None = None
     at_key: bool = False
     is_missing: bool = False
+    is_unknown: bool = False
 
     def below(self, *keys: str | int) -> "Noted":
         """The same fault, of the table that holds the value under `keys`."""

@@ -36,8 +36,8 @@ ORNAMENTS: Mapping[int, float] = MappingProxyType(
 )
 """What an ornament in the hands is worth, half of it for having it, all of it at `ORNAMENTS_A_SECOND`.
 
-Exam boards and fife-and-drum instructors bring open rolls first, then flams, then drags (docs/difficulty.md); the
-distances are our choice.
+An exam board brings doubles in its first grade, flams and drags in its third (docs/difficulty.md); that a drag is more
+than a flam, and the distances, are our choice.
 """
 ORNAMENTS_A_SECOND = 3.0
 """Flam taps in triplets at 90, a test of the middle grades (our choice)."""
@@ -140,6 +140,29 @@ def goal_difficulty(lesson: Lesson) -> float:
     return round(difficulty(lesson, lesson.target_tempo_bpm).total, 1)
 
 
+def standings(
+    prerequisites: Mapping[str, Sequence[str]], hardness: Mapping[str, float]
+) -> dict[str, tuple[float, int]]:
+    """Where each lesson stands in an order from easy to hard: its place to sort by, by name.
+
+    A lesson stands at its own `hardness`, or at the highest of its `prerequisites`, of theirs and so on, where that is
+    higher: whoever plays it can play those. Among equals prerequisites come first; unknown names do not count.
+    """
+    found: dict[str, tuple[float, int]] = {}
+
+    def standing(name: str, above: frozenset[str]) -> tuple[float, int]:
+        if name not in found:
+            before = [p for p in prerequisites[name] if p in hardness and p not in above]
+            needed = [standing(p, above | {name}) for p in before]
+            hardest = max([hardness[name], *(hard for hard, _ in needed)])
+            found[name] = hardest, max((steps + 1 for hard, steps in needed if hard == hardest), default=0)
+        return found[name]
+
+    for name in hardness:
+        standing(name, frozenset())
+    return found
+
+
 def measured(score: Score, beat_ticks: int = PPQ, swing: Swing = Swing()) -> Difficulty:  # noqa: B008 - a value
     """How hard `score` is, played round and round, its beats `beat_ticks` long."""
     if not len(score):
@@ -166,7 +189,7 @@ class _Loop:
     """A score and what the parts ask of it.
 
     `limbs` (n,) of its rows; `moments` the ticks at which something is struck, grace strokes apart; `states` which
-    limbs strike there.
+    limbs strike there; `places` where in its beat each row's tick lies, in parts of `_FINEST`.
     """
 
     score: Score
@@ -175,6 +198,7 @@ class _Loop:
     swing: Swing
     moments: tuple[int, ...]
     states: tuple[frozenset[int], ...]
+    places: Mapping[int, int]
 
     @classmethod
     def of(cls, score: Score, beat_ticks: int, swing: Swing) -> "_Loop":
@@ -183,7 +207,8 @@ class _Loop:
         for tick, limb, grace in zip(score.notes["tick"].tolist(), limbs.tolist(), score.is_grace, strict=True):
             if not grace:
                 struck.setdefault(tick, set()).add(limb)
-        return cls(score, limbs, beat_ticks, swing, tuple(struck), tuple(map(frozenset, struck.values())))
+        places = _places(score, beat_ticks, swing)
+        return cls(score, limbs, beat_ticks, swing, tuple(struck), tuple(map(frozenset, struck.values())), places)
 
     @property
     def length_s(self) -> float:
@@ -213,19 +238,28 @@ class _Loop:
         return [*named, ~np.logical_or.reduce(named), *apart]
 
     def place(self, tick: int) -> int:
-        """Where in its beat a tick lies, a swung offbeat as it is written; beats count from their bar's start."""
-        tempo_map = self.score.tempo_map
-        start = tempo_map.bar_start(int(tempo_map.bars_at(tick)))
-        pair = 2 * self.swing.unit_ticks
-        first = (tick - start) // pair * pair
-        offbeat = self.swing.swung(first + self.swing.unit_ticks, tempo_map.meter_at(start))
-        written = first + self.swing.unit_ticks if tick - start == offbeat else tick - start
-        return round(written % self.beat_ticks * _FINEST / self.beat_ticks) % _FINEST
+        """Where in its beat a tick at which something is struck lies."""
+        return self.places[tick]
 
     def strokes_of(self, limb: int) -> NDArray[np.int64]:
         """Rows of a limb in the order of time, grace strokes left out."""
         rows = np.flatnonzero((self.limbs == limb) & ~self.score.is_grace)
         return rows[np.argsort(self.score.onset_ns[rows], kind="stable")]
+
+
+def _places(score: Score, beat_ticks: int, swing: Swing) -> dict[int, int]:
+    """Where in its beat each tick lies, a swung offbeat as it is written; beats count from their bar's start."""
+    ticks, first_rows = np.unique(score.notes["tick"], return_index=True)
+    bars = score.bar[first_rows]
+    starts = {bar: score.tempo_map.bar_start(bar) for bar in set(bars.tolist())}
+    found: dict[int, int] = {}
+    for tick, bar in zip(ticks.tolist(), bars.tolist(), strict=True):
+        inside = tick - starts[bar]
+        offbeat = inside // (2 * swing.unit_ticks) * 2 * swing.unit_ticks + swing.unit_ticks
+        is_swung = inside == swing.swung(offbeat, score.tempo_map.meter_at(starts[bar]))
+        written = offbeat if is_swung else inside
+        found[tick] = round(written % beat_ticks * _FINEST / beat_ticks) % _FINEST
+    return found
 
 
 @cache

@@ -4,12 +4,13 @@ All this is worked out on the raw tables, before a line is read: a variation is 
 of the grid it is like. What is wrong in lines that it took over is told where they stand, once.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
 from station.core.expected import either_of, expected_by, expects, list_like
+from station.core.pieces import Piece
 from station.core.schema import Field as SchemaField
 from station.core.schema import anything, list_of, no_such, optional, title, whole
 from station.core.toml_faults import Faults, Noted, wrong
@@ -132,16 +133,31 @@ def _take_over(
 
 
 def _varied(model: Mapping[str, object], own: Mapping[str, object]) -> dict[str, object]:
-    """The table of a variation; a line of its own takes the place of the model's, whatever it is called there."""
-    pieces = {LINE_PIECES[key] for key in own if key in LINE_PIECES}
+    """The table of a variation; a line of its own takes the place of the model's, whatever it is called there.
+
+    A line that names no limb takes the place of all lines of its piece, one of a limb that of the same limb's, and of
+    one that names none.
+    """
+    plain = {LINE_PIECES[key] for key in own if key in LINE_PIECES}
+    by_limb = {limb: _pieces_of(own.get(limb)) for limb in LIMB_TABLES}
     kept = {key: value for key, value in model.items() if key not in _NOT_TAKEN_OVER}
-    kept = {key: value for key, value in kept.items() if LINE_PIECES.get(key) not in pieces or key not in LINE_PIECES}
-    merged = {**kept, **own}
-    for limb in LIMB_TABLES:
-        of_model, of_own = kept.get(limb), own.get(limb)
-        if isinstance(of_model, dict) and isinstance(of_own, dict):
-            merged[limb] = _varied(of_model, of_own)
+    merged = {**_without(kept, plain.union(*by_limb.values())), **own}
+    for limb, pieces in by_limb.items():
+        if isinstance(of_model := model.get(limb), dict) and isinstance(of_own := own.get(limb, {}), dict):
+            merged[limb] = {**_without(of_model, plain | pieces), **of_own}
     return merged
+
+
+def _pieces_of(lines: object) -> frozenset[Piece]:
+    """The pieces that the lines of a limb's table play."""
+    return (
+        frozenset(LINE_PIECES[key] for key in lines if key in LINE_PIECES) if isinstance(lines, dict) else frozenset()
+    )
+
+
+def _without(table: Mapping[str, object], pieces: Collection[Piece]) -> dict[str, object]:
+    """The table but for the lines of these pieces."""
+    return {key: value for key, value in table.items() if key not in LINE_PIECES or LINE_PIECES[key] not in pieces}
 
 
 def told_at_home(found: Faults, grid: WrittenGrid, grids: Sequence[WrittenGrid], known: Faults) -> list[Noted]:
@@ -233,6 +249,8 @@ def played_order(raw: object, grids: Sequence[WrittenGrid], faults: Faults) -> l
         found = by_name.get(name)
         if found is not None and not grids[found].is_ending:
             order.append(found)
+        elif found is None and any(_is_doubtful(grids[i], faults) for i in mains):
+            wrong_names.add(name)  # the grid that is meant may be the one that is at fault
         elif name not in wrong_names:  # each is told once
             wrong_names.add(name)
             faults.noted.append(Noted(_not_played(name, found, mains, grids), *_place_in_form(raw, place)))
@@ -268,9 +286,17 @@ def _entries(value: object) -> tuple[str, ...]:
     return names
 
 
+def _is_doubtful(grid: WrittenGrid, faults: Faults) -> bool:
+    """Whether the grid has no name and a fault: that may be why it has none, or seems to be no ending."""
+    return not grid.name and any(fault.path[: len(grid.path)] == grid.path for fault in faults.noted)
+
+
 def _all_played(order: Sequence[int], mains: Sequence[int], grids: Sequence[WrittenGrid], faults: Faults) -> None:
     """Note grids that the form never plays."""
+    played = {grids[i].name for i in order}
     for grid in (grids[i] for i in sorted(set(mains) - set(order))):
+        if _is_doubtful(grid, faults) or grid.name in played:  # of two with one name that is told already
+            continue
         if grid.name:
             faults.add((*grid.path, NAME), f"never played; expected {grid.name} in form")
         else:

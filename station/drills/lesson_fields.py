@@ -114,7 +114,7 @@ _PART: Fields = {
 }
 """What may be asked of all of the lesson, of one limb, and of some bars."""
 _BARS = row_of([whole(1, MAX_BARS)] * 2, "two bar numbers such as [3, 4]")
-_BAR_PART: Fields = {
+BAR_GOALS: Fields = {
     "bars": Field(_BARS, None, "two bar numbers such as bars = [3, 4]"),
     **_PART,
     "max_tempo_error_pct": optional(number(0.1, 50)),
@@ -134,9 +134,9 @@ def _limb_goals(raw: object) -> PartGoals:
     return _part(*checked_values(raw, _PART))
 
 
-@expects(table_like(_BAR_PART))
+@expects(table_like(BAR_GOALS))
 def _bar_goals(raw: object) -> BarGoals:
-    values, faults = checked_values(raw, _BAR_PART)
+    values, faults = checked_values(raw, BAR_GOALS)
     bars = values.pop("bars")
     if bars and bars[1] < bars[0]:
         faults.add(("bars",), f"bar {bars[1]} comes before bar {bars[0]}; expected the first bar first")

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.core.files import read_regular
 from station.core.schema import Reader, checked_values, read, reading, row_of, whole
-from station.core.toml_faults import Fault, Faults, wrong
+from station.core.toml_faults import Fault, Faults, Wrong, wrong
 from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ
 from station.drills.bar_cues import GridShape, read_cues
@@ -27,6 +27,7 @@ from station.drills.grid.grid_reader import read_grid
 from station.drills.grid.grid_timing import GridTiming, timing_of
 from station.drills.grid.landing import read_landing
 from station.drills.grid.voice import MAX_BARS, MAX_CELLS, CellCount
+from station.drills.key_homes import sent_home
 from station.drills.lesson import Goals, Lesson
 from station.drills.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
 from station.drills.stretches import (
@@ -40,6 +41,7 @@ from station.drills.stretches import (
     tempos_of,
 )
 from station.drills.unplayable import note_unplayable
+from station.music.loudness_marks import joined_marks
 from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoMap
 
@@ -83,7 +85,14 @@ def parse_lesson(text: str, source: str, name: str) -> Reading:
 
 def lesson_reader(name: str) -> Reader[Lesson]:
     """The schema of the file of the lesson called `name`."""
-    return lambda raw: _lesson(name, *checked_values(raw, FIELDS))
+
+    def read_file(raw: object) -> Lesson:
+        try:
+            return _lesson(name, *checked_values(raw, FIELDS))
+        except Wrong as found:
+            raise Wrong(*sent_home(found.faults)) from None
+
+    return read_file
 
 
 def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
@@ -181,7 +190,8 @@ def _score(stretches: Sequence[Stretch], written: Sequence[WrittenGrid], faults:
         for origin in {(o.path): o for o in origins}.values()
     }
     at_home = [Origin(homes[origin.path], origin.char) for origin in origins]
-    return Score.from_array(rows[order], tempo_map, end), [at_home[i] for i in order]
+    loudness = joined_marks((s.start_tick, s.grid.section.loudness) for s in stretches)
+    return Score.from_array(rows[order], tempo_map, end, loudness=loudness), [at_home[i] for i in order]
 
 
 def _grid_path(origin: Origin) -> tuple[str | int, ...]:

@@ -15,13 +15,14 @@ from station.core.disk_cache import cache_folder, forget_oldest
 from station.core.errors import BadInput, DeviceError
 from station.core.files import write_whole
 from station.core.units import PPQ
+from station.drills.difficulty import goal_difficulty
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import read_lesson
 from station.drills.level_range import LevelRange
 from station.drills.mastery.mastery_json import from_json, to_json
 from station.scoring.matching.hit_windows import Level
 
-_FORMAT = 1
+_FORMAT = 2
 """Counts what a row means: another number, and every row is made anew."""
 _ENDING = ".json"
 _MOST_FILES = 8
@@ -34,7 +35,8 @@ class LessonRow:
 
     `tempo_bpm` counts quarter notes, `beat_quarters` is how many make the beat that a teacher counts; `bars` are all,
     `loop_bars` those that are practised. `level` 1–5 says how hard it is, `suggested` and `strictest` how strictly it
-    may be judged. `prerequisites` name the lessons that come before.
+    may be judged. `difficulty` is measured at the tempo to reach, 0–100 (docs/difficulty.md). `prerequisites` name the
+    lessons that come before.
     """
 
     name: str
@@ -49,6 +51,7 @@ class LessonRow:
     folder: str
     suggested: Level
     strictest: Level
+    difficulty: float
     author: str = ""
     about: str = ""
     tags: tuple[str, ...] = ()
@@ -80,6 +83,7 @@ def row_of(lesson: Lesson, folder: str = "") -> LessonRow:
         folder=folder,
         suggested=lesson.levels.suggested,
         strictest=lesson.levels.strictest,
+        difficulty=goal_difficulty(lesson),
         author=lesson.author,
         about=lesson.about,
         tags=lesson.tags,

@@ -5,7 +5,7 @@ name is its file's stem; names are unique, whatever folder a file lies in. Any o
 path. Files that end in `.course.toml` are courses.
 """
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
 from contextlib import suppress
 from difflib import get_close_matches
 from functools import cache
@@ -13,7 +13,7 @@ from pathlib import Path
 
 import station
 from station.core.errors import BadInput
-from station.drills.course import ENDING, Course, Where, is_course, read_course
+from station.drills.course import ENDING, Course, Where, is_course, lesson_name, read_course
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import read_lesson
 from station.drills.lesson_row import LessonRow, rows_below
@@ -32,6 +32,7 @@ __all__ = [
     "lesson_rows",
     "lessons_dir",
     "lessons_for",
+    "own_lessons",
     "read_lesson",
     "shipped_courses",
     "shipped_lessons",
@@ -116,6 +117,16 @@ def courses_in(folder: Path) -> tuple[list[Course], list[BadInput]]:
         except BadInput as fault:
             faults.append(fault)
     return sorted(courses, key=lambda course: (course.level, course.name)), faults
+
+
+def own_lessons(courses: Iterable[Course], shipped: Collection[str]) -> dict[str, Lesson]:
+    """The lessons that `courses` bring with them, none of them `shipped`, by name; what cannot be read is left out."""
+    own: dict[str, Lesson] = {}
+    for found_by in dict.fromkeys(lesson for course in courses for lesson in course.lessons):
+        if lesson_name(found_by) not in shipped:
+            with suppress(BadInput):  # `station lesson check` tells what is wrong with it
+                own[lesson_name(found_by)] = read_lesson(Path(found_by))
+    return own
 
 
 def _is_path(path: Path) -> bool:

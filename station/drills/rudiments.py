@@ -26,12 +26,13 @@ LEVEL_ENDINGS = ("", "-medium", "-fast")
 SOURCES = MappingProxyType(
     {
         "P": "the PAS chart of 1984, from notes proofed against it",
-        "B": "Backwerd Rimshot, Rudiment Builder, `rudiment-data.js`: proofed against the chart of 1984 on 25 August "
-        "2026 and against the society's engravings of single rudiments on 3 September 2026",
-        "S": "Z. Keown, SOUSA, definitions of the forty rudiments (2026)",
+        "B": "Backwerd Rimshot, Rudiment Builder (github.com/backwerdrimshot/Rudiment-Builder), `rudiment-data.js`: "
+        "proofed against the chart of 1984 on 25 August 2026 and against the society's engravings of single rudiments "
+        "on 3 September 2026",
+        "S": "SOUSA (github.com/zakkeown/SOUSA), definitions of the forty rudiments",
         "M": "B. Bachman, Top 10 rudiments, parts 8 and 9, Modern Drummer",
         "H": "Hackney Wick Drum Studio, lessons on the five and seven stroke roll",
-        "D": "M. Michalkow, Drum Rudiment System and Free Drum Lessons, pages on the six, ten and fifteen stroke roll",
+        "D": "Free Drum Lessons, Drum Rudiment System and 26 Drum Rudiments, on the six, ten and fifteen stroke roll",
         "Z": "Skillz Drum Lessons, 40 essential rudiments, 11",
     }
 )
@@ -144,7 +145,14 @@ RUDIMENTS: tuple[Rudiment, ...] = (
     Rudiment(16, "Single Paradiddle", DIDDLES, "R> L RR", "4x16"),
     Rudiment(17, "Double Paradiddle", DIDDLES, "R> L R L RR", "6x16t"),
     Rudiment(18, "Triple Paradiddle", DIDDLES, "R> L R L R L RR", "8x16"),
-    Rudiment(19, "Paradiddle-diddle", DIDDLES, "R> L RR LL", "6x16t"),
+    Rudiment(
+        19,
+        "Paradiddle-diddle",
+        DIDDLES,
+        "R> L RR LL",
+        "6x16t",
+        note="P's name is Single Paradiddle-diddle; the short one is as common.",
+    ),
     Rudiment(20, "Flam", FLAMS, "lR rL", "2x4"),
     Rudiment(21, "Flam Accent", FLAMS, "lR> L R", "3x8t", "PBS", _FLAM),
     Rudiment(22, "Flam Tap", FLAMS, "lR> R", "2x8", "PBSM", _FLAM),

@@ -1,6 +1,7 @@
 """Lessons that are made: whatever the seed, each is a lesson that two hands and two feet can play, and lands on 1."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,8 @@ from station.drills.families.family_table import FAMILIES, MAX_BARS, lesson_text
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import parse_lesson
 from station.motion.feasibility.playable import impossible
+from station.motion.kit.kit import load_kit
+from station.motion.sticking.limbs import assign_limbs
 
 SEEDS = 200
 BARS = (1, 2, 3, 4, 8)
@@ -36,6 +39,7 @@ def test_every_seed_is_a_lesson(family: str) -> None:
         loop = lesson.loop_score.repeated(2).at_speed(lesson.target_tempo_bpm / lesson.tempo_bpm)
         assert impossible(loop) == []
         assert len(lesson.about) > 60
+        assert len(lesson.landing), "something is struck where the last loop ends"
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -49,6 +53,13 @@ def test_a_higher_level_is_harder_on_average(family: str) -> None:
 def test_the_same_words_give_the_same_text(family: str) -> None:
     assert lesson_text(family, 3, 17, 4) == lesson_text(family, 3, 17, 4)
     assert len({lesson_text(family, 4, seed, 8) for seed in range(20)}) >= 10 or family == "polyrhythms"
+
+
+def test_the_manual_has_every_family() -> None:
+    manual = (Path(__file__).parents[2] / "docs" / "lessons.md").read_text(encoding="utf-8")
+    assert re.findall(r"^\| `(\w+)` \| [^|]*\|$", manual.split("## Drills that are made")[1], re.MULTILINE) == [
+        *FAMILIES
+    ]
 
 
 def hands(lesson: Lesson) -> str:
@@ -70,6 +81,15 @@ def test_a_turned_paradiddle_is_a_paradiddle() -> None:
         assert len(sticking) == 16
         assert sticking[:8] in around
         assert sticking[8:] in around
+
+
+@pytest.mark.parametrize("family", ["paradiddles", "linear", "ostinato"])
+def test_no_hand_flies_over_the_kit(family: str) -> None:
+    """The drummer's own judgement of what limbs can reach in time, at the tempo to reach."""
+    for seed in range(10):
+        lesson = made(family, 5 - seed % 2, seed, 2)
+        loop = lesson.loop_score.repeated(2).at_speed(lesson.target_tempo_bpm / lesson.tempo_bpm)
+        assert assign_limbs(loop, load_kit()).warnings == ()
 
 
 def test_linear_patterns_never_strike_two_at_once_and_leave_no_sixteenth_empty() -> None:

@@ -20,7 +20,8 @@ ABOUT_WIDTH = 112
 class Page:
     """One lesson's words and `lines`: each line's bars in order, all lines with as many bars.
 
-    `tempo_bpm` and `target_tempo_bpm` count beats a minute; `extra` are further lines of the file's head.
+    `tempo_bpm` and `target_tempo_bpm` count beats a minute; `extra` are further lines of the file's head; `landing` is
+    what is struck where the last loop ends.
     """
 
     title: str
@@ -32,7 +33,8 @@ class Page:
     lines: Mapping[str, Sequence[str]]
     meter: str = "4/4"
     passes: int = 8
-    extra: Sequence[str] = field(default_factory=tuple)
+    extra: Sequence[str] = ()
+    landing: Mapping[str, str] = field(default_factory=lambda: {"snare": "O"})
 
     @property
     def text(self) -> str:
@@ -52,7 +54,8 @@ class Page:
             "[goals]",
             f"target_tempo_bpm = {self.target_tempo_bpm}",
         ]
-        return show("\n".join([*head, *self._grids()]) + "\n")
+        landing = ["", "[landing]", *(f'{line} = "{letter}"' for line, letter in self.landing.items())]
+        return show("\n".join([*head, *self._grids(), *landing]) + "\n")
 
     def _grids(self) -> list[str]:
         bars = len(next(iter(self.lines.values())))

@@ -69,6 +69,7 @@ def linear(level: int, rng: Random, bars: int) -> Page:
             "sticking": [in_beats([c if c in "RL" else "-" for c in one], cells) for one in made],
             "kick": line("K", "o", "-"),
         },
+        landing={"crash": "X", "kick": "O"},
     )
 
 
@@ -160,4 +161,5 @@ def ostinato(level: int, rng: Random, bars: int) -> Page:
         tempo_bpm=_APART[level][0],
         target_tempo_bpm=_APART[level][1],
         lines={melody: phrase(bars, bar), **{name: [one] * bars for name, one in lines.items()}},
+        landing={"crash": "X", "kick": "O"},
     )

@@ -17,6 +17,7 @@ from station.drills.grid.loudness import Loudness, read_loudness
 from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.swing import STRAIGHT
 from station.drills.grid.voice import MAX_BARS, CellCount, ParsedLine, agreed_bars, parsed, voice_strokes
+from station.music.loudness_marks import LoudnessMark
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
 MAX_TIMES = 100
@@ -28,13 +29,15 @@ class GridSection:
     """One grid, read, from tick 0.
 
     `meters` has each bar of one repetition, the tick of each its start; `parts` the strokes of each repetition, their
-    ticks counted from its own start: repetitions differ where cycles run on over them.
+    ticks counted from its own start: repetitions differ where cycles run on over them. `loudness` has the marks of each
+    repetition, from its start.
     """
 
     name: str
     timing: GridTiming
     meters: tuple[MeterChange, ...]
     parts: tuple[tuple[WrittenCell, ...], ...]
+    loudness: tuple[LoudnessMark, ...] = ()
 
     @property
     def times(self) -> int:
@@ -122,6 +125,7 @@ class _Builder:
 
     def section(self) -> GridSection:
         times: int = self.values["times"]
+        before = len(self.faults)
         frames = [GridFrame(meter, self.timing.beat_ticks) for meter in self.timing.meters]
         lines = [parsed(raw, frames, self.faults) for raw in self.lines]
         under, loudness = (self._beside(key, frames) for key in (STICKING, LOUDNESS))
@@ -134,7 +138,15 @@ class _Builder:
         own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults, are_all=self.are_all)
         level = self._loudness(loudness, bars)
         parts = [self._struck([*own, *more], level) for more in self._cycled(bars, length, times)]
-        return GridSection(self.values["name"], self.timing, bars, tuple(parts))
+        if len(self.faults) == before:
+            self._check_said(count)
+        return GridSection(self.values["name"], self.timing, bars, tuple(parts), level.marks)
+
+    def _check_said(self, count: int) -> None:
+        """Note that the grid says it has more or fewer bars than its lines."""
+        said: int | None = self.values["bars"]
+        if said is not None and said != count:
+            self.faults.add((*self.path, "bars"), f"{said}, but the lines have {count}")
 
     def _beside(self, key: str, frames: Sequence[GridFrame]) -> ParsedLine | None:
         raw = plain_line(self.values, key, self.path)
@@ -147,8 +159,6 @@ class _Builder:
             text = "is missing; expected how many bars the cycles run, such as bars = 4"
             self.faults.miss((*self.path, "bars"), text)
         count = agreed_bars(lines, self.faults) if lines else said or 1
-        if said is not None and said != count:
-            self.faults.add((*self.path, "bars"), f"{said}, but the lines have {count}")
         if count * times > MAX_BARS:
             where = lines[0].raw.line.path if lines else (*self.path, "bars")
             self.faults.add(where, f"{count * times} bars; a lesson has at most {MAX_BARS}")

@@ -109,6 +109,8 @@ def test_as_json(sessions: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert document["schema"] == "drum-station/lessons/1"
     assert [one["name"] for one in document["lessons"]] == [row.name for row in lesson_rows()]
     assert [one["name"] for one in document["courses"]] == ["mine", *(one.name for one in shipped_courses())]
+    hard = {one["name"]: one["difficulty"] for one in document["lessons"]}
+    assert hard["rock-1"] < hard["funk-1"] < hard["samba-1"]
     mine = json.loads(said(capsys, "--json", "--course", "mine"))
     assert [(one["name"], one["held"]) for one in mine["lessons"]] == [
         ("rock-1", "elementary"),

@@ -176,7 +176,7 @@ FAULTS = (
     Planted("unsteady =", "▶unstaedy =", "did you mean unsteady"),
     Planted("[goals.left_hand]", "▶[goals.third_hand]", "third_hand"),
     Planted("min_accuracy = 0.8", "min_accuracy = ▶8", "from 0 to 1"),
-    Planted("max_sd_ms = 30", "▶max_tempo_error_pct = 3", "no such key"),
+    Planted("max_sd_ms = 30", "▶max_tempo_error_pct = 3", "expected below [[goals.bars]]"),
     Planted("bars = [3, 4]", "bars = ▶[4, 3]", "first bar first"),
     Planted("bars = [3, 4]", "bars = [3, ▶40]", "from 1 to 15"),
     Planted("max_tempo_error_pct = 3", "max_tempo_error_pct = ▶80", "from 0.1 to 50"),
@@ -218,6 +218,14 @@ FAULTS = (
     Planted('ride = "xxx|x-x"', '▶rdie = "xxx|x-x"', "did you mean ride"),
     Planted('hihat = "x-x- x-x- x-x- x-x-"', '▶hiahat = "x-x- x-x- x-x- x-x-"', "did you mean hihat"),
     Planted('meter = "4/4"\nbeat = "1/4"', 'meter = ▶"4/5"\nbeat = "1/4"', "1/32"),
+    # one slip of the finger is one fault
+    Planted('name = "odd"', '▶nae = "odd"', "did you mean name"),
+    Planted("ending = 1\n", "▶ening = 1\n", "did you mean ending"),
+    Planted("bars = [3, 4]", "▶bas = [3, 4]", "did you mean bars"),
+    Planted('{bar = 1, say = "Ghosts low"}', '{▶br = 1, say = "Ghosts low"}', "did you mean bar"),
+    Planted('meter = "3/4"\nride', '▶meer = "3/4"\nride', "did you mean meter"),
+    Planted('tags = ["test", "form"]\n', 'tags = ["test", "form"\n▶', "a list is not closed"),
+    Planted("bars = 3\n", "bars = ▶4\n", "the lines have 3"),
     # what nobody can play
     Planted('kick = "o--- ---- o-o- ----"', 'tom_1 = "---- ▶o--- ---- ----"', "hands"),
 )

@@ -156,7 +156,7 @@ def test_a_folder_that_is_not_there_has_none(tmp_path: Path) -> None:
 def test_those_that_ship_begin_with_the_first_beats_and_have_shipped_lessons_alone() -> None:
     courses = shipped_courses()
     assert courses[0].name == "first-beats"
-    assert courses[0].lessons[0] == "rock-1", "what a newcomer meets first"
+    assert "rock-1" in courses[0].parts[0].lessons, "what a newcomer meets first"
     assert [one.level for one in courses] == sorted(one.level for one in courses)
     for course in courses:
         assert course.about

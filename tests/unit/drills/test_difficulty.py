@@ -3,30 +3,13 @@
 import pytest
 from scipy.stats import spearmanr
 
-from station.drills.difficulty import PARTS, difficulty, goal_difficulty
+from station.drills.difficulty import PARTS, difficulty, goal_difficulty, standings
 from station.drills.lesson import Lesson
-from station.drills.library import find_lesson, shipped_lessons
+from station.drills.library import find_lesson, shipped_courses, shipped_lessons
 from tests.unit.drills.reading import read
+from tools.course_order import in_order, left_out, parts, with_parts
+from tools.difficulty_table import PAGE, TEACHERS_ORDER
 
-TEACHERS_ORDER = (
-    "rock-1",
-    "rock-2",
-    "rock-3",
-    "disco-1",
-    "shuffle-1",
-    "jazz-ride-1",
-    "hip-hop-1",
-    "jazz-comping-1",
-    "bossa-1",
-    "funk-1",
-    "paradiddle-groove-1",
-    "funk-2",
-    "linear-funk-1",
-    "samba-1",
-    "half-time-shuffle-1",
-    "quintuplet-1",
-)
-"""From easy to hard as method books give them, written down before the first measurement."""
 SINGLES = 'snare = "oooo oooo oooo oooo"\nsticking = "RLRL RLRL RLRL RLRL"'
 AT_60, AT_120 = "tempo_bpm = 60", "tempo_bpm = 120"
 
@@ -111,11 +94,6 @@ def test_grooves_come_in_the_order_of_teachers() -> None:
     assert spearmanr(range(len(measured)), measured).statistic > 0.7
 
 
-def test_levels_given_by_hand_agree_with_what_is_measured() -> None:
-    lessons = shipped_lessons()
-    assert spearmanr([one.level for one in lessons], list(map(goal_difficulty, lessons))).statistic > 0.5
-
-
 def test_exam_grades_rise() -> None:
     """Grade 1 asks for singles, doubles and paradiddles in eighths and sixteenths at 70; Grade 3 for flams, drags and
     triplets besides, at 75 (an examination board's technical exercises as a teacher's course lists them)."""
@@ -134,3 +112,58 @@ def test_exam_grades_rise() -> None:
 
 def lesson(snare: str, sticking: str, tempo_bpm: int) -> Lesson:
     return read(f'snare = "{snare}"\nsticking = "{sticking}"', f"tempo_bpm = {tempo_bpm}")
+
+
+def test_a_lesson_stands_where_what_it_needs_stands() -> None:
+    needs = {"last": ["middle"], "middle": ["hard", "unknown"], "hard": [], "alone": [], "next": ["alone"]}
+    found = standings(needs, {"last": 3.0, "middle": 5.0, "hard": 20.0, "alone": 4.0, "next": 6.0})
+    assert found == {"alone": (4, 0), "next": (6, 0), "hard": (20, 0), "middle": (20, 1), "last": (20, 2)}
+
+
+def test_lessons_that_name_each_other_still_stand_somewhere() -> None:
+    assert set(standings({"a": ["b"], "b": ["a"]}, {"a": 1.0, "b": 2.0})) == {"a", "b"}
+
+
+@pytest.fixture(scope="module")
+def lessons() -> dict[str, Lesson]:
+    return {one.name: one for one in shipped_lessons()}
+
+
+@pytest.fixture(scope="module")
+def hardness(lessons: dict[str, Lesson]) -> dict[str, float]:
+    return {name: goal_difficulty(one) for name, one in lessons.items()}
+
+
+def test_levels_given_by_hand_agree_with_what_is_measured(
+    lessons: dict[str, Lesson], hardness: dict[str, float]
+) -> None:
+    assert spearmanr([lessons[name].level for name in hardness], list(hardness.values())).statistic > 0.5
+
+
+def test_eight_courses_go_from_easy_to_hard_and_have_every_lesson(
+    lessons: dict[str, Lesson], hardness: dict[str, float]
+) -> None:
+    courses, needs = shipped_courses(), {name: one.prerequisites for name, one in lessons.items()}
+    standing = standings(needs, hardness)
+    assert len(courses) == 8
+    assert left_out(courses, list(lessons)) == []
+    for course in courses:
+        assert in_order(course, standing) == list(course.lessons), "python -m tools.course_order --write"
+        at = {name: i for i, name in enumerate(course.lessons)}
+        assert all(at[need] < at[name] for name in at for need in needs[name] if need in at)
+
+
+def test_a_course_s_file_keeps_its_head_when_it_is_sorted() -> None:
+    standing = {"a": (3.0, 0), "b": (13.0, 0), "c": (14.0, 0)}
+    text = 'title = "T"\nabout = "lessons"\nlessons = [\n  "c",\n  "a",\n]\n'
+    assert with_parts(text, parts(["a", "b", "c"], standing)) == (
+        'title = "T"\nabout = "lessons"\n\n'
+        '[[part]]\ntitle = "To begin with"\nlessons = [\n  "a",\n]\n\n'
+        '[[part]]\ntitle = "The next step"\nlessons = [\n  "b",\n  "c",\n]\n'
+    )
+
+
+def test_the_page_has_every_lesson_of_every_course_as_it_is_measured(hardness: dict[str, float]) -> None:
+    rows = [line.split(" | ") for line in PAGE.read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
+    said = {row[0][2:]: float(row[4]) for row in rows if row[0][2:] in hardness}
+    assert said == hardness, "python -m tools.difficulty_table"

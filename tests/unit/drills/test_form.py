@@ -120,6 +120,27 @@ def test_a_line_takes_the_place_of_its_model_by_whatever_name() -> None:
     assert ticks_of(text, Piece.CRASH_1) == [0, WHOLE + 2 * QUARTER]
 
 
+@pytest.mark.parametrize(
+    ("model", "own", "limbs"),
+    [
+        ('hihat = "x---"', 'left_hand.hihat = "--x-"', [Limb.LEFT_HAND]),
+        ('right_hand.hihat = "x---"\nleft_hand.hihat = "-x--"', 'hihat = "--x-"', [Limb.UNKNOWN]),
+        ('right_hand.hihat = "x---"\nleft_hand.hihat = "-x--"', 'left_hand.hihat = "--x-"', None),
+    ],
+)
+def test_a_line_of_a_limb_takes_the_place_of_its_pieces_line(model: str, own: str, limbs: list[Limb] | None) -> None:
+    """The last keeps what the right hand does: the left hand's line alone is another."""
+    found = lesson(f'[[grid]]\nname = "A"\n{model}\n[[grid]]\nlike = "A"\n{own}\n').score.bars(1, 1).notes
+    expected = [(2, limb) for limb in limbs] if limbs else [(0, Limb.RIGHT_HAND), (2, Limb.LEFT_HAND)]
+    assert [(int(n["tick"]) // QUARTER, n["limb"]) for n in found] == expected
+
+
+def test_of_two_grids_with_one_name_nothing_else_is_told() -> None:
+    (found,) = faults(HEAD + 'form = "A"\n' + A + A)
+    assert (found.line, found.column) == (8, 8)
+    assert "two grids are called A" in found.text
+
+
 def test_a_variation_of_a_variation() -> None:
     text = A + '[[grid]]\nname = "B"\nlike = "A"\nkick = "-o--"\n[[grid]]\nlike = "B"\nsnare = "--o-"\n'
     assert ticks_of(text) == [0, WHOLE, 2 * WHOLE + 2 * QUARTER]

@@ -1,5 +1,6 @@
 """Goals of limbs and of bars: measured on strokes that are placed by hand, asked of results that are made by hand."""
 
+import json
 from collections.abc import Callable
 from dataclasses import replace
 from math import sqrt
@@ -7,12 +8,14 @@ from math import sqrt
 import numpy as np
 import pytest
 
+from station.core.errors import BadInput
 from station.core.pieces import Dynamic, Limb, Piece
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.lesson import BarGoals, Goals, PartGoals, Section
 from station.drills.library import find_lesson
 from station.drills.mastery.asked_parts import AskedPart, Part, asked_parts, bars_called
 from station.drills.mastery.goals_missed import PassFault, missed_goals
+from station.drills.mastery.mastery_json import from_json, to_json
 from station.drills.mastery.part_facts import PartResult
 from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
@@ -197,6 +200,16 @@ def test_a_spread_of_slow_waits_is_loose_in_a_hand_too() -> None:
 
 
 # --- a lesson's -------------------------------------------------------------------------------------------------------
+
+
+def test_only_a_lesson_asks_of_parts() -> None:
+    with pytest.raises(BadInput, match="no such rule"):
+        DEFAULT_RULES.changed({"parts": []})
+
+
+def test_what_a_part_came_to_survives_as_json() -> None:
+    result = replace(CLEAN, parts=(PartResult(LEFT, 20, 18, sd_ms=12.5), PartResult(FILL, 8, 8, tempo_error_pct=-3.0)))
+    assert from_json(PassResult, json.loads(json.dumps(to_json(result))), "here") == result
 
 
 def test_a_lessons_parts() -> None:

@@ -27,6 +27,7 @@ from station.practice.session.plan import Phase, PlanOptions, plan_practice
 from station.scenes.heat_map import heat_map
 from station.scoring.align import align
 from station.simulation.student_spec import parse_spec
+from station.simulation.virtual_student import play
 from tests.fakes.scores import rock_beat
 
 BAR_NS = 2 * NS_PER_S
@@ -128,3 +129,12 @@ def test_the_lesson_as_written_ends_with_its_landing_where_its_loop_is_the_end()
     assert LESSON.played_once.bar_count == 3
     assert LESSON.played_once.onset_ns[-1] == 2 * BAR_NS
     assert replace(LESSON, loop=(0, 0)).played_once is LESSON.score
+
+
+def test_a_virtual_student_slips_nowhere_in_the_bar_that_rings() -> None:
+    """The landing's bar has room on every grid line; whoever plays wrong strokes plays them among the written ones."""
+    plan = plan_practice(LESSON, PlanOptions())
+    student = play(plan.score, parse_spec("seed=3,extra_pct=20"))
+    assert student.truth.count(Label.EXTRA) > 5
+    beat_ns = BAR_NS // 4
+    assert student.performance.hits["at_ns"].max() < plan.score.onset_ns[-1] + beat_ns

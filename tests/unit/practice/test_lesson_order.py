@@ -64,7 +64,7 @@ def test_the_course_that_is_followed_is_the_users_own_or_a_shipped_one(tmp_path:
     assert followed_course(replace(settings, course="gone")) is None
     shipped = followed_course(replace(settings, course="first-beats"))
     assert shipped is not None
-    assert shipped.lessons[0] == "rock-1"
+    assert "rock-1" in shipped.lessons
     settings.courses_dir.mkdir(parents=True)
     (settings.courses_dir / "mine.course.toml").write_text('title = "Mine"\nlessons = ["rock-2"]\n')
     own = followed_course(replace(settings, course="mine"))

@@ -39,7 +39,7 @@ def report(pairs: list[Pair], asked: Asked | None = None) -> StickReport:
 def kinds(pairs: list[Pair], **asked: float | None) -> list[str]:
     """What is remarked; mute in any case is what would be."""
     said = [remark.kind for remark in report(pairs, Asked(asked)).remarks]
-    assert not report(pairs, Asked(dict.fromkeys(said))).remarks
+    assert not report(pairs, Asked({**asked, **dict.fromkeys(said)})).remarks
     return said
 
 
