@@ -16,6 +16,9 @@ from station.core.toml_source import Source
 T = TypeVar("T")
 MOST_FAULTS = 1000
 """More are not reported: whoever mends a file mends these first (our choice)."""
+_LONGEST = 500
+"""Letters of a message, some six rows of a terminal; of a longer one, as of a name without end, the middle is left out
+(our choice)."""
 
 
 # --- while a file is read ---------------------------------------------------------------------------------------------
@@ -42,7 +45,10 @@ class Noted:
     @property
     def words(self) -> str:
         """What is wrong, in one line, with the name of the value that it is about."""
-        return "".join(letter if letter.isprintable() else _escaped(letter) for letter in self._said)
+        said = self._said
+        if len(said) > _LONGEST:
+            said = f"{said[: _LONGEST // 2]}…{said[-_LONGEST // 2 :]}"
+        return "".join(letter if letter.isprintable() else _escaped(letter) for letter in said)
 
     @property
     def _said(self) -> str:

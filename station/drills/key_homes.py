@@ -30,8 +30,12 @@ _HOMES: Mapping[str, Fields] = MappingProxyType(
 
 
 def sent_home(faults: Sequence[Noted]) -> list[Noted]:
-    """The same faults; those of keys that nobody knows where they stand say where they belong, if anywhere."""
-    return [_sent_home(fault) for fault in faults]
+    """The same faults; those of keys that nobody knows where they stand say where they belong, if anywhere.
+
+    Such a key is not missing as well in the table that lacks it.
+    """
+    strays = {fault.path[-1:] for fault in faults if fault.is_unknown}
+    return [_sent_home(fault) for fault in faults if not (fault.is_missing and fault.path[-1:] in strays)]
 
 
 def _sent_home(fault: Noted) -> Noted:

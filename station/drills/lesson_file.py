@@ -102,7 +102,7 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     written = [] if values["grid"] is None else _written(values["grid"], faults)
     no_grids: list[ReadGrid] = []
     grids = faults.attempt(lambda _: _read_grids(written, timing, faults), written, no_grids)
-    order = played_order(values["form"], written, faults)
+    order = played_order(values["form"], written, faults) if written else []
     nothing: list[Stretch] = []
     stretches = faults.attempt(lambda _: laid_out(order, grids), grids, nothing) if grids else nothing
     are_sure = timing.is_sure and len(faults) == before  # else there may be more bars than could be read

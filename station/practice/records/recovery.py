@@ -4,15 +4,21 @@ All that was played is in the capture, so that they can be judged as they would 
 """
 
 import shlex
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
+from numpy.typing import NDArray
+
 from station.core.errors import BadInput, StationError
+from station.core.pieces import Limb
 from station.core.settings import Settings
 from station.devices.capture.capture import RecordKind, read_capture
 from station.drills.lesson import Lesson
 from station.practice.records.rejudge import judge_again
 from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, TAKE_NAME, folder_name
 from station.practice.session.adaptation import whole
+from station.practice.session.plan import Plan
 from station.practice.session.session import SessionResult
 
 MOST_READ = 20
@@ -49,24 +55,47 @@ def recovered(capture: Path, with_phase: bool = True) -> SessionResult:
 
     Raises `BadInput` where the capture cannot be read, or holds no session.
     """
+    return _in_a_row(_results(capture, with_phase))
+
+
+def session_of(capture: Path, lesson: Lesson) -> SessionResult | None:
+    """The session of `lesson`, as it is now, that a capture holds; None where it holds none."""
+    try:
+        results = _results(capture, with_phase=False)
+    except BadInput:  # strokes without a session, or cut off within its log: there is no click to judge by
+        return None
+    if not all(_is_of(result.plan, lesson) for result in results):
+        return None
+    result = _in_a_row(results)
+    return replace(result, plan=replace(result.plan, lesson=lesson))
+
+
+def _results(capture: Path, with_phase: bool) -> list[SessionResult]:
     results = [session.result() for session in judge_again(read_capture(capture), with_phase)]
     if not results:
         raise BadInput(capture, "", "there is no session in this capture")
+    return results
+
+
+def _in_a_row(results: list[SessionResult]) -> SessionResult:
     if len(results) == 1:
         return results[0]
     bars = [result.plan.bars for result in results]
     return whole(results, (min(first for first, _ in bars), max(last for _, last in bars)))
 
 
-def session_of(capture: Path, lesson: Lesson) -> SessionResult | None:
-    """The session of `lesson`, as it is now, that a capture holds; None where it holds none."""
-    try:
-        result = recovered(capture, with_phase=False)
-    except BadInput:  # strokes without a session, or cut off within its log: there is no click to judge by
-        return None
-    played = result.plan.lesson
-    is_same = played.name == lesson.name and played.score.notes.tobytes() == lesson.score.notes.tobytes()
-    return result if is_same else None
+def _is_of(plan: Plan, lesson: Lesson) -> bool:
+    """Whether the bars that were practised are bars of `lesson` as it is now; whoever's limbs play them."""
+    first, last = plan.bars
+    if plan.lesson.name != lesson.name or last >= lesson.score.bar_count:
+        return False
+    return _apart_from_limbs(plan.section.notes) == _apart_from_limbs(lesson.score.bars(first, last).notes)
+
+
+def _apart_from_limbs(notes: NDArray[np.void]) -> bytes:
+    notes = notes.copy()
+    notes["limb"] = Limb.UNKNOWN
+    return notes.tobytes()
 
 
 def _is_reported(folder: Path) -> bool:

@@ -99,6 +99,55 @@ def test_a_capture_can_be_assessed_again_by_the_session_s_click(
     assert all(document[key] == told for key, told in again.items())
 
 
+def test_a_capture_of_some_bars_is_assessed_as_those_bars(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    document = practise(capsys, "--bars", "2-2", "--loops", "3", "--report", str(tmp_path / "session"))
+    assert main(["assess", "rock-1", str(tmp_path / "session" / "session.capture"), "--json"]) == 0
+    again = json.loads(capsys.readouterr().out)
+    assert again["counts"]["notes"] == 3 * 12
+    assert all(document[key] == told for key, told in again.items())
+
+
+LANDING_LESSON = """
+title = "Two bars and a landing"
+tempo_bpm = 100
+meter = ["3+2+2/8", "2/4"]
+loop = [3, 4]
+passes = 2
+demonstrations = 0
+[goals]
+faults = {late_kick = 15}
+[hints]
+late_kick = "Heel down."
+[landing]
+crash = "X"
+kick = "o"
+[[grid]]
+times = 2
+tempo_to_bpm = 70
+ride = "xxx xx xx | x x"
+kick = "o-- o- -- | o o"
+"""
+
+
+@pytest.mark.parametrize(
+    ("ways", "loops", "landings"), [((), 2, 1), (("--adapt", "--loops", "2"), 4, 2)], ids=["at once", "pass by pass"]
+)
+def test_a_capture_with_ramps_meters_and_a_landing_is_assessed_as_its_report(
+    ways: tuple[str, ...], loops: int, landings: int, capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    """Pass by pass a loop of two bars is played twice, and each pass lands."""
+    lesson = tmp_path / "landing.toml"
+    lesson.write_text(LANDING_LESSON)
+    said = ["practice", str(lesson), "--headless", "--virtual-student", "pro", "--no-pictures", "--json", *ways]
+    assert main([*said, "--report", str(tmp_path / "session")]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert main(["assess", str(lesson), str(tmp_path / "session" / "session.capture"), "--json"]) == 0
+    again = json.loads(capsys.readouterr().out)
+    in_loop = 7 + 2 + 2 + 2  # ride and kick of both bars
+    assert again["counts"]["notes"] == loops * in_loop + 2 * landings
+    assert (again["reference"], again["score"], again["counts"]) == ("click", document["score"], document["counts"])
+
+
 def test_a_session_of_another_lesson_is_assessed_by_the_player_s_own_tempo(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

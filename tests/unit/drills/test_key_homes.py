@@ -2,6 +2,7 @@
 
 import pytest
 
+from station.drills.lesson_file import parse_lesson
 from tests.unit.drills.reading import faults
 
 GRID = '[grid]\nsnare = "oooo"\n'
@@ -31,3 +32,8 @@ def test_a_key_below_the_wrong_table_is_sent_home(text: str, line: int, words: s
 def test_a_word_that_no_table_knows_is_not() -> None:
     (found,) = faults('title = "T"\n' + GRID + 'snarre = "oooo"\n')
     assert found.text == "no such line: snarre; did you mean snare?"
+
+
+def test_what_stands_in_the_wrong_table_is_not_missing_as_well() -> None:
+    (found,) = parse_lesson(f'{GRID}title = "T"\n', "test.toml", "test").faults
+    assert (found.line, found.text.split(";")[0]) == (3, "title belongs to the lesson itself")

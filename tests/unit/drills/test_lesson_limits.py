@@ -31,7 +31,11 @@ TOO_MUCH = {
         f'form = "{",".join(["A"] * 20)}"\n[[grid]]\nname = "A"\nsnare = "o"\ntimes = 100\n{at(1000)}',
         "at most 4000",
     ),
-    "grids": (variations(1500), "1500 grids; a lesson has at most 500"),
+    "letters": (
+        f'form = "A"\n[[grid]]\nname = "A"\nsnare = "{"-" * 300_000}"\n',
+        "letters; a lesson has at most 200000",
+    ),
+    "grids": ('form = "g1"\n' + variations(1500), "1500 grids; a lesson has at most 500"),
     "hands under a cycle": (
         f'[grid]\nmeter = "32/1"\nbars = 190\n[[grid.cycle]]\nmeter = "1/32"\nkick = "-"\nsticking = "{"R" * 64}"\n',
         "cells; a lesson has at most 200000",
@@ -109,3 +113,11 @@ def test_a_grid_that_is_played_once_has_no_second_ending() -> None:
 def test_times_that_are_no_number_are_told_once() -> None:
     (found,) = faults(HEAD + '[[grid]]\ntimes = true\nsnare = "o"\n[[grid]]\nending = 2\nsnare = "o"\n')
     assert "expected a whole number from 1 to 100, found true" in found.text
+
+
+def test_a_name_as_long_as_a_book_is_not_repeated_in_full() -> None:
+    name = "x" * 100_000
+    found = faults(f'{HEAD}form = "A"\n[[grid]]\nname = "{name}"\nsnare = "o"\n[[grid]]\nname = "A"\nsnare = "o"\n')
+    assert [(f.line, f.column) for f in found] == [(4, 8)]
+    assert "never played" in found[0].text
+    assert len(found[0].text) <= 600
