@@ -24,7 +24,6 @@ from station.drills.lesson import BarCue, Lesson
 from station.drills.lesson_text import show, with_value
 from station.drills.lesson_writer import write_lesson
 from station.practice.records.session_files import folder_name
-from station.scenes.printed_score import as_printed
 from station.scenes.sheets import lesson_labels, pdf_of
 
 FOLDER = "take-along"
@@ -92,7 +91,7 @@ class Exporter:
         """The bars as notation on paper, repeated; raises `DeviceError`."""
         path = _place(lesson, bars, settings, ".pdf")
         words = lesson_labels(replace(lesson, loop=bars), bars)
-        write_whole(path, pdf_of(as_printed(lesson), bars, words, _PAPER))
+        write_whole(path, pdf_of(lesson.played_once, bars, words, _PAPER))
         return path
 
     def film(

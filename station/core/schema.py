@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from datetime import date, datetime
 from enum import IntEnum
 from typing import Any, Generic, TypeVar
+from unicodedata import category
 
 from station.core.did_you_mean import did_you_mean, nearest, nearest_word
 from station.core.expected import LINE, TEXT, JsonSchema, expected_by, expects, later, list_like
@@ -77,7 +78,7 @@ def checked_values(raw: object, fields: Fields, noun: str = "key") -> tuple[dict
         if key in fields:
             values[key] = faults.attempt(fields[key].read, value, fields[key].default, key)
         elif not faults.are_many:
-            faults.add((key,), no_such(noun, key, fields), at_key=True)
+            faults.noted.append(Noted(no_such(noun, key, fields), (key,), at_key=True, is_unknown=True))
     meant = {found for key in table if key not in fields and (found := nearest_word(key, fields))}
     for key, each in fields.items():
         if key not in table:
@@ -124,7 +125,7 @@ def table_of(read_key: Reader[K], read: Reader[T]) -> Reader[dict[K, T]]:
             try:
                 name = read_key(key)
             except Wrong as fault:
-                faults.noted += [replace(each, path=(key,), at_key=True) for each in fault.faults]
+                faults.noted += [replace(each, path=(key,), at_key=True, is_unknown=True) for each in fault.faults]
                 continue
             if name in found:
                 faults.add((key,), f"{key} is here twice", at_key=True)
@@ -213,8 +214,12 @@ def text(value: object) -> str:
 
 @expects(TEXT)
 def prose(value: object) -> str:
-    """A string, blanks at its ends stripped."""
-    return text(value).strip()
+    """A string, blanks at its ends stripped; of control characters, which terminals obey, only line ends and tabs."""
+    stripped = text(value).strip()
+    control = next((c for c in stripped if category(c) == "Cc" and c not in "\n\t"), None)
+    if control:
+        raise wrong(f"expected text without control characters, found {control}")
+    return stripped
 
 
 @expects(LINE)

@@ -23,13 +23,17 @@ MOST_FAULTS = 1000
 
 @dataclass(frozen=True, slots=True)
 class Noted:
-    """A fault of the value at `path`, of its character `char`, or of the key itself; or that the key is missing."""
+    """A fault of the value at `path`, of its character `char`, or of the key itself.
+
+    The key may be at fault for being missing, or unknown where it stands.
+    """
 
     text: str
     path: KeyPath = ()
     char: int | None = None
     at_key: bool = False
     is_missing: bool = False
+    is_unknown: bool = False
 
     def below(self, *keys: str | int) -> "Noted":
         """The same fault, of the table that holds the value under `keys`."""
@@ -37,11 +41,20 @@ class Noted:
 
     @property
     def words(self) -> str:
-        """What is wrong, with the name of the value that it is about."""
+        """What is wrong, in one line, with the name of the value that it is about."""
+        return "".join(letter if letter.isprintable() else _escaped(letter) for letter in self._said)
+
+    @property
+    def _said(self) -> str:
         name = ".".join(key for key in self.path if isinstance(key, str))
         if self.is_missing:
             return f"{name} {self.text}"
         return self.text if self.at_key or self.char is not None or not name else f"{name}: {self.text}"
+
+
+def _escaped(letter: str) -> str:
+    """What Python and TOML write for a letter that no terminal shows, or that it obeys."""
+    return letter.encode("unicode_escape").decode("ascii")
 
 
 class Wrong(Exception):
@@ -66,6 +79,10 @@ class Faults:
     def add(self, path: KeyPath, text: str, char: int | None = None, at_key: bool = False) -> None:
         """Note a fault of the value at `path`, of its character `char`, or of the key itself."""
         self.noted.append(Noted(text, path, char, at_key))
+
+    def miss(self, path: KeyPath, text: str) -> None:
+        """Note that the table at `path` lacks something, which a faulty line may have said: `text` follows its name."""
+        self.noted.append(Noted(text, path, at_key=True, is_missing=True))
 
     def merge(self, found: "Faults", *path: str | int) -> None:
         """Note what was found in the value at `path`."""

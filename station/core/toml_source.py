@@ -26,6 +26,7 @@ _KEY = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')"""
 _ENDLESS_KEY = re.compile(rf"(?:^[ \t]*+\[?+\[?+|[{{,])[ \t]*+(?:{_KEY}[ \t]*+\.[ \t]*+){{{_MOST_KEYS}}}", re.MULTILINE)
 _WHOLE = re.compile(r"[+-]?[0-9_]+\s*")
 
+_NO_KEY = "Invalid initial character for a key part"
 _PLAIN_WORDS = (
     ("Expected '=' after a key", "expected = after the key"),
     ("Invalid value", 'expected a value: text in quotes, a number, true, false or a list such as ["a", "b"]'),
@@ -35,7 +36,7 @@ _PLAIN_WORDS = (
     ("Unclosed inline table", "a table in braces is not closed; expected , or }"),
     ("Unterminated string", "a text is not closed; expected its closing quotes"),
     ("Invalid statement", "expected a key, [a table] or a # comment"),
-    ("Invalid initial character for a key part", "expected a key: letters, digits, _ or -"),
+    (_NO_KEY, "expected a key: letters, digits, _ or -"),
     ("Cannot overwrite a value", "this key was given before"),
     ("Duplicate inline table key", "this key was given before"),
     ("Cannot declare", "this table was given before"),
@@ -44,8 +45,15 @@ _PLAIN_WORDS = (
     ("Unescaped '\\' in a string", 'a \\ in quotes starts an escape such as \\n or \\"; write \\\\ for itself'),
 )
 
+_AT_A_SIGN = (_NO_KEY, "Invalid value", "Expected newline or end of document after a statement")
+"""Complaints that `tomllib` places at the sign that is the slip."""
+_HEADER = re.compile(r"\s*\[{1,2}\s*([^\[\]]{1,40}?)\s*\]")
 _AT_LINE_START = ("Cannot overwrite a value", "Cannot declare")
 """Complaints that `tomllib` places after the statement that they are about."""
+_CURLY = "“”„‟«»‘’‚‹›"
+_CURLED = 'these are curly quotes; expected straight ones, as in "text"'
+_BROKEN_BRACES = "a table in braces stands on one line; expected all of it here"
+_WRITTEN_TWICE = "this table was given before; where there may be several, each of them is written [[{name}]]"
 _SPREADING = (
     "a list is not closed; expected , or ]",
     "a table in braces is not closed; expected , or }",
@@ -119,10 +127,10 @@ def load(text: str) -> tuple[dict[str, object], str, tuple[SyntaxFault, ...]]:
         follows = len(faults) > 1 and not "".join(lines[set_aside + 1 : line]).strip()
         if follows and faults[-1][2] == faults[-2][2] in _SPREADING:
             del faults[-1]
-        set_aside = line
+        set_aside = _last_of(faults[-1], lines)
         if not lines[line].strip() or lines[line].lstrip().startswith("["):
             break
-        lines[line] = ""
+        lines[line : set_aside + 1] = [""] * (set_aside + 1 - line)
         text = "\n".join(lines)
     return {}, "", tuple(faults)
 
@@ -139,7 +147,33 @@ def _syntax_fault(message: str, text: str) -> SyntaxFault:
     if complaint.startswith(_AT_LINE_START):
         statement = text.split("\n")[line - 1]
         column = len(statement) - len(statement.lstrip()) + 1
+        if header := _HEADER.match(statement):
+            words = _WRITTEN_TWICE.format(name=header.group(1))
+    elif complaint.startswith(_AT_A_SIGN):
+        words = _words_of_sign((text.split("\n")[line - 1] + "\n")[column - 1 :], complaint) or words
     return line, column - 2 * complaint.startswith(_AFTER_ESCAPE), words
+
+
+def _words_of_sign(rest: str, complaint: str) -> str:
+    """Plain words of a sign that is the slip itself, where `rest` of a line begins with one; else none."""
+    if rest[0] in _CURLY:
+        return _CURLED
+    return _BROKEN_BRACES if rest[0] == "\n" and complaint.startswith(_NO_KEY) else ""
+
+
+def _last_of(fault: SyntaxFault, lines: list[str]) -> int:
+    """The last line, from 0, of what is at fault: where broken braces close, if they do before the next table."""
+    first = fault[0] - 1
+    if fault[2] != _BROKEN_BRACES:
+        return first
+    depth = 0
+    for i, line in enumerate(lines[first:], first):
+        if i > first and line.startswith("["):
+            break
+        depth += line.count("{") - line.count("}")
+        if depth <= 0:
+            return i
+    return first
 
 
 def _too_long(text: str) -> SyntaxFault:

@@ -17,9 +17,6 @@ from station.drills.tempo_marks import TempoMark
 from station.motion.style.style_file import style_names
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
-MOST_CUES = 1000
-"""More than one for every other bar of the longest lesson (our choice)."""
-
 
 @dataclass(frozen=True, slots=True)
 class GridCue:
@@ -87,8 +84,6 @@ def read_cues(raw: object, shape: GridShape, faults: Faults) -> list[GridCue]:
     read = list_of(lambda one: _cue(one, shape), 'a list such as [{bar = 2, say = "Ghosts low"}]')
     nothing: tuple[GridCue, ...] = ()
     cues = nothing if raw is None else faults.attempt(read, raw, nothing, "at")
-    if len(cues) > MOST_CUES:
-        faults.add(("at",), f"{len(cues)} entries; a grid has at most {MOST_CUES}")
     _no_two_tempi(cues, faults)
     return sorted(cues, key=lambda cue: cue.tick)
 

@@ -4,12 +4,13 @@ All this is worked out on the raw tables, before a line is read: a variation is 
 of the grid it is like. What is wrong in lines that it took over is told where they stand, once.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
 from station.core.expected import either_of, expected_by, expects, list_like
+from station.core.pieces import Piece
 from station.core.schema import Field as SchemaField
 from station.core.schema import anything, list_of, no_such, optional, title, whole
 from station.core.toml_faults import Faults, Noted, wrong
@@ -19,6 +20,8 @@ from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
 
 LIKE, ENDING, AT, NAME, TIMES = "like", "ending", "at", "name", "times"
+MAX_GRIDS = 500
+"""One for every fourth bar of the longest lesson (our choice)."""
 MAX_FORM = 1000
 """Entries of a form: more than one for every other bar of the longest lesson (our choice)."""
 
@@ -65,7 +68,12 @@ class WrittenGrid:
 
 
 def written_grids(raw: object, faults: Faults) -> list[WrittenGrid]:
-    """The one `[grid]` or the several `[[grid]]` of a file; `faults` have paths from the top."""
+    """The one `[grid]` or the several `[[grid]]` of a file; `faults` have paths from the top.
+
+    Raises `Wrong` where there are more than anyone practises.
+    """
+    if isinstance(raw, list) and len(raw) > MAX_GRIDS:
+        raise wrong(f"{len(raw)} grids; a lesson has at most {MAX_GRIDS}", "grid", MAX_GRIDS)
     grids: list[WrittenGrid] = []
     names: dict[str, int] = {}
     for i, each in enumerate(raw if isinstance(raw, list) else [raw]):
@@ -125,16 +133,31 @@ def _take_over(
 
 
 def _varied(model: Mapping[str, object], own: Mapping[str, object]) -> dict[str, object]:
-    """The table of a variation; a line of its own takes the place of the model's, whatever it is called there."""
-    pieces = {LINE_PIECES[key] for key in own if key in LINE_PIECES}
+    """The table of a variation; a line of its own takes the place of the model's, whatever it is called there.
+
+    A line that names no limb takes the place of all lines of its piece, one of a limb that of the same limb's, and of
+    one that names none.
+    """
+    plain = {LINE_PIECES[key] for key in own if key in LINE_PIECES}
+    by_limb = {limb: _pieces_of(own.get(limb)) for limb in LIMB_TABLES}
     kept = {key: value for key, value in model.items() if key not in _NOT_TAKEN_OVER}
-    kept = {key: value for key, value in kept.items() if LINE_PIECES.get(key) not in pieces or key not in LINE_PIECES}
-    merged = {**kept, **own}
-    for limb in LIMB_TABLES:
-        of_model, of_own = kept.get(limb), own.get(limb)
-        if isinstance(of_model, dict) and isinstance(of_own, dict):
-            merged[limb] = _varied(of_model, of_own)
+    merged = {**_without(kept, plain.union(*by_limb.values())), **own}
+    for limb, pieces in by_limb.items():
+        if isinstance(of_model := model.get(limb), dict) and isinstance(of_own := own.get(limb, {}), dict):
+            merged[limb] = {**_without(of_model, plain | pieces), **of_own}
     return merged
+
+
+def _pieces_of(lines: object) -> frozenset[Piece]:
+    """The pieces that the lines of a limb's table play."""
+    return (
+        frozenset(LINE_PIECES[key] for key in lines if key in LINE_PIECES) if isinstance(lines, dict) else frozenset()
+    )
+
+
+def _without(table: Mapping[str, object], pieces: Collection[Piece]) -> dict[str, object]:
+    """The table but for the lines of these pieces."""
+    return {key: value for key, value in table.items() if key not in LINE_PIECES or LINE_PIECES[key] not in pieces}
 
 
 def told_at_home(found: Faults, grid: WrittenGrid, grids: Sequence[WrittenGrid], known: Faults) -> list[Noted]:
@@ -144,13 +167,14 @@ def told_at_home(found: Faults, grid: WrittenGrid, grids: Sequence[WrittenGrid],
     them only here is told at `like`. Where nobody knows what it is like, its own lines say nothing of what it lacks.
     """
     told: list[Noted] = []
+    already = {(other.path, other.char) for other in known.noted}
     for fault in found.noted:
         if grid.like is None and (LIKE,) in grid.own and fault.path[len(grid.path) :] in ((), (STICKING,)):
             continue
         key = fault.path[len(grid.path)] if len(fault.path) > len(grid.path) else None
         if grid.like is None or not isinstance(key, str) or _says(grid, fault.path[len(grid.path) :]):
             told.append(fault)
-        elif not any(_same(fault, other, grid, grids) for other in known.noted):
+        elif (home_of(fault.path, grid, grids), fault.char) not in already:
             name = ".".join(str(part) for part in fault.path[len(grid.path) :])
             told.append(Noted(f"{name}, as in {grids[grid.like].name}: {fault.text}", (*grid.path, LIKE)))
     return told
@@ -178,10 +202,6 @@ def home_of(path: KeyPath, grid: WrittenGrid, grids: Sequence[WrittenGrid]) -> K
     return path
 
 
-def _same(fault: Noted, other: Noted, grid: WrittenGrid, grids: Sequence[WrittenGrid]) -> bool:
-    return (home_of(fault.path, grid, grids), fault.char) == (other.path, other.char)
-
-
 # --- endings ----------------------------------------------------------------------------------------------------------
 
 
@@ -205,11 +225,11 @@ def _no_late_endings(grids: Sequence[WrittenGrid], faults: Faults) -> None:
     for grid in grids:
         main = None if grid.ending_of is None else grids[grid.ending_of]
         times = main.raw.get(TIMES, 1) if main and isinstance(main.raw, dict) else None
-        late = [n + 1 for n in grid.repetitions if isinstance(times, int) and n >= times]
-        if late:
-            faults.add(
-                (*grid.path, ENDING), f"the grid before is played {times} times; there is no repetition {late[0]}"
-            )
+        if isinstance(times, bool) or not isinstance(times, int):
+            continue  # none, or what is told as no number of times
+        if late := [n + 1 for n in grid.repetitions if n >= times]:
+            often = "once" if times == 1 else f"{times} times"
+            faults.add((*grid.path, ENDING), f"the grid before is played {often}; there is no repetition {late[0]}")
 
 
 # --- the order --------------------------------------------------------------------------------------------------------
@@ -224,22 +244,36 @@ def played_order(raw: object, grids: Sequence[WrittenGrid], faults: Faults) -> l
     entries = faults.attempt(_entries, raw, nothing, "form")
     by_name = {grid.name: i for i, grid in reversed(list(enumerate(grids))) if grid.name}
     order: list[int] = []
-    before = len(faults)
+    wrong_names: set[str] = set()
     for place, name in enumerate(entries):
-        path: KeyPath = ("form", place) if isinstance(raw, list) else ("form",)
         found = by_name.get(name)
-        if found is None and any(_is_doubtful(grids[i], faults) for i in mains):
-            continue  # the grid that is meant may be the one that is at fault
-        if found is None:
-            known = [grids[i].name for i in mains if grids[i].name]
-            faults.add(path, no_such("grid", name, known) if known else "no grid has a name; expected name = …")
-        elif grids[found].is_ending:
-            faults.add(path, f"{name} is an ending, which is played after its grid; expected that grid's name")
-        else:
+        if found is not None and not grids[found].is_ending:
             order.append(found)
-    if entries and len(faults) == before:  # a name that nobody knows may be meant for what is never played
+        elif found is None and any(_is_doubtful(grids[i], faults) for i in mains):
+            wrong_names.add(name)  # the grid that is meant may be the one that is at fault
+        elif name not in wrong_names:  # each is told once
+            wrong_names.add(name)
+            faults.noted.append(Noted(_not_played(name, found, mains, grids), *_place_in_form(raw, place)))
+    if entries and not wrong_names:  # a name that nobody knows may be meant for what is never played
         _all_played(order, mains, grids, faults)
     return order or mains
+
+
+def _not_played(name: str, found: int | None, mains: Sequence[int], grids: Sequence[WrittenGrid]) -> str:
+    """Why the form cannot play `name`, which is the grid `found` or none."""
+    if found is not None:
+        return f"{name} is an ending, which is played after its grid; expected that grid's name"
+    known = [grids[i].name for i in mains if grids[i].name]
+    return no_such("grid", name, known) if known else "no grid has a name; expected name = …"
+
+
+def _place_in_form(raw: object, place: int) -> tuple[KeyPath, int | None]:
+    """Where an entry of the form stands: the path of the list's, or the index of its first letter in the text."""
+    if not isinstance(raw, str):
+        return ("form", place), None
+    entries = raw.split(",")
+    before = sum(len(entry) + 1 for entry in entries[:place])
+    return ("form",), before + len(entries[place]) - len(entries[place].lstrip())
 
 
 def _entries(value: object) -> tuple[str, ...]:
@@ -259,8 +293,9 @@ def _is_doubtful(grid: WrittenGrid, faults: Faults) -> bool:
 
 def _all_played(order: Sequence[int], mains: Sequence[int], grids: Sequence[WrittenGrid], faults: Faults) -> None:
     """Note grids that the form never plays."""
+    played = {grids[i].name for i in order}
     for grid in (grids[i] for i in sorted(set(mains) - set(order))):
-        if _is_doubtful(grid, faults):
+        if _is_doubtful(grid, faults) or grid.name in played:  # of two with one name that is told already
             continue
         if grid.name:
             faults.add((*grid.path, NAME), f"never played; expected {grid.name} in form")

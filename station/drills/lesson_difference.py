@@ -8,6 +8,8 @@ from station.core.pieces import word
 from station.drills.lesson import Lesson
 from station.music.score import NOTE_DTYPE, Score
 
+_SILENT = ("midi_note", "swing_ticks")
+"""Columns that no player hears: where a note came from, and how the swing that it is played with is written."""
 _APART = ("score", "landing", "name", "text")
 """Fields that are compared in their own way, or not: a lesson may be written to another file in another layout."""
 
@@ -31,7 +33,7 @@ def score_difference(a: Score, b: Score) -> str:
     if len(a) != len(b):
         return f"{len(a)} strokes became {len(b)}"
     for name in NOTE_DTYPE.names or ():
-        if name == "midi_note":
+        if name in _SILENT:
             continue
         left, right = a.notes[name], b.notes[name]
         same = (left == right) | (np.isnan(left) & np.isnan(right))

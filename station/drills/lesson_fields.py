@@ -21,6 +21,7 @@ from station.core.schema import (
     prose,
     row_of,
     said,
+    shown,
     table_like,
     table_of,
     title,
@@ -45,6 +46,8 @@ from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 MAX_PASSES = 1000
 MAX_COUNT_IN_BARS = 8
 MAX_DEMONSTRATIONS = 20
+MAX_PREREQUISITES = 100
+"""Our choice: nobody masters more for the sake of one lesson."""
 DEFAULT_TIMING = GridTiming(80.0, (MeterChange(0, 4, 4),), PPQ)
 """Where a file says no tempo: a slow walk, our choice."""
 
@@ -55,6 +58,16 @@ def _word(value: object) -> str:
     if not word:
         raise wrong('expected a word such as "rock"')
     return word
+
+
+_NAMES = list_of(_word, 'a list of lessons, such as ["rock-1", "rock-2"]')
+
+
+@expects(list_like(LINE))
+def _prerequisites(value: object) -> tuple[str, ...]:
+    if isinstance(value, list) and len(value) > MAX_PREREQUISITES:
+        raise wrong(f"{len(value)} entries; expected at most {MAX_PREREQUISITES}")
+    return _NAMES(value)
 
 
 @expects(LINE)
@@ -81,7 +94,7 @@ _SMALLEST_FAULT, _LARGEST_FAULT = 0.1, 1000.0
 def _fault_size(value: object) -> float | None:
     """From which size a fault counts; None for `MUTE`."""
     if isinstance(value, str) and value != MUTE:
-        raise wrong(f'expected a size, or "{MUTE}", found "{value}"')
+        raise wrong(f'expected a size, or "{MUTE}", found {shown(value)}')
     return None if value == MUTE else number(_SMALLEST_FAULT, _LARGEST_FAULT)(value)
 
 
@@ -101,7 +114,7 @@ _PART: Fields = {
 }
 """What may be asked of all of the lesson, of one limb, and of some bars."""
 _BARS = row_of([whole(1, MAX_BARS)] * 2, "two bar numbers such as [3, 4]")
-_BAR_PART: Fields = {
+BAR_GOALS: Fields = {
     "bars": Field(_BARS, None, "two bar numbers such as bars = [3, 4]"),
     **_PART,
     "max_tempo_error_pct": optional(number(0.1, 50)),
@@ -121,9 +134,9 @@ def _limb_goals(raw: object) -> PartGoals:
     return _part(*checked_values(raw, _PART))
 
 
-@expects(table_like(_BAR_PART))
+@expects(table_like(BAR_GOALS))
 def _bar_goals(raw: object) -> BarGoals:
-    values, faults = checked_values(raw, _BAR_PART)
+    values, faults = checked_values(raw, BAR_GOALS)
     bars = values.pop("bars")
     if bars and bars[1] < bars[0]:
         faults.add(("bars",), f"bar {bars[1]} comes before bar {bars[0]}; expected the first bar first")
@@ -175,7 +188,7 @@ FIELDS: Fields = {
     "level": Field(whole(min(LEVELS), max(LEVELS)), 1),
     "tags": Field(list_of(_word, 'a list of words, such as ["rock", "groove"]'), ()),
     "about": Field(prose, ""),
-    "prerequisites": Field(list_of(_word, 'a list of lessons, such as ["rock-1", "rock-2"]'), ()),
+    "prerequisites": Field(_prerequisites, ()),
     "kit": Field(prose, ""),
     **TIMING,
     "loop": optional(_LOOP),  # read when the bars are known

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.core.files import read_regular
 from station.core.schema import Reader, checked_values, read, reading, row_of, whole
-from station.core.toml_faults import Fault, Faults, wrong
+from station.core.toml_faults import Fault, Faults, Wrong, wrong
 from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ
 from station.drills.bar_cues import GridShape, read_cues
@@ -27,6 +27,7 @@ from station.drills.grid.grid_reader import read_grid
 from station.drills.grid.grid_timing import GridTiming, timing_of
 from station.drills.grid.landing import read_landing
 from station.drills.grid.voice import MAX_BARS, MAX_CELLS, CellCount
+from station.drills.key_homes import sent_home
 from station.drills.lesson import Goals, Lesson
 from station.drills.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
 from station.drills.stretches import (
@@ -40,10 +41,14 @@ from station.drills.stretches import (
     tempos_of,
 )
 from station.drills.unplayable import note_unplayable
+from station.music.loudness_marks import joined_marks
 from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoMap
 
 LANDING = "landing"
+MAX_CUES_WRITTEN = 1000
+"""Entries of `at` in all grids, those that variations take over too: one for every other bar of the longest lesson (our
+choice)."""
 _MIDI = b"MThd"
 """How a MIDI file begins."""
 
@@ -80,7 +85,14 @@ def parse_lesson(text: str, source: str, name: str) -> Reading:
 
 def lesson_reader(name: str) -> Reader[Lesson]:
     """The schema of the file of the lesson called `name`."""
-    return lambda raw: _lesson(name, *checked_values(raw, FIELDS))
+
+    def read_file(raw: object) -> Lesson:
+        try:
+            return _lesson(name, *checked_values(raw, FIELDS))
+        except Wrong as found:
+            raise Wrong(*sent_home(found.faults)) from None
+
+    return read_file
 
 
 def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
@@ -104,7 +116,7 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
         beat_ticks=timing.beat_ticks,
         sections=sections_of(stretches),
         velocities=timing.velocities,
-        cues=cues_of(stretches),
+        cues=faults.attempt(lambda _: cues_of(stretches), None, ()),
         landing=landing,
         **{key: values[key] for key in AS_THEY_ARE},
     )
@@ -123,7 +135,11 @@ def _written(raw: object, faults: Faults) -> list[WrittenGrid]:
     """The grids as the file has them; raises `Wrong` where there is more to read than anyone practises."""
     if raw == []:
         faults.add(("grid",), "no grid to play; expected a table [grid] with lines in it")
-    grids = written_grids(raw, faults)
+    nothing: list[WrittenGrid] = []
+    grids = faults.attempt(lambda value: written_grids(value, faults), raw, nothing)
+    if (entries := sum(len(grid.at) for grid in grids if isinstance(grid.at, list))) > MAX_CUES_WRITTEN:
+        faults.add(("grid",), f"{entries} entries of at; a lesson has at most {MAX_CUES_WRITTEN}")
+        return []
     if (cells := sum(_cell_count(grid.raw) for grid in grids)) > MAX_CELLS:
         faults.add(("grid",), f"{cells} letters; a lesson has at most {MAX_CELLS}")
         return []
@@ -157,7 +173,7 @@ def _read_grids(written: Sequence[WrittenGrid], timing: GridTiming, faults: Faul
         bars, strokes = bars + section.bar_count * section.times, strokes + sum(map(len, section.parts))
         check_size(bars, strokes, each)
     if grids and not any(any(grid.section.parts) for grid in grids) and not faults:
-        faults.add(("grid",), "nothing to play: every cell is a rest", at_key=True)
+        faults.miss(("grid",), "has nothing to play: every cell is a rest")
     return grids
 
 
@@ -174,7 +190,8 @@ def _score(stretches: Sequence[Stretch], written: Sequence[WrittenGrid], faults:
         for origin in {(o.path): o for o in origins}.values()
     }
     at_home = [Origin(homes[origin.path], origin.char) for origin in origins]
-    return Score.from_array(rows[order], tempo_map, end), [at_home[i] for i in order]
+    loudness = joined_marks((s.start_tick, s.grid.section.loudness) for s in stretches)
+    return Score.from_array(rows[order], tempo_map, end, loudness=loudness), [at_home[i] for i in order]
 
 
 def _grid_path(origin: Origin) -> tuple[str | int, ...]:
@@ -236,8 +253,10 @@ def _goals(goals: Goals, lesson: Lesson, faults: Faults) -> Goals:
 
 
 def _check_prerequisites(lesson: Lesson, faults: Faults) -> None:
+    earlier: set[str] = set()
     for i, name in enumerate(lesson.prerequisites):
         if name == lesson.name:
             faults.add(("prerequisites", i), f"{name} is this lesson itself; expected another")
-        elif name in lesson.prerequisites[:i]:
+        elif name in earlier:
             faults.add(("prerequisites", i), f"{name} stands here twice")
+        earlier.add(name)

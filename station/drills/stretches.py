@@ -23,6 +23,9 @@ MAX_STROKES = 20_000
 MAX_STEPS = 20_000
 """Steps of all ramps, 5000 beats: more than the longest lesson in quarters needs in half an hour (our choice)."""
 
+MAX_CUES = 2 * MAX_BARS
+"""Two for every bar of the longest lesson (our choice)."""
+
 
 @dataclass(frozen=True, slots=True)
 class ReadGrid:
@@ -99,13 +102,15 @@ def sections_of(stretches: Sequence[Stretch]) -> tuple[Section, ...]:
 
 
 def cues_of(stretches: Sequence[Stretch]) -> tuple[BarCue, ...]:
-    """The words, cameras and styles of all bars, in their order."""
-    return tuple(
-        cue.at_bar(stretch.first_bar)
-        for stretch in stretches
-        for cue in stretch.grid.cues
-        if cue.is_in(stretch.repetition) and (cue.say or cue.camera or cue.style)
-    )
+    """The words, cameras and styles of all bars in order; raises `Wrong` where they are more than anyone reads."""
+    cues: list[BarCue] = []
+    for stretch in stretches:
+        here = (cue for cue in stretch.grid.cues if cue.is_in(stretch.repetition))
+        cues += [cue.at_bar(stretch.first_bar) for cue in here if cue.say or cue.camera or cue.style]
+        if len(cues) > MAX_CUES:
+            text = f"{len(cues)} words, cameras and styles as played up to here; a lesson has at most {MAX_CUES}"
+            raise wrong(text, *stretch.grid.written.path)
+    return tuple(cues)
 
 
 def meters_of(stretches: Sequence[Stretch]) -> list[MeterChange]:
@@ -117,11 +122,11 @@ def tempos_of(stretches: Sequence[Stretch]) -> list[TempoChange]:
     """Every change of tempo; raises `Wrong` where ramps have more steps than anyone hears."""
     tempos: list[TempoChange] = []
     for _, turn in groupby(stretches, lambda s: s.turn):
-        for each in _turn_tempos(list(turn)):
-            tempos += each
+        for change in _turn_tempos(list(turn)):
+            tempos.append(change)
             if len(tempos) > MAX_STEPS:
-                text = f"the tempo changes {len(tempos)} times up to here, {STEPS_A_BEAT} times a beat"
-                raise wrong(f"{text}; a lesson has at most {MAX_STEPS} changes", *turn_path(stretches, tempos[-1].tick))
+                text = f"the tempo changes {STEPS_A_BEAT} times a beat; a lesson has at most {MAX_STEPS} changes"
+                raise wrong(text, *turn_path(stretches, change.tick))
     return tempos
 
 
@@ -130,8 +135,8 @@ def turn_path(stretches: Sequence[Stretch], tick: int) -> tuple[str | int, ...]:
     return next(s for s in reversed(stretches) if s.start_tick <= tick).grid.written.path
 
 
-def _turn_tempos(turn: Sequence[Stretch]) -> Iterator[list[TempoChange]]:
-    """The tempo over each stretch of a turn: one line over all of them, but for endings with a tempo of their own."""
+def _turn_tempos(turn: Sequence[Stretch]) -> Iterator[TempoChange]:
+    """The tempo over a turn: one line over all of them, but for endings with a tempo of their own."""
     main = turn[0]
     whole = _ramp(main, turn[-1].end_tick)
     for stretch in turn:
@@ -143,7 +148,7 @@ def _turn_tempos(turn: Sequence[Stretch]) -> Iterator[list[TempoChange]]:
             if cue.tempo and cue.is_in(stretch.repetition)
         ]
         beat_ticks = owner.grid.section.timing.beat_ticks
-        yield list(marked_tempos(ramp, marks, stretch.start_tick, stretch.end_tick, beat_ticks))
+        yield from marked_tempos(ramp, marks, stretch.start_tick, stretch.end_tick, beat_ticks)
 
 
 def _ramp(stretch: Stretch, end: int) -> Ramp:

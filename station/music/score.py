@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import CHOKEABLE, Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
+from station.music.loudness_marks import LoudnessMark, joined_marks, marks_within
 from station.music.tempo import TempoMap
 
 NOTE_DTYPE = np.dtype(
@@ -34,6 +35,7 @@ NOTE_DTYPE = np.dtype(
         ("ornament", np.uint8),
         ("limb", np.int8),  # the written sticking; Limb.UNKNOWN where none is written
         ("midi_note", np.uint8),  # as in the file it came from; 0 where there was none
+        ("swing_ticks", np.int64),  # > 0: swing has it so much later than notation writes it
     ]
 )
 
@@ -55,6 +57,7 @@ class Note:
     duration_ticks: int = 0
     choke_ticks: int = 0
     midi_note: int = 0
+    swing_ticks: int = 0
 
 
 def _row(note: Note) -> tuple[float | int, ...]:
@@ -78,21 +81,31 @@ def _note(row: np.void) -> Note:
         duration_ticks=int(row["duration_ticks"]),
         choke_ticks=int(row["choke_ticks"]),
         midi_note=int(row["midi_note"]),
+        swing_ticks=int(row["swing_ticks"]),
     )
 
 
 @dataclass(frozen=True, eq=False)
 class Score:
-    """Strokes (`notes`, shape (n,), dtype `NOTE_DTYPE`) over `tempo_map`; `end_tick` is where the last bar ends."""
+    """Strokes (`notes`, shape (n,), dtype `NOTE_DTYPE`) over `tempo_map`; `end_tick` is where the last bar ends.
+
+    `loudness` has the marks and hairpins of the part, by their ticks.
+    """
 
     notes: NDArray[np.void]
     tempo_map: TempoMap = field(default_factory=TempoMap)
     end_tick: int = 0
     title: str = ""
+    loudness: tuple[LoudnessMark, ...] = ()
 
     @classmethod
     def from_array(
-        cls, notes: NDArray[np.void], tempo_map: TempoMap, end_tick: int | None = None, title: str = ""
+        cls,
+        notes: NDArray[np.void],
+        tempo_map: TempoMap,
+        end_tick: int | None = None,
+        title: str = "",
+        loudness: tuple[LoudnessMark, ...] = (),
     ) -> "Score":
         """A score of rows in any order; without `end_tick` it ends with the bar of its last stroke."""
         rows = notes[np.lexsort((notes["piece"], -notes["lead_ms"], notes["tick"]))]
@@ -100,7 +113,7 @@ class Score:
         if end_tick is None:
             last = int(rows["tick"].max()) if len(rows) else 0
             end_tick = tempo_map.bar_start(int(tempo_map.bars_at(last)) + 1)
-        return cls(rows, tempo_map, end_tick, title)
+        return cls(rows, tempo_map, end_tick, title, loudness)
 
     @classmethod
     def from_notes(
@@ -166,7 +179,8 @@ class Score:
         start, end = self.tempo_map.bar_start(first), self.tempo_map.bar_start(last + 1)
         rows = self.notes[(self.notes["tick"] >= start) & (self.notes["tick"] < end)].copy()
         rows["tick"] -= start
-        return Score.from_array(rows, self.tempo_map.section(start, end), end - start, self.title)
+        loudness = marks_within(self.loudness, start, end)
+        return Score.from_array(rows, self.tempo_map.section(start, end), end - start, self.title, loudness)
 
     def until_ns(self, stop_ns: int) -> "Score":
         """The strokes that sound before `stop_ns` from tick 0, over the same bars."""
@@ -186,7 +200,8 @@ class Score:
         if not len(landing):
             return self
         last = self.tempo_map.section(self.end_tick - 1, self.end_tick)
-        return Score.joined([self, Score.from_array(landing, last, last.meters[0].bar_ticks)])
+        whole = Score.joined([self, Score.from_array(landing, last, last.meters[0].bar_ticks)])
+        return replace(whole, loudness=self.loudness)  # a landing has no mark of its own
 
     @staticmethod
     def joined(parts: Sequence["Score"]) -> "Score":
@@ -200,7 +215,16 @@ class Score:
             sounding = part.tempo_map.section(0, part.end_tick)  # what changes after its end is not for the next part
             tempos += [replace(t, tick=t.tick + at) for t in sounding.tempos]
             meters += [replace(m, tick=m.tick + at) for m in sounding.meters]
-        return Score.from_array(rows, TempoMap.build(tempos, meters), starts[-1], parts[0].title)
+        loudness = joined_marks((at, part.loudness) for at, part in zip(starts, parts, strict=False) if len(part))
+        return Score.from_array(rows, TempoMap.build(tempos, meters), starts[-1], parts[0].title, loudness)
+
+    @property
+    def as_written(self) -> "Score":
+        """The strokes where notation writes them: straight under the word swing."""
+        rows = self.notes.copy()
+        rows["tick"] -= rows["swing_ticks"]
+        rows["swing_ticks"] = 0
+        return Score.from_array(rows, self.tempo_map, self.end_tick, self.title, self.loudness)
 
     def at_speed(self, factor: float) -> "Score":
         """The same strokes played `factor` times as fast; grace leads keep their milliseconds."""

@@ -14,8 +14,9 @@ from station.core.pieces import Piece
 from station.core.units import NS_PER_S
 from station.music.performance import Performance
 from station.music.score import Score
-from station.scoring.following.free_tempo import NO_CLASS, align_unclocked
+from station.scoring.following.free_tempo import align_unclocked
 from station.scoring.following.warp import click_warp, written_of
+from station.scoring.following.written import may_bounce
 from station.scoring.matching.alignment import Alignment, Reference, Timed, labelled
 from station.scoring.matching.assignment import MOST_CLASSES
 from station.scoring.matching.click_offset import common_bias_ns
@@ -53,9 +54,9 @@ def _share_a_class(note_class: Indices, hit_class: Indices) -> bool:
 def align_clocked(score: Score, performance: Performance, note_class: Indices, hit_class: Indices) -> Alignment:
     """The alignment of hits whose times are score time."""
     at_ns: NDArray[np.int64] = np.asarray(performance.hits["at_ns"])
-    led = ~Unwritten(score).surely_bounces(performance)  # bounces would say that all presses came early
-    bias_ns = common_bias_ns(score.onset_ns, note_class, at_ns[led], hit_class[led])
-    warp = click_warp(written_of(score, note_class), (at_ns - bias_ns) / NS_PER_S, np.where(led, hit_class, NO_CLASS))
+    bounces = Unwritten(score).may_bounce(performance)  # they would say that all presses came early
+    bias_ns = common_bias_ns(score.onset_ns, note_class, at_ns[~bounces], hit_class[~bounces])
+    warp = click_warp(written_of(score, note_class), (at_ns - bias_ns) / NS_PER_S, may_bounce(hit_class, bounces))
     attempt = np.zeros(len(at_ns), np.int64)
     if warp is not None:
         at_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64) + bias_ns

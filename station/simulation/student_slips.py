@@ -1,10 +1,10 @@
 """What a virtual student gets wrong at random: strokes left out, strokes on another piece, strokes that nobody wrote.
 
 A slip must be beyond dispute, or its truth would not be known: a stroke that nobody wrote keeps `CLEAR_MS` away from
-every written stroke of its piece and from every note that was not rightly played, as far as there is room; a wrong
-piece is one on which nothing is written near by, and never one that stands in for the right one on a smaller kit.
-Unwritten chicks, feathered kicks and ghosts are nobody's slip, so extras are of plain loudness and never of the hi-hat
-foot.
+every written stroke and roll of its piece and from every note that was not rightly played, as far as there is room,
+and none comes after the last written stroke; a wrong piece is one on which nothing is written near by, and never one
+that stands in for the right one on a smaller kit. Unwritten chicks, feathered kicks and ghosts are nobody's slip, so
+extras are of plain loudness and never of the hi-hat foot.
 
 An ornament is left out, or lands on another piece, together with its main stroke.
 """
@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Limb, Piece
+from station.core.pieces import Articulation, Limb, Piece
 from station.core.units import NS_PER_MS, PPQ
 from station.music.judgement import Label
 from station.music.passages import slots
@@ -99,8 +99,8 @@ class Slipper:
         if count == 0:
             return np.empty(0, np.int64), np.empty(0, np.uint8)
         step = _grid(score)
-        last_beat_end = (int(score.notes["tick"].max()) // PPQ + 1) * PPQ  # nobody slips when all is played
-        ticks = np.arange(0, max(min(score.end_tick, last_beat_end), step), step)
+        # music is over with its last stroke: who lands on a one does not play on in the rests of its bar
+        ticks = np.arange(0, max(int(score.notes["tick"].max()), step), step)
         wrongly_played = np.flatnonzero(label != Label.MATCH)
         # a stroke at the very end would be the landing that nobody counts
         disputed_ns = np.sort(np.append(where.onset_ns[wrongly_played], score.length_ns))
@@ -138,14 +138,26 @@ class _SlipPlace:
         self._of_piece = {
             Piece(p): np.sort(self.onset_ns[score.notes["piece"] == p]) for p in np.unique(score.notes["piece"])
         }
+        buzzes = score.notes["piece"][score.notes["articulation"] == Articulation.BUZZ]
+        self._buzzed_ns = {Piece(p): _buzzed_ns(score, Piece(p)) for p in np.unique(buzzes)}
         strikable = {p: len(at) for p, at in self._of_piece.items() if p is not Piece.HIHAT_PEDAL}
         total = sum(strikable.values())
         beside = {n for p in strikable for n in _NEIGHBOURS.get(p, ())} or {Piece.SNARE}
         self.shares = dict.fromkeys(sorted(beside), BRUSHED_SHARE) | {p: n / total for p, n in strikable.items()}
 
     def distance_ms(self, piece: Piece, ticks: NDArray[np.int64]) -> NDArray[np.float64]:
-        """From each tick to the nearest written stroke of `piece`; infinite where there is none."""
-        return _distance_ms(self._of_piece.get(piece, np.empty(0, np.int64)), self._score.tempo_map.ns_at(ticks))
+        """From each tick to the nearest written stroke of `piece`; infinite where there is none, 0 while it is buzzed.
+
+        A stroke more in a roll is a bounce, to whoever hears it.
+        """
+        at_ns = self._score.tempo_map.ns_at(ticks)
+        distance = _distance_ms(self._of_piece.get(piece, np.empty(0, np.int64)), at_ns)
+        if piece in self._buzzed_ns:
+            begins, ends = self._buzzed_ns[piece]
+            buzz = np.searchsorted(begins, at_ns, side="right") - 1
+            since_ms = (at_ns - np.where(buzz >= 0, ends[buzz], -_LONG_AGO_NS)) / NS_PER_MS
+            distance = np.minimum(distance, np.maximum(since_ms, 0.0))
+        return distance
 
     def free_neighbour(self, row: int, draw: float) -> Piece | None:
         """A piece beside the one of `row` with nothing written on it near by; `draw` in [0, 1) chooses."""
@@ -153,6 +165,18 @@ class _SlipPlace:
         beside = _NEIGHBOURS.get(Piece(int(self._score.notes["piece"][row])), ())
         free = [p for p in beside if _distance_ms(self._of_piece.get(p, np.empty(0, np.int64)), at)[0] >= CLEAR_MS]
         return free[int(draw * len(free))] if free else None
+
+
+_LONG_AGO_NS = 2**60
+
+
+def _buzzed_ns(score: Score, piece: Piece) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """When the buzzes of `piece` begin, rising, and when the latest of them until then ends."""
+    notes = score.notes
+    rows = np.flatnonzero((notes["piece"] == piece) & (notes["articulation"] == Articulation.BUZZ))
+    ends = score.tempo_map.ns_at(notes["tick"][rows] + notes["duration_ticks"][rows])
+    order = np.argsort(score.onset_ns[rows], kind="stable")
+    return score.onset_ns[rows][order], np.maximum.accumulate(ends[order])
 
 
 def _distance_ms(sorted_ns: NDArray[np.int64], at_ns: NDArray[np.int64]) -> NDArray[np.float64]:

@@ -36,14 +36,18 @@ class Origin:
 
 @dataclass(frozen=True, slots=True)
 class CellPlace:
-    """A moment of the music in ticks: where it is written, `straight`, and where it is `played`, swing and all."""
+    """A moment of the music in ticks: its cell, `straight`, and where it is `played`, swing and all.
+
+    `swing_ticks` is how much later it is played than notation writes it (`Swing.stands_in_words`).
+    """
 
     straight: int
     played: int
+    swing_ticks: int = 0
 
     def moved(self, ticks: int) -> "CellPlace":
         """The same moment `ticks` later."""
-        return CellPlace(self.straight + ticks, self.played + ticks)
+        return CellPlace(self.straight + ticks, self.played + ticks, self.swing_ticks)
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +62,8 @@ class BarClock:
         if not swings:
             return CellPlace(tick, tick)
         bar = self.bars[bisect_right(self.bars, tick, key=lambda b: b.tick) - 1]
-        return CellPlace(tick, bar.tick + self.swing.swung(tick - bar.tick, bar))
+        played = bar.tick + self.swing.swung(tick - bar.tick, bar)
+        return CellPlace(tick, played, played - tick if self.swing.stands_in_words else 0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -241,6 +246,7 @@ def _row(
     letter = stroke.letter
     values: dict[str, float] = {
         "tick": stroke.place.played,
+        "swing_ticks": stroke.place.swing_ticks,
         "openness": np.nan if letter.openness is None else letter.openness,
         "piece": stroke.piece,
         "zone": letter.zone,

@@ -42,7 +42,7 @@ def _read_cycle(raw: object, path: KeyPath, faults: Faults) -> list[Cycle]:
     values, found = checked_values(raw, CYCLE, "line")
     lines = lines_of_table(values, path, found)
     if not lines and not found:
-        found.add((), 'no line to play; expected one such as cowbell = "x--x-"', at_key=True)
+        found.miss((), 'has no line to play; expected one such as cowbell = "x--x-"')
     are_all = not found
     faults.merge(found, *path)
     if not lines or values["meter"] is None:
@@ -57,10 +57,11 @@ def cycle_strokes(
     frames = [GridFrame(cycle.meter, beat_ticks)]
     lines = [parsed(raw, frames, faults) for raw in cycle.lines]
     under = None if cycle.sticking is None else parsed(cycle.sticking, frames, faults)
-    bars = agreed_bars([*lines, *([under] if under else [])], faults)
+    beside = [under] if under else []
+    bars = agreed_bars([*lines, *beside], faults)
     length = cycle.meter.bar_ticks
     rounds = -(-end_tick // (bars * length))
-    count.add(lines, rounds)
+    count.add([*lines, *beside], rounds)
     strokes: list[WrittenCell] = []
     for number in range(rounds):
         starts = [(number * bars + bar) * length for bar in range(bars)]

@@ -17,6 +17,7 @@ from station.drills.grid.loudness import Loudness, read_loudness
 from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.swing import STRAIGHT
 from station.drills.grid.voice import MAX_BARS, CellCount, ParsedLine, agreed_bars, parsed, voice_strokes
+from station.music.loudness_marks import LoudnessMark
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
 MAX_TIMES = 100
@@ -28,13 +29,15 @@ class GridSection:
     """One grid, read, from tick 0.
 
     `meters` has each bar of one repetition, the tick of each its start; `parts` the strokes of each repetition, their
-    ticks counted from its own start: repetitions differ where cycles run on over them.
+    ticks counted from its own start: repetitions differ where cycles run on over them. `loudness` has the marks of each
+    repetition, from its start.
     """
 
     name: str
     timing: GridTiming
     meters: tuple[MeterChange, ...]
     parts: tuple[tuple[WrittenCell, ...], ...]
+    loudness: tuple[LoudnessMark, ...] = ()
 
     @property
     def times(self) -> int:
@@ -92,7 +95,7 @@ def read_grid(
     timing = timing_of(values, before, found, path)
     lines = lines_of_table(values, path, found)
     if not lines and values["cycle"] is None and not found:
-        found.add((), 'no line to play; expected one such as snare = "----o-------o---"', at_key=True)
+        found.miss((), 'has no line to play; expected one such as snare = "----o-------o---"')
     are_all = not found
     faults.merge(found, *path)
     if not timing.is_sure:
@@ -137,7 +140,7 @@ class _Builder:
         parts = [self._struck([*own, *more], level) for more in self._cycled(bars, length, times)]
         if len(self.faults) == before:
             self._check_said(count)
-        return GridSection(self.values["name"], self.timing, bars, tuple(parts))
+        return GridSection(self.values["name"], self.timing, bars, tuple(parts), level.marks)
 
     def _check_said(self, count: int) -> None:
         """Note that the grid says it has more or fewer bars than its lines."""
@@ -153,8 +156,8 @@ class _Builder:
         """The bars of the grid, as its lines have them, or as it says where all of them are cycles."""
         said: int | None = self.values["bars"]
         if not lines and self.cycles and said is None:
-            text = "bars is missing; expected how many bars the cycles run, such as bars = 4"
-            self.faults.add(self.path, text, at_key=True)
+            text = "is missing; expected how many bars the cycles run, such as bars = 4"
+            self.faults.miss((*self.path, "bars"), text)
         count = agreed_bars(lines, self.faults) if lines else said or 1
         if count * times > MAX_BARS:
             where = lines[0].raw.line.path if lines else (*self.path, "bars")

@@ -96,8 +96,8 @@ def note_length(value: object) -> int:
 
 
 _VELOCITIES: Fields = {key: optional(whole(MIN_VELOCITY, MAX_VELOCITY)) for key in ("ghost", "normal", "accent")}
-_DYNAMICS: Fields = {**_VELOCITIES, **{key: optional(said(_VELOCITIES)) for key in LINE_PIECES}}
-_GRACES: Fields = {
+DYNAMICS: Fields = {**_VELOCITIES, **{key: optional(said(_VELOCITIES)) for key in LINE_PIECES}}
+GRACES: Fields = {
     "flam_ms": optional(number(10, 80)),
     "drag_ms": optional(number(20, 120)),
     "share": optional(number(0.1, 1)),
@@ -110,8 +110,8 @@ TIMING: Fields = {
     "beat": optional(note_length),
     "swing_ratio": optional(number(MIN_RATIO, MAX_RATIO)),
     "swing_unit": optional(note_length),
-    "dynamics": optional(said(_DYNAMICS)),
-    "graces": optional(said(_GRACES)),
+    "dynamics": optional(said(DYNAMICS)),
+    "graces": optional(said(GRACES)),
 }
 
 

@@ -34,7 +34,7 @@ def read_landing(
     values, found = checked_values(raw, LINES, "line")
     lines = lines_of_table(values, path, found)
     if not lines and not found:
-        found.add((), 'nothing to land on; expected a line such as crash = "X"', at_key=True)
+        found.miss((), 'has nothing to land on; expected a line such as crash = "X"')
     are_all = not found
     faults.merge(found, *path)
     frames = [GridFrame(_BEAT, _BEAT.beat_ticks)]

@@ -14,20 +14,18 @@ from types import MappingProxyType
 from station.core.schema import either
 from station.drills.grid.grid import Bar, Cell, Report
 from station.drills.grid.tab_symbols import RESTS
+from station.music.loudness_marks import FADE, GROW, USUAL, LoudnessMark
 
 STICK_HEIGHTS_IN: Mapping[str, float] = MappingProxyType(
     {"ppp": 1, "pp": 2, "p": 3, "mp": 4.5, "mf": 6, "f": 9, "ff": 12, "fff": 15}
 )
 """Inches to which the stick rises for each mark, as marching percussion counts them (docs/lesson-format.md)."""
-_WRITTEN = "mf"
-"""The mark at which velocities are as written."""
-GROW, FADE = "<", ">"
 _HAIRPINS = MappingProxyType({GROW: "grows", FADE: "fades"})
 
 
 def gain_of(mark: str) -> float:
     """What `mark` multiplies velocities by: the stick's speed at the drum goes with the root of its height."""
-    return sqrt(STICK_HEIGHTS_IN[mark] / STICK_HEIGHTS_IN[_WRITTEN])
+    return sqrt(STICK_HEIGHTS_IN[mark] / STICK_HEIGHTS_IN[USUAL])
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,11 +39,15 @@ class _Event:
 
 @dataclass(frozen=True, slots=True)
 class Loudness:
-    """Gains at `ticks`, which rise; between two they change evenly in decibels where `ramps` says so at the first."""
+    """Gains at `ticks`, which rise; between two they change evenly in decibels where `ramps` says so at the first.
+
+    `marks` is what the line says, as notation shows it.
+    """
 
     ticks: tuple[int, ...] = (0,)
     gains: tuple[float, ...] = (1.0,)
     ramps: tuple[bool, ...] = (False,)
+    marks: tuple[LoudnessMark, ...] = ()
 
     def gain(self, tick: int) -> float:
         """The factor at `tick`, straight, from the start of the grid."""
@@ -59,11 +61,13 @@ class Loudness:
 def read_loudness(bars: Iterable[tuple[int, Bar]], report: Report) -> Loudness:
     """What a loudness line says, its bars each with the tick of its start; faults go to `report`."""
     ticks, gains, ramps = [0], [1.0], [False]
+    marks: list[LoudnessMark] = []
     open_pin: _Event | None = None
     for event in _events(bars, report):
         if event.word in _HAIRPINS:
             if open_pin is None:
                 open_pin = event
+                marks.append(LoudnessMark(event.tick, event.word))
                 ticks, gains, ramps = [*ticks, event.tick], [*gains, gains[-1]], [*ramps, True]
             elif open_pin.word != event.word:
                 text = f"{event.word} follows {open_pin.word} without a mark between them that says how loud it gets"
@@ -76,12 +80,13 @@ def read_loudness(bars: Iterable[tuple[int, Bar]], report: Report) -> Loudness:
             text = f"{open_pin.word} {_HAIRPINS[open_pin.word]}, but {event.word} is not {louder} than it is there"
             report(open_pin.char, f"{text}; expected a {louder} mark after it")
         open_pin = None
+        marks.append(LoudnessMark(event.tick, event.word))
         ticks, gains, ramps = [*ticks, event.tick], [*gains, gain], [*ramps, False]
     if open_pin:
         example = "f" if open_pin.word == GROW else "p"
         report(open_pin.char, f"{open_pin.word} without a mark after it in this grid; expected one such as {example}")
         ramps[-1] = False
-    return Loudness(tuple(ticks), tuple(gains), tuple(ramps))
+    return Loudness(tuple(ticks), tuple(gains), tuple(ramps), tuple(marks))
 
 
 def _events(bars: Iterable[tuple[int, Bar]], report: Report) -> list[_Event]:

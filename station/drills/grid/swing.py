@@ -12,7 +12,7 @@ from fractions import Fraction
 from station.core.units import PPQ
 from station.music.tempo import MeterChange
 
-STRAIGHT = 1.0
+STRAIGHT, TRIPLETS = 1.0, 2.0
 MIN_RATIO, MAX_RATIO = 1.0, 3.5
 """The range that drummers play (HUMANS: Friberg & Sundström, 1 at 300 bpm to 3.5 at 120)."""
 _LIMIT_DENOMINATOR = 1000
@@ -40,6 +40,15 @@ class Swing:
         if inside <= self.unit_ticks:
             return start + round(inside * 2 * long_share)
         return start + round(pair * long_share + (inside - self.unit_ticks) * 2 * (1 - long_share))
+
+    @property
+    def stands_in_words(self) -> bool:
+        """Whether notation writes it as a word over straight cells.
+
+        Triplets say a ratio of 2 exactly, and in such a lesson some are triplets indeed. No other ratio can be written
+        in notes that anyone reads.
+        """
+        return self.ratio not in (STRAIGHT, TRIPLETS)
 
     @property
     def _long_share(self) -> Fraction:

@@ -123,10 +123,11 @@ def _too_fast(score: Score) -> list[Impossible]:
 
 @dataclass(frozen=True, slots=True)
 class _Crew:
-    """Whose strokes share a speed limit: a `name` and its `verb`, `rows` of the score (n,), spans in seconds."""
+    """Whose strokes share a speed limit: `name` and `verb`, how many limbs, `rows` of the score (n,), spans in s."""
 
     name: str
     verb: str
+    limbs: int
     rows: NDArray[np.bool_]
     spans_s: Mapping[int, float]
 
@@ -135,9 +136,9 @@ def _crews(score: Score) -> list[_Crew]:
     """Both hands together, then each limb."""
     together = {2 * n - 1: span for n, span in SPANS_S[Limb.RIGHT_HAND].items()}
     return [
-        _Crew("the hands", "need", _is_hand(score.notes), together),
+        _Crew("the hands", "need", MAX_HANDS, _is_hand(score.notes), together),
         *(
-            _Crew(f"the {limb_name(limb)}", "needs", score.notes["limb"] == limb, spans)
+            _Crew(f"the {limb_name(limb)}", "needs", 1, score.notes["limb"] == limb, spans)
             for limb, spans in SPANS_S.items()
         ),
     ]
@@ -148,7 +149,9 @@ def _first_too_fast(crew: _Crew, score: Score) -> Impossible | None:
     beat_s = score.tempo_map.seconds_at(score.notes["tick"][rows])
     lead_s = score.notes["lead_ms"][rows].astype(np.float64) / 1000
     order = np.argsort(beat_s - lead_s, kind="stable")
-    short = _first_short(np.asarray(beat_s - lead_s)[order], crew.spans_s)
+    order = order[~_surplus(beat_s[order], lead_s[order], crew.limbs)]
+    rows, beat_s, lead_s = rows[order], beat_s[order], lead_s[order]
+    short = _first_short(beat_s - lead_s, crew.spans_s)
     if short is None:
         return None
     last, strokes, lasts_s, least_s = short
@@ -156,7 +159,14 @@ def _first_too_fast(crew: _Crew, score: Score) -> Impossible | None:
     anyway = "" if fastest else " at any tempo"
     needs = f"{crew.name} {crew.verb} {strokes} strokes in {1000 * lasts_s:.0f} ms"
     text = f"{needs}; people need {1000 * least_s:.0f}{anyway}"
-    return Impossible(int(rows[order[last]]), text, crew.name if fastest else "", fastest)
+    return Impossible(int(rows[last]), text, crew.name if fastest else "", fastest)
+
+
+def _surplus(beat_s: NDArray[np.float64], lead_s: NDArray[np.float64], limbs: int) -> NDArray[np.bool_]:
+    """Which strokes (n,), in order of time, are more than `limbs` at one moment: `_crowded_moments` names them."""
+    surplus = np.zeros(len(beat_s), np.bool_)
+    surplus[limbs:] = (beat_s[limbs:] == beat_s[:-limbs]) & (lead_s[limbs:] == lead_s[:-limbs])
+    return surplus
 
 
 def _first_short(times_s: NDArray[np.float64], spans_s: Mapping[int, float]) -> tuple[int, int, float, float] | None:

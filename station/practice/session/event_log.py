@@ -6,7 +6,7 @@ the clock, a text has its place among the strokes: the session heard them later 
 
 | `said` | besides |
 |---|---|
-| `pass` | what is to be played and judged: `lesson`, `title`, `tempo_bpm`, `beat_ticks`, `first_bar`, `passes`, `click`, `level`, `notes` (rows of `NOTE_DTYPE`), `tempos`, `meters`, `end_tick` of one pass, `landing` (rows; none in old captures), `passes_start_ns`, `end_ns`; `latency`, `waits` |
+| `pass` | what is to be played and judged: `lesson`, `title`, `tempo_bpm`, `beat_ticks`, `first_bar`, `passes`, `click`, `level`, `notes` (rows of `NOTE_DTYPE`, without `swing_ticks` in old captures), `tempos`, `meters`, `end_tick` of one pass, `landing` (rows; none in old captures), `passes_start_ns`, `end_ns`; `latency`, `waits` |
 | `pause` | `now_ns`, the session time that it knew; `command`: the strokes that asked for it, each as `stroke_key` has it |
 | `go_on` | `asked`, `whole`, as `Session.resume` takes them |
 | `end` | `now_ns`, the session time at which nothing more was awaited |
@@ -250,11 +250,14 @@ def _meter(tick: int, beats: int, unit: int, *groups: int) -> MeterChange:
 
 
 def _note(row: list[object]) -> Note:
-    value = dict(zip(NOTE_DTYPE.names or (), row, strict=True))
+    names = NOTE_DTYPE.names or ()
+    value = dict(zip(names, [*row, 0] if len(row) == len(names) - 1 else row, strict=True))
     openness, lead_ms = value["openness"], value["lead_ms"]
     if not isinstance(openness, float | int | None) or not isinstance(lead_ms, float | int):
         raise TypeError
     if not abs(lead_ms) <= _MOST_LEAD_MS or (openness is not None and not 0 <= openness <= 1):
+        raise ValueError
+    if not 0 <= _whole(value["swing_ticks"]) <= _whole(value["tick"]):
         raise ValueError
     return Note(
         tick=_whole(value["tick"]),
@@ -270,6 +273,7 @@ def _note(row: list[object]) -> Note:
         duration_ticks=_whole(value["duration_ticks"]),
         choke_ticks=_whole(value["choke_ticks"]),
         midi_note=_whole(value["midi_note"]),
+        swing_ticks=_whole(value["swing_ticks"]),
     )
 
 

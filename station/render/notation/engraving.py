@@ -15,9 +15,11 @@ from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
 from station.music.score import Score
 from station.music.tempo_words import TempoWord, tempo_words
 from station.render.notation.beams import STEM, STEM_X, Anchor, StaffVoice, draw_beams, draw_flags, draw_tuplet
+from station.render.notation.loudness_row import ROW_BOTTOM, draw_loudness
 from station.render.notation.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
 from station.render.notation.rhythm import BeatGroup, TimedValue, beat_groups, spell
 from station.render.notation.staff import FOOT_PIECES, PLACES, head_of, height, ledger_steps
+from station.render.notation.swing_words import swing_words
 from station.render.palette import BRAND, INK, INK_SOFT
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
@@ -31,7 +33,7 @@ BAR_NUMBER_Y = -7.4
 _NUMBER_X = 0.35
 """A bar's number begins so far left of its line: clear of what stands over the first beat."""
 TOP_Y, BOTTOM_Y = -8.3, 7.0
-"""What a staff takes with everything above and below it."""
+"""What a staff takes with everything above and below it, but for how loud it is."""
 
 _WORDS_Y = BAR_NUMBER_Y + 0.3
 _WORD, _WORD_GAP = TypeStyle(1.5, BRAND, Face.BOLD), 0.9
@@ -54,11 +56,20 @@ _HANDS, _FEET = StaffVoice(-1, 0.0), StaffVoice(1, 2.5)
 
 @dataclass(frozen=True, slots=True)
 class _Chord:
-    """The main strokes of one voice at one tick, and the grace strokes before it: indices into the score."""
+    """The main strokes of one voice at one place, and the grace strokes before it: indices into the score.
+
+    `tick` is where they sound and stand, `written` the cell in which notation writes them (straight where they swing).
+    """
 
     tick: int
+    written: int
     mains: tuple[int, ...]
     graces: tuple[int, ...]
+
+
+def bottom_of(score: Score) -> float:
+    """How far down the staff of `score` reaches with all that stands below it."""
+    return ROW_BOTTOM if score.loudness else BOTTOM_Y
 
 
 class Engraver:
@@ -73,6 +84,7 @@ class Engraver:
         self._limbs = score.notes["limb"] if limbs is None else limbs
         self._closing = _closing_hats(score)
         self._tempo_words = tempo_words(score.tempo_map)
+        self._swing_words = swing_words(score)
         feet = [int(p) for p in FOOT_PIECES]
         self._is_foot = np.isin(score.notes["piece"], feet)
 
@@ -88,14 +100,17 @@ class Engraver:
         return range(int(first), int(last))
 
     def chords(self, rows: range, feet: bool) -> list[_Chord]:
-        """The strokes of one voice, gathered by tick."""
+        """The strokes of one voice, gathered by where they are written."""
         notes = self.score.notes
-        ticks: dict[int, tuple[list[int], list[int]]] = {}
+        places: dict[int, tuple[list[int], list[int]]] = {}
         for i in rows:
             if self._is_foot[i] == feet:
-                mains, graces = ticks.setdefault(int(notes["tick"][i]), ([], []))
+                mains, graces = places.setdefault(int(notes["tick"][i] - notes["swing_ticks"][i]), ([], []))
                 (graces if notes["lead_ms"][i] > 0 else mains).append(i)
-        return [_Chord(tick, tuple(mains), tuple(graces)) for tick, (mains, graces) in sorted(ticks.items())]
+        return [
+            _Chord(int(notes["tick"][[*mains, *graces]].min()), written, tuple(mains), tuple(graces))
+            for written, (mains, graces) in sorted(places.items())
+        ]
 
     def limb(self, index: int) -> Limb:
         """Who plays stroke `index`."""
@@ -108,6 +123,10 @@ class Engraver:
     def tempo_words(self, start: int, end: int) -> list[TempoWord]:
         """What is written of the tempo in [start, end) ticks."""
         return [word for word in self._tempo_words if start <= word.tick < end]
+
+    def swing_word(self, bar: int) -> str:
+        """The feel that begins with the bar; empty where none does."""
+        return self._swing_words.get(bar, "")
 
     def draw_list(self) -> DrawList:
         """An empty sheet on the common letters."""
@@ -149,6 +168,7 @@ class _BarEngraver:
             self._voice(hands, _HANDS, beside=bool(feet))
             if feet:
                 self._voice(feet, _FEET, beside=True)
+        draw_loudness(self._anchor, self._e.score, self._start, self._end)
         return self._draw_list.shapes()
 
     # --- bars ---------------------------------------------------------------------------------------------------------
@@ -165,6 +185,8 @@ class _BarEngraver:
         meter = self._tempo.meter_at(self._start)
         if self._bar > 0 and meter.tick == self._start:
             x += _WORD_GAP + self._draw_list.text(str(meter), (x, _WORDS_Y), _WORD)
+        if feel := self._e.swing_word(self._bar):
+            x += _WORD_GAP + self._draw_list.text(feel, (x, _WORDS_Y), _WORD)
         self._tempo_words(x)
 
     def _tempo_words(self, x: float) -> None:
@@ -188,8 +210,8 @@ class _BarEngraver:
     def _voice(self, chords: Sequence[_Chord], voice: StaffVoice, beside: bool) -> None:
         mains = [c for c in chords if c.mains]
         for start, end in beat_groups(self._tempo.meter_at(self._start), self._end - self._start):
-            inside = [c for c in mains if start <= c.tick - self._start < end]
-            group = spell([c.tick - self._start for c in inside], start, end)
+            inside = [c for c in mains if start <= c.written - self._start < end]
+            group = spell([c.written - self._start for c in inside], start, end)
             if inside or voice is _HANDS:
                 self._rests(group, voice, beside and bool(inside))
             self._group(group, inside, voice)

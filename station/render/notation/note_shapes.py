@@ -3,6 +3,8 @@
 Units are staff spaces, y down, 0 on the staff's middle line. Proportions follow Gould, "Behind Bars" (2011).
 """
 
+from dataclasses import replace
+
 from station.music.tempo import MeterChange
 from station.render.notation.staff import NoteHead
 from station.render.palette import INK, INK_FAINT
@@ -13,8 +15,10 @@ STAFF_LINE = 0.10
 """Thickness of a staff line."""
 _HEAD_HALF = (0.66, 0.46)
 _HEAD_TURN = -0.38
-_SIGNATURE, _SIGNATURE_ROOM = 2.75, 3.1
-"""The letters of a time signature fill two spaces; wider than the room are the groups of a meter, set smaller."""
+_SIGNATURE, _GROUPS, _WIDEST = 2.75, 2.1, 8.0
+"""The letters of a time signature fill two spaces; the groups of a meter are set smaller, the smaller the more."""
+SIGNATURE_GAP = 0.8
+"""What a time signature leaves free on either side at the least."""
 
 
 def draw_head(draw_list: DrawList, head: NoteHead, at: tuple[float, float], scale: float) -> None:
@@ -41,17 +45,36 @@ def draw_hat_sign(draw_list: DrawList, kind: str, at: tuple[float, float]) -> No
         draw_list.line((x - 0.45, y + 0.6), (x + 0.45, y - 0.6), 0.13, INK)
 
 
-def time_signature(draw_list: DrawList, meter: MeterChange, x: float) -> None:
-    """The beats, in their groups where the meter has them, over their unit, both with their middle at `x`."""
+def time_signature(draw_list: DrawList, meter: MeterChange, left: float) -> None:
+    """The beats, in their groups where the meter has them, over their unit, from `left` on."""
     beats, _, unit = str(meter).partition("/")
-    style = TypeStyle(_SIGNATURE, INK, Face.BOLD, 0.5)
-    size = _SIGNATURE * min(1.0, _SIGNATURE_ROOM / draw_list.width(beats, style))
-    draw_list.text(beats, (x, -0.06 - (_SIGNATURE - size) / 4), TypeStyle(size, INK, Face.BOLD, 0.5))
-    draw_list.text(unit, (x, 1.94), style)
+    x, style = left + signature_width(draw_list, meter) / 2, _beats_style(draw_list, meter)
+    draw_list.text(beats, (x, -0.06 - (_SIGNATURE - style.size) / 4), style)
+    draw_list.text(unit, (x, 1.94), _UNIT)
+
+
+def signature_width(draw_list: DrawList, meter: MeterChange) -> float:
+    """How wide the time signature of `meter` is."""
+    beats, _, unit = str(meter).partition("/")
+    return max(draw_list.width(beats, _beats_style(draw_list, meter)), draw_list.width(unit, _UNIT))
+
+
+_UNIT = TypeStyle(_SIGNATURE, INK, Face.BOLD, 0.5)
+
+
+def _beats_style(draw_list: DrawList, meter: MeterChange) -> TypeStyle:
+    if not meter.groups:
+        return _UNIT
+    style = replace(_UNIT, size=_GROUPS)
+    beats = str(meter).partition("/")[0]
+    return replace(style, size=_GROUPS * min(1.0, _WIDEST / draw_list.width(beats, style)))
+
+
+CLEF_WIDTH = 1.35
 
 
 def clef(draw_list: DrawList, x: float) -> None:
-    """The percussion clef: two thick strokes across the middle of the staff."""
+    """The percussion clef: two thick strokes across the middle of the staff, `CLEF_WIDTH` wide."""
     for left in (x, x + 0.85):
         draw_list.box((left, -1.0), (0.5, 2.0), INK)
 

@@ -28,8 +28,11 @@ from station.render.text.draw_list import SHAPE_DTYPE, DrawList
 BEFORE_S = AFTER_S = 4.0
 """Seconds of music to the left and right of the play line (SMED, figure 4.4: the line stands in the middle)."""
 _MARGIN_S = 1.5
-_CLEF_SPACES = 7.0
-"""What the clef and the time signature take; our choice."""
+_CLEF_X, _SIGNATURE_X = 1.4, 1.4 + note_shapes.CLEF_WIDTH + note_shapes.SIGNATURE_GAP
+_LEAST_LEAD = 7.0
+"""What the clef and the time signature take at the least; our choice."""
+_AFTER_SIGNATURE = 1.6
+"""Notes fade out from so far behind the time signature (`fade`), a little further than they do behind the clef."""
 PAGE_S = 8.0
 """A page holds whole bars of at most so many seconds, at least one bar; our choice, what scrolling shows too."""
 
@@ -40,22 +43,23 @@ _LEAST_SPACES = 48.0
 
 @dataclass(frozen=True, slots=True)
 class ScorePlace:
-    """Where the score lies in the picture, in pixels, y down."""
+    """Where the score lies in the picture, in pixels, y down; its staff reaches `bottom_y` (`engraving.bottom_of`)."""
 
     left: float
     top: float
     width: float
     height: float
+    bottom_y: float = engraving.BOTTOM_Y
 
     @property
     def space(self) -> float:
         """Pixels a staff space: the height holds what is engraved, and the width enough of them to tell notes apart."""
-        return min(self.height / (engraving.BOTTOM_Y - engraving.TOP_Y), self.width / _LEAST_SPACES)
+        return min(self.height / (self.bottom_y - engraving.TOP_Y), self.width / _LEAST_SPACES)
 
     @property
     def middle_line(self) -> float:
         """Where the staff's middle line lies."""
-        return self.top + self.height / 2 - (engraving.TOP_Y + engraving.BOTTOM_Y) / 2 * self.space
+        return self.top + self.height / 2 - (engraving.TOP_Y + self.bottom_y) / 2 * self.space
 
     @property
     def top_y(self) -> float:
@@ -90,6 +94,8 @@ class ScoreView:
         self._limbs: NDArray[np.int8] | None = None
         self._paged: Score | None = None
         self._pages: list[ScorePage] = []
+        self._led: Score | None = None
+        self._lead = _LEAST_LEAD
 
     def draw_paper(self, place: ScorePlace, size: tuple[int, int], is_staff: bool) -> None:
         """Draw what a score lies on and what of it never moves, at `place` in a picture of `size`.
@@ -102,7 +108,7 @@ class ScoreView:
         if is_staff:
             draw_list = DrawList(self._atlas)
             note_shapes.staff_lines(draw_list, place.width / place.space)
-            note_shapes.clef(draw_list, 1.4)
+            note_shapes.clef(draw_list, _CLEF_X)
             self._printer.draw(draw_list.shapes(), Transform(size, (place.left, place.middle_line), place.space))
 
     def draw(
@@ -117,7 +123,7 @@ class ScoreView:
             self._draw_highway(snapshot, place, size)
             return
         engraver, space = self._engraved(snapshot), place.space
-        clef_x = place.left + _CLEF_SPACES * space
+        clef_x = place.left + self._lead_spaces(snapshot.score) * space
         across, right = place.left + place.width - clef_x, place.left + place.width
         if form is ScoreForm.PAGED:
             page = self._page(snapshot)
@@ -182,6 +188,14 @@ class ScoreView:
             self._bars.clear()
         return engraver
 
+    def _lead_spaces(self, score: Score) -> float:
+        """What the clef and the widest of the score's time signatures take."""
+        if self._led is not score:
+            letters, self._led = DrawList(self._atlas), score
+            widest = max(note_shapes.signature_width(letters, meter) for meter in score.tempo_map.meters)
+            self._lead = max(_LEAST_LEAD, _SIGNATURE_X + widest + _AFTER_SIGNATURE)
+        return self._lead
+
     def _visible_bars(self, engraver: Engraver, first_s: float, last_s: float) -> NDArray[np.void]:
         bars = visible_bars(engraver.score, first_s, last_s)
         for bar in bars:
@@ -194,7 +208,7 @@ class ScoreView:
         line = (line_x - place.left) / space
         draw_list.box((line - 0.14, place.top_y), (0.28, place.height / space), with_opacity(BRAND, 0.95))
         tick = max(int(snapshot.score.tempo_map.ticks_at(snapshot.position_s)), 0)
-        note_shapes.time_signature(draw_list, snapshot.score.tempo_map.meter_at(tick), 4.6)
+        note_shapes.time_signature(draw_list, snapshot.score.tempo_map.meter_at(tick), _SIGNATURE_X)
         return draw_list.shapes()
 
     # --- judgements ---------------------------------------------------------------------------------------------------

@@ -27,8 +27,9 @@ MARGIN = 15 / 25.4 * 72
 """What printers leave free, and a thumb."""
 PAPERS = {"a4": (595.28, 841.89), "letter": (612.0, 792.0)}
 LEAD = 6.2
-"""What clef and meter take of a line, in staff spaces."""
-_TOP, _BOTTOM = engraving.TOP_Y - 0.6, engraving.BOTTOM_Y + 0.4
+"""What clef and meter take of a line, in staff spaces, at the least."""
+_CLEF_X, _SIGNATURE_X = 0.8, 0.8 + note_shapes.CLEF_WIDTH + note_shapes.SIGNATURE_GAP
+_TOP, _BELOW = engraving.TOP_Y - 0.6, 0.4
 _SECTION_Y = -9.0
 _TITLE, _TEXT, _SMALL = 22.0, 11.0, 9.5
 _ABOUT_LINES = 3
@@ -92,17 +93,20 @@ class _SheetPage:
         shown = limbs if setting.with_sticking else np.full_like(limbs, Limb.UNKNOWN)
         self._engraver = Engraver(score, self._atlas, shown, BarNumbers(words.first_bar - 1))
         self._pages = [_Page()]
+        self._bottom = engraving.bottom_of(score) + _BELOW
+        widest = note_shapes.signature_width(DrawList(self._atlas), score.tempo_map.meter_at(0))
+        self._lead = max(LEAD, _SIGNATURE_X + widest + note_shapes.SIGNATURE_GAP)
 
     def pages(self) -> list[list[Filled]]:
         """Lay out everything."""
         self._head()
         repeat_from = None if self._words.repeat is None else self._words.repeat[0]
         named = {bar for bar, _ in self._words.sections}
-        for boxes in systems(self._score, self._width / self._space - LEAD, repeat_from):
+        for boxes in systems(self._score, self._width / self._space - self._lead, repeat_from):
             top = _TOP - (2.0 if any(box.bar in named for box in boxes) else 0.0)
-            page = self._room((_BOTTOM - top) * self._space)
+            page = self._room((self._bottom - top) * self._space)
             self._system(boxes, page, page.y - top * self._space)
-            page.y += (_BOTTOM - top) * self._space
+            page.y += (self._bottom - top) * self._space
         page = self._room(KEY_HEIGHT * self._space)
         spot = PaperSpot((MARGIN, self._size[1] - MARGIN - KEY_HEIGHT * self._space), self._space)
         draw_list = DrawList(self._atlas)
@@ -177,15 +181,15 @@ class _SheetPage:
     # --- a line of bars -----------------------------------------------------------------------------------------------
 
     def _system(self, boxes: list[BarBox], page: _Page, middle_y: float) -> None:
-        draw_list, end = DrawList(self._atlas), LEAD + boxes[-1].right
+        draw_list, end = DrawList(self._atlas), self._lead + boxes[-1].right
         note_shapes.staff_lines(draw_list, end)
-        note_shapes.clef(draw_list, 0.8)
+        note_shapes.clef(draw_list, _CLEF_X)
         if boxes[0].bar == 0:
-            note_shapes.time_signature(draw_list, self._score.tempo_map.meter_at(0), 3.9)
+            note_shapes.time_signature(draw_list, self._score.tempo_map.meter_at(0), _SIGNATURE_X)
         names = dict(self._words.sections)
         first, last = self._words.repeat or (None, None)
         for box in boxes:
-            x = LEAD + box.left
+            x = self._lead + box.left
             if box.bar in names:
                 draw_list.text(names[box.bar], (x, _SECTION_Y), TypeStyle(1.9, INK, Face.BOLD))
             if box.bar == first:
@@ -193,13 +197,13 @@ class _SheetPage:
             elif box is not boxes[0] and box.bar - 1 != last:
                 _bar_line(draw_list, x)
             if box.bar == last:
-                _repeat(draw_list, LEAD + box.right, -1)
+                _repeat(draw_list, self._lead + box.right, -1)
         if boxes[-1].bar != last:
             is_end = boxes[-1].bar == self._score.bar_count - 1
             _last_line(draw_list, end) if is_end else _bar_line(draw_list, end - 0.08)
         self._print(page, draw_list, PaperSpot((MARGIN, middle_y), self._space))
         for box in boxes:
-            spot = PaperSpot((MARGIN + LEAD * self._space, middle_y), self._space, ruler(self._score, box))
+            spot = PaperSpot((MARGIN + self._lead * self._space, middle_y), self._space, ruler(self._score, box))
             page.areas += filled(self._engraver.bar(box.bar, with_line=False), self._atlas, spot)
 
 

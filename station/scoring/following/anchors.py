@@ -39,7 +39,7 @@ _VOTES_AT_ONCE = 4_000_000
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """Hits at `at_s`, sorted (m,), of `classes` (m,) that all occur among the notes."""
+    """Hits at `at_s`, sorted (m,), of `classes` (m,) that all occur in the score's lanes."""
 
     at_s: Floats
     classes: Indices
@@ -57,8 +57,9 @@ class Hits:
 def found(written: Written, tracker: Tracker, hits: Hits, rates: Floats, among_s: tuple[float, float]) -> list[Place]:
     """The likeliest places of the first of `hits`, with score times between `among_s`, at about one of `rates`."""
     spots: list[tuple[float, float, float]] = []  # votes, score_s, rate
-    low, high = np.searchsorted(written.at_s, (among_s[0], among_s[1] + float(np.ptp(hits.at_s) * rates[-1])))
-    note_s, classes = written.at_s[low:high], written.classes[low:high]
+    note_s, classes = written.lanes
+    low, high = np.searchsorted(note_s, (among_s[0], among_s[1] + float(np.ptp(hits.at_s) * rates[-1])))
+    note_s, classes = note_s[low:high], classes[low:high]
     pairs = sum(int((hits.classes == c).sum()) * int((classes == c).sum()) for c in np.unique(hits.classes))
     step = max(1, _VOTES_AT_ONCE // max(pairs, 1))
     for start in range(0, len(rates), step):
@@ -119,7 +120,8 @@ def worth(written: Written, hits: Hits, place: Place, offsets: Offsets) -> Float
     said = written.fits.said(beats, hits.classes, offsets.parts).sum(0)
     edges = np.array([beats[0] - _EDGE, beats[-1] + _EDGE])
     unanswered = written.fits.unanswered(edges, offsets.parts)
-    return gained(said, unanswered[1] - unanswered[0])
+    bouncing = written.fits.may_bounce(edges[:1], edges[1:], np.array([len(beats)]), offsets.parts)
+    return gained(said, unanswered[1] - unanswered[0], bouncing=None if bouncing is None else bouncing[0])
 
 
 _EDGE = 0.1

@@ -89,7 +89,9 @@ def block_gains(
     ends = np.minimum(edges[1:], last + WAIT_BEATS)
     before = written.fits.unanswered(np.concatenate((edges[:-1], ends)), offsets.parts)
     passed = before[len(starts) :] - before[: len(starts)]
-    return gained(np.add.reduceat(said, starts, axis=0), passed, _SLACK), said
+    count = np.diff(starts, append=len(beats))
+    bouncing = written.fits.may_bounce(edges[:-1], edges[1:], count, offsets.parts)
+    return gained(np.add.reduceat(said, starts, axis=0), passed, _SLACK, bouncing), said
 
 
 WAIT_BEATS = 2.0

@@ -19,7 +19,7 @@ from station.core.units import NS_PER_S
 from station.music.judgement import Judgement
 from station.music.score import Score
 from station.scoring.following.online import Online
-from station.scoring.following.written import written_of
+from station.scoring.following.written import MAYBE_BOUNCE, written_of
 from station.scoring.matching.ignored_hits import BOUNCE_NS, PRESS_LOUDER
 from station.scoring.matching.live_judge import Judge, Moved
 from station.scoring.matching.match_classes import match_classes
@@ -54,7 +54,9 @@ class Follower:
         Hits are numbered from 0 in the order of these calls. A judgement replaces all earlier ones on its note and on
         its hit.
         """
-        told = BOUNCE if hit.piece in self._buzzed and self._bounces(hit, at_ns) else self._class_of[hit.piece]
+        told = self._class_of[hit.piece]
+        if hit.piece in self._buzzed and self._may_bounce(hit, at_ns):
+            told += MAYBE_BOUNCE
         moved = Moved(self._hits, [at_ns]) if self._where is None else self._where.hit(at_ns, told)
         self._hits += 1
         begun = self._begin(moved.places_ns[0]) if self._is_beginning(moved) else ()
@@ -78,8 +80,8 @@ class Follower:
         """The first hit after each stop of a student without a click, and for how many ns the score waited for it."""
         return () if self._where is None else self._where.waited
 
-    def _bounces(self, hit: Hit, at_ns: int) -> bool:
-        """Whether a hit on a piece that buzzes is but a bounce, which tells nothing of the place (`ignored`)."""
+    def _may_bounce(self, hit: Hit, at_ns: int) -> bool:
+        """Whether a hit on a piece that buzzes may be but a bounce (`ignored_hits`)."""
         before_ns, before = self._buzzed[hit.piece]
         self._buzzed[hit.piece] = at_ns, hit.velocity
         return at_ns - before_ns < BOUNCE_NS and hit.velocity <= PRESS_LOUDER * before
@@ -93,9 +95,6 @@ class Follower:
         self._begun = True
         return self._judge.begin(0 if place_ns < self._first_bar_ns else place_ns)
 
-
-BOUNCE = -1
-"""A class that no note has."""
 
 _BEGINNING_NS = 2 * NS_PER_S
 """A student who begins so soon began at the beginning, however short the first bar and rare the frames (our choice)."""

@@ -12,6 +12,7 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.following.warp import Warp, find_warp, written_of
+from station.scoring.following.written import may_bounce
 from station.scoring.matching.alignment import Alignment, Reference, Timed, labelled
 from station.scoring.matching.assignment import HitAssignment
 from station.scoring.matching.ignored_hits import Unwritten
@@ -20,9 +21,6 @@ from station.scoring.matching.slow_drift import local_trend, robust_sd
 from station.scoring.matching.take_matching import Way, match_take
 
 Floats = NDArray[np.float64]
-
-NO_CLASS = -1
-"""Of hits that no note has the class of: they lie between their neighbours."""
 
 SAME_BASE_MS = 100.0
 """A performance that keeps the score's tempo and starts within so much of it was recorded on the score's own time base
@@ -50,8 +48,7 @@ def align_unclocked(
     """
     at_ns: Times = np.asarray(performance.hits["at_ns"])
     written = written_of(score, note_class)
-    bounces = Unwritten(score).surely_bounces(performance)
-    led_class = np.where(bounces, NO_CLASS, hit_class)
+    led_class = may_bounce(hit_class, Unwritten(score).may_bounce(performance))
     warp = find_warp(written, at_ns / NS_PER_S, led_class)
     hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
     matching = match_take(score, performance, note_class, hit_class, Way(hit_ns, warp.stretch))

@@ -80,8 +80,11 @@ class RawWay:
     jumps: Indices
 
 
-def clicked_way(written: Written, hits: Hits) -> RawWay:
-    """The way of a player whose hits' times are score time, but for whole beats that they skipped or went back."""
+def clicked_way(written: Written, hits: Hits) -> tuple[Floats, Indices]:
+    """Score time of each hit (m,) and the first hits of the jumps, by the click.
+
+    The hits' times are score time, but for whole beats that the player skipped or went back.
+    """
     offsets = offsets_of(written, slips=False)
     beats, shift, jumps = written.beats.beat(hits.at_s), np.zeros(len(hits.at_s)), []
     start, now = 0, 0.0
@@ -94,8 +97,7 @@ def clicked_way(written: Written, hits: Hits) -> RawWay:
         jumps.append(at)
         start = at
     score_s = hits.at_s if not jumps else written.beats.time(beats + shift)
-    distances = np.array(_tracker(written).distances(score_s.tolist(), hits.classes.tolist()))
-    return RawWay(score_s, distances, np.array([j for j in jumps if j], np.int64))
+    return score_s, np.array([j for j in jumps if j], np.int64)
 
 
 def _next_jump(
@@ -153,7 +155,7 @@ class _Blocks:
 
 
 def _tracker(written: Written) -> Tracker:
-    return Tracker(written.at_s, written.classes)
+    return Tracker(*written.lanes)
 
 
 def free_way(written: Written, hits: Hits, ends: bool = True) -> tuple[RawWay, float]:

@@ -70,9 +70,9 @@ class Online:
     def __init__(self, written: Written, clocked: bool) -> None:
         self._written = written
         self._clocked = clocked
-        self._tracker = Tracker(written.at_s, written.classes)
+        self._tracker = Tracker(*written.lanes)
         self._offsets: Offsets = offsets_of(written, slips=not clocked)
-        self._known = set(np.unique(written.classes).tolist())
+        self._known = set((written.answered if clocked else written.lanes[1]).tolist())
         self._note_s: list[float] = written.at_s.tolist()
         self._beat_s: list[float] = written.beat_s.tolist()
         self._shift = 0.0  # beats by which a student with a click is off it

@@ -13,7 +13,7 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.following.anchors import Hits
 from station.scoring.following.offline import free_way
-from station.scoring.following.written import written_of
+from station.scoring.following.written import may_bounce, written_of
 from station.scoring.matching.ignored_hits import Unwritten
 from station.scoring.matching.match_classes import match_classes
 
@@ -32,13 +32,12 @@ def times_played(score: Score, performance: Performance) -> int:
     if not len(score) or not len(performance):
         return 1
     classes = match_classes()
-    heard = ~Unwritten(score).surely_bounces(performance)
-    hit_class = classes[performance.hits["piece"]][heard]
-    note_class = classes[score.notes["piece"]]
-    known = np.isin(hit_class, note_class)
+    bounces = Unwritten(score).may_bounce(performance)
+    hit_class = may_bounce(classes[performance.hits["piece"]], bounces)
+    known = np.isin(hit_class, written_of(score, classes[score.notes["piece"]]).lanes[1])
     if not known.any():
-        return max(1, round(len(hit_class) / len(score)))
-    at_s = np.asarray(performance.hits["at_ns"][heard][known] / NS_PER_S)
+        return max(1, round(int((~bounces).sum()) / len(score)))
+    at_s = np.asarray(performance.hits["at_ns"][known] / NS_PER_S)
     pass_s = score.length_ns / NS_PER_S
     most = min(int(_FASTEST * float(np.ptp(at_s)) / pass_s) + 2, _MOST_PASSES)
     looped = score.repeated(most)

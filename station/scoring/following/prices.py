@@ -41,6 +41,15 @@ POSSIBLE = log(1 + _AT_BEST)
 """Nats that a hit exactly on its note brings, its note's price paid."""
 
 
+BOUNCES_A_S = 8.0
+"""Bounces a second that are heard while a buzz is written (our choice: a stick bounces 30 times a second, a kit sends
+some, few or none of it, and the fewer are looked for, the less a buzz claims of doubles that are written elsewhere)."""
+
+BOUNCED = log(BOUNCES_A_S / STRAYS_A_S)
+"""Nats that a hit which may be a bounce brings where a buzz is written: less than `POSSIBLE`, so that whoever plays
+exactly what is written is nowhere likelier to be than where they are."""
+
+
 def heard(distance_s: ArrayLike) -> Floats:
     """Nats for a hit so far from a note of its class, any shape; the note's `MISS` given back."""
     likelier = _AT_BEST * np.exp(-0.5 * np.square(np.asarray(distance_s, np.float64) / SD_S))

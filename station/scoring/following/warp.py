@@ -31,10 +31,10 @@ class Warp:
 
 def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
     """The way of the hits (m,), sorted, through the score; at least one hit has the class of a note."""
-    known = np.flatnonzero(np.isin(hit_classes, written.classes))
+    known = np.flatnonzero(np.isin(hit_classes, written.lanes[1]))
     hits = Hits(hit_s[known], hit_classes[known])
     way, tempo = free_way(written.of_classes(hits.classes), hits)
-    stretch = _stretches(way, len(known))
+    stretch = _stretches(way.jumps, len(known))
     return _filled(_smoothed(hits.at_s, way, stretch) * tempo, stretch, hit_s, known)
 
 
@@ -43,20 +43,20 @@ def click_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp | 
 
     None where there are none.
     """
-    known = np.flatnonzero(np.isin(hit_classes, written.classes))
+    known = np.flatnonzero(np.isin(hit_classes, written.answered))
     if not len(known):
         return None
     hits = Hits(hit_s[known], hit_classes[known])
-    way = clicked_way(written, hits)
-    if way.score_s is hits.at_s:
+    score_s, jumps = clicked_way(written, hits)
+    if score_s is hits.at_s:
         return None
-    return _filled(way.score_s, _stretches(way, len(known)), hit_s, known)
+    return _filled(score_s, _stretches(jumps, len(known)), hit_s, known)
 
 
-def _stretches(way: RawWay, count: int) -> Indices:
+def _stretches(jumps: Indices, count: int) -> Indices:
     """Number of the stretch of each hit (m,): a new one begins where the place jumps."""
     begins = np.zeros(count, np.int64)
-    begins[way.jumps] = 1
+    begins[jumps] = 1
     return np.cumsum(begins)
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from station.core.pieces import Articulation
 from station.music.score import Score
 from station.scoring.matching.assignment import AssignmentSide, HitAssignment
-from station.scoring.matching.ignored_hits import BUZZ_REACH_NS
+from station.scoring.matching.ignored_hits import BOUNCE_NS
 
 
 def with_buzz_onsets(
@@ -34,7 +34,7 @@ def with_buzz_onsets(
 
 def _press_of(hits: AssignmentSide, bounces: NDArray[np.bool_], bounce: int) -> int | None:
     """The last hit of the same lane before `bounce` that is none; None where it is too long ago."""
-    earliest_ns = int(hits.at_ns[bounce]) - BUZZ_REACH_NS
+    earliest_ns = int(hits.at_ns[bounce]) - BOUNCE_NS
     for hit in range(bounce - 1, -1, -1):
         if hits.strand[hit] != hits.strand[bounce] or hits.at_ns[hit] < earliest_ns:
             return None

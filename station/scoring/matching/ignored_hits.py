@@ -176,8 +176,8 @@ class Unwritten:
             return True
         return self.is_own_only(piece, hit_ns)
 
-    def surely_bounces(self, performance: Performance) -> NDArray[np.bool_]:
-        """Which hits (m,), wherever in the score they belong, are no more than bounces: they tell nothing of the place.
+    def may_bounce(self, performance: Performance) -> NDArray[np.bool_]:
+        """Which hits (m,) may be bounces, wherever in the score they belong, or strokes of a fast double.
 
         On a piece that buzzes somewhere, close after another hit and no new, louder press.
         """

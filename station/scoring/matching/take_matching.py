@@ -61,6 +61,6 @@ def match_take(
     leaning = Leaning(leaning_places(score), reach_of(score, note_class))
     assignment = assign(notes, hits, leaning, unwritten.own_only, way.lean_ns)
     assignment = with_far_graces(score, assignment, hits)
-    assignment = with_buzz_onsets(score, assignment, hits, rules.surely_bounces(performance))
+    assignment = with_buzz_onsets(score, assignment, hits, rules.may_bounce(performance))
     alone = np.select([again, unwritten.quiet], [Label.PLAYED_AGAIN, Label.IGNORED], Label.EXTRA)
     return TakeMatching(assignment, alone.astype(np.uint8))

@@ -111,6 +111,10 @@ def test_line_ends_of_windows() -> None:
         ('a = """x\n\n', 1, 9, "not closed"),
         ("a = 1\n  a = 2", 2, 3, "given before"),
         ("[a]\nb = 1\n[a]\n", 3, 1, "given before"),
+        ("[a]\nb = 1\n[[a]]\nb = 2", 3, 1, "given before; where there may be several, each of them is written [[a]]"),
+        ("[[a.b]]\nb = 1\n [a.b]\nb = 2", 3, 2, "each of them is written [[a.b]]"),
+        ("a = “x”\n", 1, 5, "curly quotes; expected straight ones"),
+        ("a = {b = “x”}\n", 1, 10, "curly quotes; expected straight ones"),
         ("[a\nb = 1", 1, 3, "expected ]"),
         ('a = "\\q"', 1, 6, "escape"),
         ("= 3", 1, 1, "expected a key"),
@@ -120,6 +124,21 @@ def test_syntax_faults_have_their_place_and_plain_words(text: str, line: int, co
     _, _, found = load(text)
     assert found[0][:2] == (line, column), found
     assert words in found[0][2]
+
+
+@pytest.mark.parametrize(
+    ("text", "column"),
+    [
+        ("a = [{b = 1,\n c = 2}]\nd = 3\n", 13),
+        ("a = {\n  b = 1,\n  c = {e = 2},\n}\nd = 3\n", 6),
+        ("a = {b = 1,\n\nd = 3\n", 12),  # never closed
+    ],
+)
+def test_a_table_in_braces_over_several_rows_is_told_once(text: str, column: int) -> None:
+    raw, _, found = load(text)
+    assert [f[:2] for f in found] == [(1, column)], found
+    assert "a table in braces stands on one line" in found[0][2]
+    assert raw == {"d": 3}
 
 
 def test_every_faulty_line_is_named() -> None:

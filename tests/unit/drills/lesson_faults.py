@@ -176,7 +176,7 @@ FAULTS = (
     Planted("unsteady =", "▶unstaedy =", "did you mean unsteady"),
     Planted("[goals.left_hand]", "▶[goals.third_hand]", "third_hand"),
     Planted("min_accuracy = 0.8", "min_accuracy = ▶8", "from 0 to 1"),
-    Planted("max_sd_ms = 30", "▶max_tempo_error_pct = 3", "no such key"),
+    Planted("max_sd_ms = 30", "▶max_tempo_error_pct = 3", "expected below [[goals.bars]]"),
     Planted("bars = [3, 4]", "bars = ▶[4, 3]", "first bar first"),
     Planted("bars = [3, 4]", "bars = [3, ▶40]", "from 1 to 15"),
     Planted("max_tempo_error_pct = 3", "max_tempo_error_pct = ▶80", "from 0.1 to 50"),

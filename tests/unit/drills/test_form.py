@@ -120,6 +120,27 @@ def test_a_line_takes_the_place_of_its_model_by_whatever_name() -> None:
     assert ticks_of(text, Piece.CRASH_1) == [0, WHOLE + 2 * QUARTER]
 
 
+@pytest.mark.parametrize(
+    ("model", "own", "limbs"),
+    [
+        ('hihat = "x---"', 'left_hand.hihat = "--x-"', [Limb.LEFT_HAND]),
+        ('right_hand.hihat = "x---"\nleft_hand.hihat = "-x--"', 'hihat = "--x-"', [Limb.UNKNOWN]),
+        ('right_hand.hihat = "x---"\nleft_hand.hihat = "-x--"', 'left_hand.hihat = "--x-"', None),
+    ],
+)
+def test_a_line_of_a_limb_takes_the_place_of_its_pieces_line(model: str, own: str, limbs: list[Limb] | None) -> None:
+    """The last keeps what the right hand does: the left hand's line alone is another."""
+    found = lesson(f'[[grid]]\nname = "A"\n{model}\n[[grid]]\nlike = "A"\n{own}\n').score.bars(1, 1).notes
+    expected = [(2, limb) for limb in limbs] if limbs else [(0, Limb.RIGHT_HAND), (2, Limb.LEFT_HAND)]
+    assert [(int(n["tick"]) // QUARTER, n["limb"]) for n in found] == expected
+
+
+def test_of_two_grids_with_one_name_nothing_else_is_told() -> None:
+    (found,) = faults(HEAD + 'form = "A"\n' + A + A)
+    assert (found.line, found.column) == (8, 8)
+    assert "two grids are called A" in found.text
+
+
 def test_a_variation_of_a_variation() -> None:
     text = A + '[[grid]]\nname = "B"\nlike = "A"\nkick = "-o--"\n[[grid]]\nlike = "B"\nsnare = "--o-"\n'
     assert ticks_of(text) == [0, WHOLE, 2 * WHOLE + 2 * QUARTER]
@@ -160,7 +181,7 @@ def test_an_unplayable_letter_is_blamed_once_however_often_it_is_played() -> Non
 @pytest.mark.parametrize(
     ("text", "line", "column", "words"),
     [
-        ('form = "A, C"\n' + A + B, 3, 8, "no such grid: C"),
+        ('form = "A, C"\n' + A + B, 3, 12, "no such grid: C"),
         ('form = ["A", "Bb", "B"]\n' + A + B, 3, 14, "no such grid: Bb; did you mean B?"),
         ('form = "A, , B"\n' + A + B, 3, 8, "expected one line of text"),
         ("form = []\n" + A, 3, 8, "0 entries; expected 1 to 1000"),
@@ -168,7 +189,7 @@ def test_an_unplayable_letter_is_blamed_once_however_often_it_is_played() -> Non
         ('form = ["A"]\n' + A + B, 8, 8, "never played; expected B in form"),
         ('form = ["A"]\n' + A + '[[grid]]\nsnare = "o"\n', 7, 1, "never played, for it has no name"),
         ('form = ["A", "B"]\n' + A + '[[grid]]\nname = "B"\nending = 1\nsnare = "o"\n', 3, 14, "B is an ending"),
-        ('form = "A"\n[grid]\nsnare = "o"\n', 3, 8, "no grid has a name; expected name = …"),
+        ('form = "A"\n[grid]\nsnare = "o"\n', 3, 9, "no grid has a name; expected name = …"),
         (A + A, 7, 8, "two grids are called A; expected another name"),
         ('[grid]\nending = 1\nsnare = "o"\n', 4, 10, "no grid before this one that it could end"),
         (A + FIRST + FIRST, 10, 10, "repetition 1 has an ending already"),

@@ -89,6 +89,14 @@ HALLMARKS: dict[str, tuple[Hallmark, ...]] = {
         ("dnb-two-step-1", Piece.SNARE, Dynamic.ACCENT, "....x.......x..."),
     ),
     "house": (("house-1", Piece.KICK, None, "xxxx"),),
+    # rhythmhouse.com.sg, Groove of the week 7
+    "soca": (("soca-1", Piece.KICK, None, "xxxx"), ("soca-1", Piece.SNARE, None, "...x..x....x..x.")),
+    # en.wikipedia.org D-beat, its third tablature; gfdrum "Country" of GrooveForge: kick on 1 and 3, snare on 2 and 4
+    "d-beat": (("d-beat-1", Piece.KICK, None, "x..x.x.."), ("d-beat-1", Piece.SNARE, None, "..x...x.")),
+    "country two-step": (
+        ("country-two-step-1", Piece.KICK, None, "x.x."),
+        ("country-two-step-1", Piece.SNARE, None, ".x.x"),
+    ),
     "half-time shuffle": (
         ("half-time-shuffle-1", Piece.SNARE, Dynamic.ACCENT, "......x....."),
         ("half-time-shuffle-2", Piece.SNARE, Dynamic.ACCENT, "......x...........x....."),

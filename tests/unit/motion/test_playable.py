@@ -11,6 +11,13 @@ from tests.unit.drills.reading import faults, read, text_of
         ('hihat = "x---"\nsnare = "o---"\ntom_1 = "o---"', "", 6, 10, "3 hands needed at once: snare, hihat and tom_1"),
         ('hihat = "x---"\nsnare = "f---"', "", 4, 10, "3 hands needed at once: snare and hihat with its grace strokes"),
         (
+            'hihat = "x---"\nsnare = "o---"\ntom_1 = "o---"\ntom_2 = "o---"',
+            "",
+            7,
+            10,
+            "4 hands needed at once: snare, hihat, tom_1 and tom_2",
+        ),
+        (
             'right_hand.snare = "o---"\nright_hand.ride = "x---"',
             "",
             5,

@@ -1,11 +1,10 @@
-"""What a sheet shows of swing: straight cells under a word, triplets where triplets say it."""
+"""How notation writes swing: straight cells under a word, triplets where triplets say it."""
 
 import pytest
 
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
 from station.drills.lesson_file import parse_lesson
-from station.scenes.printed_score import as_printed
 
 
 def lesson_of(text: str) -> Lesson:
@@ -15,8 +14,8 @@ def lesson_of(text: str) -> Lesson:
 
 
 def quarters(lesson: Lesson) -> list[float]:
-    """Where the printed strokes stand, in quarter notes."""
-    return [tick / PPQ for tick in as_printed(lesson).notes["tick"].tolist()]
+    """Where the strokes are written, in quarter notes."""
+    return [tick / PPQ for tick in lesson.played_once.as_written.notes["tick"].tolist()]
 
 
 @pytest.mark.parametrize("ratio", [1.3, 1.6, 2.5, 3.0])
