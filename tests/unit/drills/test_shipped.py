@@ -15,6 +15,8 @@ from station.drills import library
 from station.drills.lesson import Lesson
 from station.drills.library import lesson_names, lessons_dir
 from station.motion.feasibility.playable import impossible
+from station.motion.kit.kit import DEFAULT_KIT, load_kit
+from station.motion.sticking.limbs import assign_limbs
 from station.music.score import Note
 
 find_lesson = cache(library.find_lesson)
@@ -185,6 +187,16 @@ def test_every_lesson_is_playable_and_says_what_to_do(name: str) -> None:
     assert 1 <= lesson.score.bar_count <= 8
     assert len(lesson.score) >= 4
     assert lesson.passes * lesson.score.bar_count >= 8
+
+
+@pytest.mark.parametrize("name", lesson_names())
+def test_no_hand_or_foot_has_too_far_to_go(name: str) -> None:
+    """On the usual kit, at the goal's tempo: from bar to bar, from the loop's end to its beginning, to the landing."""
+    lesson = find_lesson(name)
+    kit = load_kit(lesson.kit or DEFAULT_KIT)
+    for score in (lesson.played_once, lesson.loop_score.repeated(2)):
+        fast = score.at_speed(lesson.target_tempo_bpm / lesson.tempo_bpm)
+        assert assign_limbs(fast, kit).warnings == ()
 
 
 @pytest.mark.parametrize("name", [n for n in lesson_names() if find_lesson(n).title.startswith("Rudiment")])
