@@ -62,7 +62,8 @@ def run(options: AssessOptions) -> int:
         lesson = find_lesson(options.score)
         windows = options.level or lesson.levels.level().windows
         view = replace(view, windows=windows, pass_bars=score.bar_count, faults=lesson.goals.faults)
-        view = replace(view, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks, hints=lesson.hints)
+        view = replace(view, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks)
+        view = replace(view, hints=lesson.hints, parts=lesson.part_of_bar)
         landing = lesson.landing_after(score.bar_count - 1)
         score = score.repeated(times_played(score, performance)).landing_on(landing)
     session = _session(options)
