@@ -6,7 +6,7 @@ from typing import Any
 
 from station.core.expected import either_of, later, list_like
 from station.core.schema import Field, Fields, anything, checked_values, number, optional, table_like, title, whole
-from station.core.toml_faults import Faults
+from station.core.toml_faults import Faults, Noted
 from station.core.toml_places import KeyPath
 from station.drills.grid.cell_strokes import BarClock, WrittenCell
 from station.drills.grid.cycles import CYCLE, Cycle, by_repetition, cycle_strokes, read_cycles
@@ -92,7 +92,8 @@ def read_grid(
     timing = timing_of(values, before, found, path)
     lines = lines_of_table(values, path, found)
     if not lines and values["cycle"] is None and not found:
-        found.add((), 'no line to play; expected one such as snare = "----o-------o---"', at_key=True)
+        text = 'has no line to play; expected one such as snare = "----o-------o---"'
+        found.noted.append(Noted(text, at_key=True, is_missing=True))
     are_all = not found
     faults.merge(found, *path)
     if not timing.is_sure:

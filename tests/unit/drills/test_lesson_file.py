@@ -131,7 +131,9 @@ GRID = '\n[grid]\nsnare = "oooo"\n'
         ('title = "T"\n[dynamics.snair]\naccent = 12' + GRID, 2, 1, "no such key: snair; did you mean snare?"),
         ('title = "T"\ngrid = 3', 2, 8, "expected a table"),
         ('title = "T"\ngrid = []', 2, 8, "no grid to play"),
-        ('title = "T"\n[grid]\n', 2, 1, "no line to play"),
+        ('title = "T"\n[grid]\n', 2, 1, "grid has no line to play"),
+        ('title = "T"\n[grid]\nsnare = | o o |\n', 3, 9, "expected a value"),  # and not that there is no line
+        ('title = "T"\n[grid]\nsnare = "o–"\n', 3, 11, "(a long dash; a rest is the short one)"),
         ('title = "T"\n[grid]\nsnare = 3', 3, 9, "expected a line of the grid in quotes"),
         ('title = "T"\n[grid]\nsnare = ""', 3, 9, "expected a line of the grid in quotes"),
         ('title = "T"\n[grid]\nsnare = "----"', 2, 1, "nothing to play"),
