@@ -44,7 +44,7 @@ class AssessOptions:
 
 def run(options: AssessOptions) -> int:
     """Align, sum up, print."""
-    from station.drills.library import find_lesson
+    from station.cli.input.find_own_lesson import find_any_lesson
     from station.practice.records.session_report import assessment_text, feel_of, kit_facts, session_view
     from station.practice.session.click_pattern import silences
     from station.scoring.align import align
@@ -59,10 +59,11 @@ def run(options: AssessOptions) -> int:
     score, performance = load_score_and_performance(options.score, options.performance)
     view = SummaryView(options.level or DEFAULT_LEVEL, kit=kit_facts(load_settings()))
     if is_lesson(options.score):
-        lesson = find_lesson(options.score)
+        lesson = find_any_lesson(options.score)
         windows = options.level or lesson.levels.level().windows
         view = replace(view, windows=windows, pass_bars=score.bar_count, faults=lesson.goals.faults)
-        view = replace(view, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks, hints=lesson.hints)
+        view = replace(view, feel=feel_of(lesson.goals), beat_ticks=lesson.beat_ticks)
+        view = replace(view, hints=lesson.hints, parts=lesson.part_of_bar)
         landing = lesson.landing_after(score.bar_count - 1)
         score = score.repeated(times_played(score, performance)).landing_on(landing)
     session = _session(options)
@@ -90,12 +91,12 @@ def run(options: AssessOptions) -> int:
 
 def _session(options: AssessOptions) -> SessionResult | None:
     """The session of this lesson that the capture holds; None of anything else."""
-    from station.drills.library import find_lesson
+    from station.cli.input.find_own_lesson import find_any_lesson
     from station.practice.records.recovery import session_of
 
     if not is_lesson(options.score) or not is_capture(options.performance):
         return None
-    return session_of(Path(options.performance), find_lesson(options.score))
+    return session_of(Path(options.performance), find_any_lesson(options.score))
 
 
 COMMAND = Command(AssessOptions, run)

@@ -68,10 +68,10 @@ class ExportOptions(LessonOptions):
 
 
 def _show(options: LessonOptions) -> int:
+    from station.cli.input.find_own_lesson import find_any_lesson
     from station.drills.lesson_text import show
-    from station.drills.library import find_lesson
 
-    write(show(find_lesson(options.lesson).text), end="")
+    write(show(find_any_lesson(options.lesson).text), end="")
     return 0
 
 
@@ -151,12 +151,12 @@ def _import(options: ImportOptions) -> int:
 
 
 def _export(options: ExportOptions) -> int:
-    from station.drills.library import find_lesson
+    from station.cli.input.find_own_lesson import find_any_lesson
     from station.music.formats.smf.standard_midi import write_score
 
     if not is_midi(str(options.out)):
         raise BadInput(options.out, "", "expected a name that ends in .mid")
-    write_score(find_lesson(options.lesson).score, options.out)
+    write_score(find_any_lesson(options.lesson).score, options.out)
     say(f"MIDI     {options.out}")
     return 0
 

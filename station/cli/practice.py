@@ -262,9 +262,10 @@ def _draw(folder: SessionFolder, saved: SessionRecord, settings: Settings, telli
 
 
 def _lesson(name: str | None) -> Lesson:
-    from station.drills.library import FIRST_LESSON, find_lesson
+    from station.cli.input.find_own_lesson import find_any_lesson
+    from station.drills.library import FIRST_LESSON
 
-    return find_lesson(FIRST_LESSON if name is None else name)
+    return find_any_lesson(FIRST_LESSON if name is None else name)
 
 
 def _plan_options(options: PracticeOptions, lesson: Lesson, settings: Settings) -> PlanOptions:

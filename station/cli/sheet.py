@@ -4,11 +4,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from station.cli.console import say
+from station.cli.input.find_own_lesson import find_any_lesson
 from station.cli.input.read_scores import is_lesson, load_score
 from station.cli.options.option_fields import Command, argument, choice, flag, option, required, whole_number
 from station.core.errors import BadInput
 from station.core.files import write_whole
-from station.drills.library import find_lesson
 
 ENDING = ".pdf"
 PAPERS = ("a4", "letter")
@@ -34,7 +34,7 @@ def run(options: SheetOptions) -> int:
     out = options.out
     if out.suffix.lower() != ENDING:
         raise BadInput(out, "", f"expected a name that ends in {ENDING}")
-    lesson = find_lesson(options.score) if is_lesson(options.score) else None
+    lesson = find_any_lesson(options.score) if is_lesson(options.score) else None
     score = load_score(options.score) if lesson is None else lesson.played_once
     first = options.start_bar
     last = score.bar_count if options.end_bar is None else options.end_bar

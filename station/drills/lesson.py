@@ -197,6 +197,13 @@ class Lesson:
         """Meter of the first bar, such as 4/4."""
         return str(self.score.tempo_map.meter_at(0))
 
+    @property
+    def part_of_bar(self) -> Mapping[int, str]:
+        """The name of the section of each bar, from 0, as far as it has one; empty where all bars are of one name."""
+        if len({section.name for section in self.sections}) < 2:
+            return {}
+        return {bar: s.name for s in self.sections if s.name for bar in range(s.first_bar, s.last_bar + 1)}
+
     def swing_of_bar(self, bar: int) -> Swing:
         """How `bar`, from 0, swings."""
         return next((s.swing for s in self.sections if s.first_bar <= bar <= s.last_bar), self.swing)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-from station.core.expected import LINE, either_of, expected_by, expects, later, list_like
+from station.core.expected import LINE, TEXT, either_of, expected_by, expects, later, list_like
 from station.core.pieces import Limb
 from station.core.schema import (
     Field,
@@ -16,6 +16,7 @@ from station.core.schema import (
     choice,
     key_of,
     list_of,
+    no_such,
     number,
     optional,
     prose,
@@ -38,6 +39,7 @@ from station.drills.grid.swing import MAX_RATIO
 from station.drills.grid.tab_symbols import LIMB_TABLES
 from station.drills.grid.voice import MAX_BARS
 from station.drills.lesson import DEFAULT_DEMONSTRATIONS, DEFAULT_PASSES, LEVELS, BarGoals, Goals, PartGoals
+from station.motion.kit.kit import kit_names
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 from station.scoring.analysis.fault_table import MUTE, Asked
 from station.scoring.analysis.fault_table import WORDS as FAULT_WORDS
@@ -76,6 +78,15 @@ def _advice(value: object) -> str:
     if not advice:
         raise wrong('expected a sentence such as "A minute with the left alone."')
     return advice
+
+
+@expects(TEXT)
+def _kit(value: object) -> str:
+    """The name of a shipped kit, or a file's; nothing where it is empty."""
+    name = prose(value)
+    if name and not name.endswith(".toml") and name not in (shipped := kit_names()):
+        raise wrong(f"{no_such('kit', name, shipped)}; or a kit file's name, which ends in .toml")
+    return name
 
 
 @expects({"type": "object", "propertyNames": {"enum": sorted(FAULT_WORDS)}, "additionalProperties": LINE})
@@ -189,7 +200,7 @@ FIELDS: Fields = {
     "tags": Field(list_of(_word, 'a list of words, such as ["rock", "groove"]'), ()),
     "about": Field(prose, ""),
     "prerequisites": Field(_prerequisites, ()),
-    "kit": Field(prose, ""),
+    "kit": Field(_kit, ""),
     **TIMING,
     "loop": optional(_LOOP),  # read when the bars are known
     "passes": Field(whole(1, MAX_PASSES), DEFAULT_PASSES),

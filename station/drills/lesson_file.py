@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.files import read_regular
+from station.core.labels import limb_name
+from station.core.pieces import Limb, word
 from station.core.schema import Reader, checked_values, read, reading, row_of, whole
 from station.core.toml_faults import Fault, Faults, Wrong, wrong
 from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
@@ -242,6 +244,10 @@ def _goals(goals: Goals, lesson: Lesson, faults: Faults) -> Goals:
             bars = lesson.score.bar_count
             text = f"expected a whole number from 1 to {bars}, for so many bars are played; found {part.last_bar + 1}"
             faults.add(("goals", "bars", i, "bars", 1), text)
+    limbs = np.concatenate([lesson.score.notes["limb"], lesson.landing["limb"]])
+    for limb in goals.limbs:
+        if not faults and not np.isin(limbs, _who_may_be(limb)).any():
+            faults.add(("goals", word(limb)), f"the {limb_name(limb)} plays nothing in this lesson", at_key=True)
     target = goals.target_tempo_bpm
     if target is None:
         return goals
@@ -250,6 +256,11 @@ def _goals(goals: Goals, lesson: Lesson, faults: Faults) -> Goals:
         text = f"{target:g} is below the tempo, {lesson.beats_a_minute:g}; expected that or more, or a slower tempo_bpm"
         faults.add(("goals", "target_tempo_bpm"), text)
     return replace(goals, target_tempo_bpm=target_bpm)
+
+
+def _who_may_be(limb: Limb) -> list[Limb]:
+    """What a note's limb is where `limb` may play it: nobody's notes are the hands'."""
+    return [limb, Limb.UNKNOWN] if limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND) else [limb]
 
 
 def _check_prerequisites(lesson: Lesson, faults: Faults) -> None:

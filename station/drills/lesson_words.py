@@ -19,7 +19,7 @@ WORDS: Mapping[str, str] = MappingProxyType(
         "tags": "words that say what it is about",
         "about": "what the student should know, in a few sentences",
         "prerequisites": "lessons, by their names, that should be mastered before this one",
-        "kit": "the name of a kit file for the drummer; left out, the player's own",
+        "kit": "the drummer's kit, by its name, or a kit file that ends in .toml; left out, the player's own",
         "tempo_bpm": "beats a minute (80 if nothing says it)",
         "grid.tempo_bpm": "beats a minute from this grid on",
         "tempo_to_bpm": "the tempo changes evenly over this grid, all its repetitions together, and would reach this at"

@@ -55,9 +55,9 @@ def load_score(name: str) -> Score:
         from station.music.formats.text_score import read_text_score
 
         return read_text_score(existing(name))
-    from station.drills.library import find_lesson
+    from station.cli.input.find_own_lesson import find_any_lesson
 
-    return find_lesson(name).score
+    return find_any_lesson(name).score
 
 
 def load_led_score(name: str, kit: Kit, hands: Hands | None = None, as_written: bool = False) -> Score:
@@ -67,10 +67,10 @@ def load_led_score(name: str, kit: Kit, hands: Hands | None = None, as_written: 
     """
     if not is_lesson(name):
         return load_score(name)
-    from station.drills.library import find_lesson
+    from station.cli.input.find_own_lesson import find_any_lesson
     from station.motion.sticking.limbs import as_led
 
-    score = find_lesson(name).played_once
+    score = find_any_lesson(name).played_once
     return score if as_written else as_led(score, kit, hands)
 
 
@@ -78,18 +78,18 @@ def kit_of_lesson(name: str) -> str:
     """The drummer's kit that the lesson `name` asks for; empty where it asks for none or `name` is a music file."""
     if not is_lesson(name):
         return ""
-    from station.drills.library import find_lesson
+    from station.cli.input.find_own_lesson import find_any_lesson
 
-    return find_lesson(name).kit
+    return find_any_lesson(name).kit
 
 
 def cues_of_lesson(name: str) -> tuple[BarCue, ...]:
     """The cues of the lesson `name`; none where it is a music file."""
     if not is_lesson(name):
         return ()
-    from station.drills.library import find_lesson
+    from station.cli.input.find_own_lesson import find_any_lesson
 
-    return find_lesson(name).cues
+    return find_any_lesson(name).cues
 
 
 def load_score_and_performance(score_name: str, performance_name: str) -> tuple[Score, Performance]:

@@ -3,13 +3,13 @@
 import json
 from pathlib import Path
 
+from station.cli.input.find_own_lesson import find_any_lesson
 from station.cli.input.read_captures import performance_of_capture
 from station.core.errors import BadInput
 from station.core.measured_latency import load_calibration
 from station.core.settings import load_settings
 from station.devices.capture.capture import read_capture
 from station.devices.capture.replay import transport_zeros_ns
-from station.drills.library import find_lesson
 from station.music.as_played import score_as_played
 from station.music.performance import Performance
 from station.music.score import Score
@@ -65,7 +65,7 @@ def _tempo_map(said: dict[str, object], lesson: str) -> TempoMap:
     if not isinstance(tempo_bpm, int | float) or not MIN_BPM <= tempo_bpm <= MAX_BPM:
         return TempoMap.constant(_NO_TEMPO_BPM)
     try:
-        meter = find_lesson(lesson).score.tempo_map.meters[0]
+        meter = find_any_lesson(lesson).score.tempo_map.meters[0]
     except BadInput:
         return TempoMap.constant(tempo_bpm)
     return TempoMap.constant(tempo_bpm, meter.beats, meter.unit)

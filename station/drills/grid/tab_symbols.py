@@ -182,8 +182,12 @@ _HINTS: Mapping[tuple[TabFamily, str], str] = MappingProxyType(
 )
 
 
+_LONG_DASHES = "‐‑‒–—−"
+"""What word processors make of -, which looks much the same."""
+
+
 def not_a_letter(char: str, family: TabFamily) -> str:
     """The fault of a character that this family does not know, with those that it does."""
-    hint = _HINTS.get((family, char))
+    hint = "a long dash; a rest is the short one" if char in _LONG_DASHES else _HINTS.get((family, char))
     known = " ".join([*SYMBOLS[family], "-"])
     return f"{char!r} is no letter for a {family.value} line{f' ({hint})' if hint else ''}; expected one of {known}"

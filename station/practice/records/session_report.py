@@ -116,6 +116,7 @@ def session_view(result: SessionResult, settings: Settings) -> SummaryView:
         faults=plan.lesson.goals.faults,
         asks_hand=written_hands(result),
         hints=plan.lesson.hints,
+        parts=plan.lesson.part_of_bar,
     )
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.labels import piece_name
-from station.core.pieces import Articulation, Dynamic, Ornament, Piece, Zone
+from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.music.loudness_marks import FADE, GROW
 from station.music.score import Score
 from station.render.notation import note_shapes
@@ -87,7 +87,7 @@ def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
         yield lambda draw_list, at: draw_list.sign("buzz", at, INK), "buzz roll"
     if (notes["choke_ticks"] > 0).any():
         yield lambda draw_list, at: draw_list.sign("choke", at, INK), "choke: grab it"
-    if with_sticking and (notes["limb"] >= 0).any():
+    if with_sticking and np.isin(notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any():
         yield _letters, "right and left hand"
 
 

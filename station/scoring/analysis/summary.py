@@ -94,7 +94,8 @@ class SummaryView:
     `first_bar` + b mod `pass_bars`, from 0; where passes differ `bar_names` says it of each bar. `hears_velocity` False
     where the input cannot tell loud from soft. `feel` is what costs nothing, `silences` where the click was silent,
     `kit` what was measured of the student's. `beat_ticks` is the beat that tempi in sentences count. `faults` are the
-    sizes from which the lesson names faults, `hints` what its author says against them, by their words. `asks_hand`
+    sizes from which the lesson names faults, `hints` what its author says against them, by their words; `parts` are
+    the names of the lesson's bars, from 0, such as "fill" or "chorus", where they have any. `asks_hand`
     (n,) says of which notes the lesson writes the hand, None: of all that have one.
     """
 
@@ -110,6 +111,7 @@ class SummaryView:
     faults: Asked = field(default_factory=Asked)
     asks_hand: NDArray[np.bool_] | None = field(default=None, compare=False)
     hints: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    parts: Mapping[int, str] = field(default_factory=lambda: MappingProxyType({}))
 
     @property
     def least_lean_ms(self) -> float:

@@ -4,7 +4,9 @@ A remark says what was heard, how much and where, what else the data allow, then
 be started. Findings come in a teacher's order (`findings`): notes, pulse, lean, dynamics.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import groupby
 
 from station.core.labels import name_of
 from station.core.units import PPQ
@@ -62,12 +64,12 @@ def advise(summary: Summary) -> tuple[Advice, ...]:
 def _remark(finding: Finding, summary: Summary) -> Advice:
     bars = tuple(bar + 1 for bar in finding.bars)
     tempo = summary.score.tempo_map.bpm_at(0) * PPQ / summary.view.beat_ticks
-    key = _row_of(finding.fault)
+    key, stops = _row_of(finding.fault), _bars_in_words(bars, summary.view.parts)
     text = f"{HEARD[key]}{_or(finding.alternatives)}: {DO[key]}.".format(
         size=abs(finding.effect),
         subject=finding.subject,
-        where=_where(bars),
-        stops=_bars_in_words(bars),
+        where=stops and f", most in {stops}",
+        stops=stops,
         tempo=tempo,
         slow=SLOWER * tempo,
     )
@@ -87,16 +89,14 @@ def _or(alternatives: tuple[str, ...]) -> str:
     return f" (or {', or '.join(named)}: the strokes are the same)" if named else ""
 
 
-def _where(bars: tuple[int, ...]) -> str:
-    return f", most in {_bars_in_words(bars)}" if bars else ""
-
-
-def _bars_in_words(bars: tuple[int, ...]) -> str:
-    if not bars:
-        return ""
-    if len(bars) == 1:
-        return f"bar {bars[0]}"
-    return f"bars {', '.join(map(str, bars[:-1]))} and {bars[-1]}"
+def _bars_in_words(bars: tuple[int, ...], parts: Mapping[int, str]) -> str:
+    """The bars, from 1, and after those of one name that name; `parts` counts bars from 0."""
+    runs = [(name, list(run)) for name, run in groupby(bars, lambda bar: parts.get(bar - 1, ""))]
+    ends = {run[-1]: f" ({name})" for name, run in runs if name}
+    named = [f"{bar}{ends.get(bar, '')}" for bar in bars]
+    if len(named) < 2:
+        return f"bar {named[0]}" if named else ""
+    return f"bars {', '.join(named[:-1])} and {named[-1]}"
 
 
 _AT_TEMPO = frozenset({"drag_slow", "rush_slow", "rushing", "dragging", "early", "late", "extra", "fades", "grows"})

@@ -120,3 +120,16 @@ def test_as_json(sessions: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (course,) = mine["courses"]
     assert (course["finished"], course["mastery"], course["prerequisites"]) == (1, "elementary", ["first-beats"])
     assert [part["title"] for part in course["parts"]] == ["The beginning", "And on"]
+
+
+def test_the_name_of_a_lesson_that_an_own_course_brings_will_do(
+    sessions: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = 'title = "Home"\n\n[grid]\n#          1 2 3 4\nsnare = "| o - o - |"\n'
+    (sessions / "courses" / "at-home.toml").write_text(text)
+    (sessions / "courses" / "mine.course.toml").write_text('title = "My own"\nlessons = ["at-home.toml"]\n')
+    assert "at-home" in said(capsys, "--course", "mine")
+    assert main(["lesson", "show", "at-home"]) == 0
+    assert capsys.readouterr().out == text
+    assert main(["lesson", "show", "at-hime"]) == 2
+    assert capsys.readouterr().err.startswith("station: at-hime: no such lesson")

@@ -140,6 +140,7 @@ FAULTS = (
     Planted('tags = ["test", "form"]', 'tags = ▶"test"', "a list of words"),
     Planted('about = """', '▶abuot = """', "did you mean about"),
     Planted('kit = ""', "kit = ▶3", "text in quotes"),
+    Planted('kit = ""', 'kit = ▶"jaz"', "no such kit: jaz; did you mean jazz?"),
     Planted("tempo_bpm = 80", 'tempo_bpm = ▶"fast"', "a number from 10 to 1000"),
     Planted('meter = "4/4"\nbeat', 'meter = ▶"4"\nbeat', '"4/4"'),
     Planted('beat = "1/4"', 'beat = ▶"5/8"', '"3/8"'),

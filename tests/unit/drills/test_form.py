@@ -229,3 +229,11 @@ def test_more_than_anyone_practises_is_refused_at_once(what: str) -> None:
     found = faults('title = "T"\ntempo_bpm = 20\n' + ENDLESS[what])
     assert "; a lesson has at most " in " ".join(f.text for f in found)
     assert time.process_time() - began_s < 3
+
+
+def test_each_bar_knows_its_part_where_the_parts_have_names() -> None:
+    """A, its two endings (the second of two bars, with a name of its own), B."""
+    parts = lesson(A + FIRST + SECOND + B).part_of_bar
+    assert parts == {0: "A", 1: "A ending", 2: "A", 3: "way out", 4: "way out", 5: "B"}
+    assert lesson(A + "times = 3\n").part_of_bar == {}
+    assert lesson(A + '[[grid]]\nkick = "o"\n').part_of_bar == {0: "A"}

@@ -21,7 +21,7 @@ about = \"\"\"
 First line.
 Second line.
 \"\"\"
-kit = "small"
+kit = "jazz"
 tempo_bpm = 96
 meter = "4/4"
 swing_ratio = 1.5
@@ -56,7 +56,7 @@ def test_everything_that_a_file_can_say() -> None:
     assert (lesson.name, lesson.title, lesson.author, lesson.level) == ("whole", "Everything", "A teacher", 3)
     assert lesson.tags == ("rock", "test")
     assert lesson.about == "First line.\nSecond line."
-    assert (lesson.kit, lesson.tempo_bpm, lesson.meter) == ("small", 96, "4/4")
+    assert (lesson.kit, lesson.tempo_bpm, lesson.meter) == ("jazz", 96, "4/4")
     assert (lesson.swing_ratio, lesson.swing.unit_ticks) == (1.5, SIXTEENTH)
     assert (lesson.loop, lesson.passes, lesson.count_in_bars, lesson.demonstrations) == ((1, 2), 4, 2, 1)
     faults = Asked({"late_kick": 15.0, "unsteady": None})
@@ -131,7 +131,9 @@ GRID = '\n[grid]\nsnare = "oooo"\n'
         ('title = "T"\n[dynamics.snair]\naccent = 12' + GRID, 2, 1, "no such key: snair; did you mean snare?"),
         ('title = "T"\ngrid = 3', 2, 8, "expected a table"),
         ('title = "T"\ngrid = []', 2, 8, "no grid to play"),
-        ('title = "T"\n[grid]\n', 2, 1, "no line to play"),
+        ('title = "T"\n[grid]\n', 2, 1, "grid has no line to play"),
+        ('title = "T"\n[grid]\nsnare = | o o |\n', 3, 9, "expected a value"),  # and not that there is no line
+        ('title = "T"\n[grid]\nsnare = "o–"\n', 3, 11, "(a long dash; a rest is the short one)"),
         ('title = "T"\n[grid]\nsnare = 3', 3, 9, "expected a line of the grid in quotes"),
         ('title = "T"\n[grid]\nsnare = ""', 3, 9, "expected a line of the grid in quotes"),
         ('title = "T"\n[grid]\nsnare = "----"', 2, 1, "nothing to play"),

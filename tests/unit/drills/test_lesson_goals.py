@@ -164,3 +164,22 @@ right_hand.snare = "---- ---- ---- ---- ---- ---- ---- ---o"
     assert "the right hand needs 2 strokes in 44 ms; people need 45 on the landing" in found.text
     assert "playable up to 166 bpm" in found.text
     assert faults(text.replace("170", "166")) == []
+
+
+@pytest.mark.parametrize(
+    ("lines", "limb", "plays"),
+    [
+        ('kick = "o---"', "right_foot", True),
+        ('kick = "o---"', "left_foot", False),
+        ('left_foot.kick = "o---"', "right_foot", False),
+        ('snare = "o---"', "left_hand", True),  # nobody says which hand
+        ('snare = "oo--"\nsticking = "RR--"', "left_hand", False),
+        ('kick = "o---"', "right_hand", False),
+    ],
+)
+def test_a_goal_asks_of_a_limb_that_plays(lines: str, limb: str, plays: bool) -> None:
+    found = faults(f'title = "T"\n[goals.{limb}]\nmax_sd_ms = 20\n[grid]\n{lines}\n')
+    named = limb.replace("_", " ")
+    assert [(f.line, f.column, f.text) for f in found] == (
+        [] if plays else [(2, 1, f"the {named} plays nothing in this lesson")]
+    )

@@ -159,6 +159,11 @@ def test_the_key_names_what_is_used_and_no_more() -> None:
     assert "closed again" in [words for _, words in signs_used(find_lesson("disco-1").score, with_sticking=False)]
     drags = [words for _, words in signs_used(find_lesson("drag").score, with_sticking=True)]
     assert drags == ["drag", "right and left hand"]
+    feet = parse_lesson('title = "T"\n[grid]\nkick = "o---"\nsnare = "--o-"\n', "t", "t").lesson
+    assert feet
+    assert list(signs_used(feet.score, with_sticking=True)) == [], (
+        "the foot's limb is known, and no letter stands below"
+    )
     silence = Score.from_notes([], TempoMap.build([TempoChange.from_bpm(0, 80)], [MeterChange(0, 4, 4)]), 4 * PPQ)
     assert list(notes_used(silence)) == []
     assert len(sheet(silence, WORDS, A4)) == 1

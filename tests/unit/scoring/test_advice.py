@@ -126,6 +126,21 @@ def test_a_teachers_hint_comes_with_its_fault() -> None:
 
 
 @pytest.mark.parametrize(
+    ("parts", "bars"),
+    [
+        ({}, "bars 20, 24 and 28"),
+        ({19: "fill", 23: "fill", 27: "way out"}, "bars 20, 24 (fill) and 28 (way out)"),
+        ({23: "fill", 0: "intro"}, "bars 20, 24 (fill) and 28"),
+    ],
+)
+def test_bars_are_named_as_the_lesson_names_them(parts: dict[int, str], bars: str) -> None:
+    """Every fourth bar is a fill."""
+    score, added = PLANTED["rush_fills"]
+    text = advise(human_take(score, 1, added, view=SummaryView(parts=parts)))[0].text
+    assert f", most in {bars}: loop the fill" in text
+
+
+@pytest.mark.parametrize(
     ("score", "clocked"),
     [(score, True) for score in (BEAT, FILL, SWING, TURNS, DOUBLES, FLAMS)] + [(BEAT, False), (FILL, False)],
 )
