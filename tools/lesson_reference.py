@@ -5,9 +5,9 @@ python -m tools.lesson_reference
 
 from pathlib import Path
 
-from station.drills.lesson_schema import reference_tables
-from station.drills.lesson_text import show
 from station.drills.library import find_lesson, lesson_names, lesson_path
+from station.drills.writing.lesson_schema import reference_tables
+from station.drills.writing.lesson_text import show
 
 PAGE = Path(__file__).parents[1] / "docs" / "lesson-format.md"
 BEGIN, END = "<!-- keys: made by python -m tools.lesson_reference -->\n", "<!-- end of keys -->"

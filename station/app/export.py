@@ -21,8 +21,8 @@ from station.core.errors import DeviceError, StationError
 from station.core.files import growing, write_whole
 from station.core.settings import Settings
 from station.drills.lesson import BarCue, Lesson
-from station.drills.lesson_text import show, with_value
-from station.drills.lesson_writer import write_lesson
+from station.drills.writing.lesson_text import show, with_value
+from station.drills.writing.lesson_writer import write_lesson
 from station.practice.records.session_files import folder_name
 from station.scenes.sheets import lesson_labels, pdf_of
 

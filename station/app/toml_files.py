@@ -10,10 +10,11 @@ from station.core.schema import Reader, reading
 from station.core.toml_faults import Fault, Noted, placed
 from station.core.toml_source import Source
 from station.devices.mapping import device_file, stick_file
-from station.drills import course, lesson_fields, lesson_file
+from station.drills import course
 from station.drills.lesson import Lesson
 from station.drills.library import course_prerequisites, lesson_prerequisites, lessons_for
 from station.drills.prerequisites import order_faults
+from station.drills.reading import lesson_fields, lesson_file
 from station.motion.kinematics import figure
 from station.motion.kit import kit
 from station.motion.style import style_file

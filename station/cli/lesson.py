@@ -69,7 +69,7 @@ class ExportOptions(LessonOptions):
 
 def _show(options: LessonOptions) -> int:
     from station.cli.input.find_own_lesson import find_any_lesson
-    from station.drills.lesson_text import show
+    from station.drills.writing.lesson_text import show
 
     write(show(find_any_lesson(options.lesson).text), end="")
     return 0
@@ -102,7 +102,7 @@ def _new(options: NewOptions) -> int:
 
 
 def _schema(_: NoOptions) -> int:
-    from station.drills.lesson_schema import lesson_schema
+    from station.drills.writing.lesson_schema import lesson_schema
 
     print_json(lesson_schema())
     return 0
@@ -110,8 +110,8 @@ def _schema(_: NoOptions) -> int:
 
 def _new_text(options: NewOptions) -> str:
     """The lesson of the family that is asked for, or the one to start from, which comes in one shape alone."""
-    from station.drills.authoring import NEW_LESSON
     from station.drills.families.family_table import FAMILIES, lesson_text
+    from station.drills.writing.authoring import NEW_LESSON
 
     if options.family is not None:
         return lesson_text(options.family, options.level, options.seed, options.bars)
@@ -129,8 +129,8 @@ def _check_free(out: Path, overwrite: bool) -> None:
 
 
 def _import(options: ImportOptions) -> int:
-    from station.drills.lesson_writer import write_lesson
     from station.drills.quantise import lesson_of, quantise_score
+    from station.drills.writing.lesson_writer import write_lesson
 
     if not is_midi(options.source) and not is_capture(options.source):
         raise BadInput(options.source, "", "expected a MIDI file (.mid) or a take (.capture)")

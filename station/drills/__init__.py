@@ -1,7 +1,7 @@
 """Lessons and courses: what is practised, as text files; and mastery, what to practise next.
 
 In: TOML files of teachers, or scores to make lessons of. Out: `Lesson` and `Course` values, and files written back.
-`lesson` is the value, `lesson_file` and `grid` read it, `lesson_text` lays its text out, `lesson_writer` writes music
-that has none, `quantise` brings a take onto the grid, `library` finds what ships and what is the user's own.
+`lesson` is the value, `grid` and `reading` read it, `writing` gives its text back, `families` makes drills by seed,
+`quantise` brings a take onto the grid, `library` finds what ships and what is the user's own, `difficulty` measures.
 Read `lesson` first.
 """

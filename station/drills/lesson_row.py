@@ -17,9 +17,9 @@ from station.core.files import write_whole
 from station.core.units import PPQ
 from station.drills.difficulty import goal_difficulty
 from station.drills.lesson import Lesson
-from station.drills.lesson_file import read_lesson
 from station.drills.level_range import LevelRange
 from station.drills.mastery.mastery_json import from_json, to_json
+from station.drills.reading.lesson_file import read_lesson
 from station.scoring.matching.hit_windows import Level
 
 _FORMAT = 2

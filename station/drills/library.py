@@ -15,8 +15,8 @@ import station
 from station.core.errors import BadInput
 from station.drills.course import ENDING, Course, Where, is_course, lesson_name, read_course
 from station.drills.lesson import Lesson
-from station.drills.lesson_file import read_lesson
 from station.drills.lesson_row import LessonRow, rows_below
+from station.drills.reading.lesson_file import read_lesson
 from station.drills.rudiments import find_rudiment
 
 FIRST_LESSON = "rock-1"

@@ -20,8 +20,8 @@ from station.drills.grid.cell_strokes import OTHER_HAND
 from station.drills.grid.tab_symbols import FOOT_OF, SYMBOLS, TabFamily, TabSymbol, family_of
 from station.drills.grid.touch import Graces, Velocities
 from station.drills.lesson import Lesson, Section
-from station.drills.lesson_writer import write_lesson
 from station.drills.quantise_time import at_bar_starts, on_cells
+from station.drills.writing.lesson_writer import write_lesson
 from station.motion.feasibility.playable import MAX_HANDS, unplayable_rows
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from station.drills.lesson import Lesson
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 
 LINES = ("snare", "kick", "hihat")
 LETTERS = {"snare": "oOg-", "kick": "oO-", "hihat": "xX-"}

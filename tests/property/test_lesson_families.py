@@ -11,7 +11,7 @@ from station.core.pieces import Limb, Piece
 from station.drills.difficulty import goal_difficulty
 from station.drills.families.family_table import FAMILIES, MAX_BARS, lesson_text
 from station.drills.lesson import Lesson
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from station.motion.feasibility.playable import impossible
 from station.motion.kit.kit import load_kit
 from station.motion.sticking.limbs import assign_limbs

@@ -17,12 +17,12 @@ from station.drills.grid.grid import GridFrame, parse_line
 from station.drills.grid.swing import MAX_RATIO, Swing
 from station.drills.grid.tab_symbols import LINE_PIECES, SYMBOLS, family_of
 from station.drills.lesson import Lesson
-from station.drills.lesson_difference import first_difference, score_difference
-from station.drills.lesson_fields import FIELDS
-from station.drills.lesson_file import parse_lesson
-from station.drills.lesson_text import show
-from station.drills.lesson_writer import write_lesson
 from station.drills.quantise import lesson_of, quantise_score
+from station.drills.reading.lesson_fields import FIELDS
+from station.drills.reading.lesson_file import parse_lesson
+from station.drills.writing.lesson_difference import first_difference, score_difference
+from station.drills.writing.lesson_text import show
+from station.drills.writing.lesson_writer import write_lesson
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 

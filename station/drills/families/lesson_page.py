@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from textwrap import fill
 
 from station.drills.lesson import LEVELS
-from station.drills.lesson_text import show
+from station.drills.writing.lesson_text import show
 
 BARS_A_GRID = 4
 """Bars that stand beside each other: a phrase, and as wide as a screen is (our choice)."""

@@ -15,8 +15,8 @@ from station.core.errors import DeviceError
 from station.core.named_view import NamedView
 from station.core.settings import Settings
 from station.drills.lesson import BarCue
-from station.drills.lesson_difference import first_difference
 from station.drills.library import find_lesson
+from station.drills.writing.lesson_difference import first_difference
 from station.motion.sticking.hand_notes import Hands
 from station.music.formats.smf.standard_midi import read_midi
 

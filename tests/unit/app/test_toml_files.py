@@ -11,8 +11,8 @@ from station.app.toml_files import KINDS, check_files, kind_of
 from station.cli.command_line import main
 from station.core.errors import BadInput
 from station.core.toml_source import MAX_FILE_BYTES, read_source, text_source
-from station.drills.authoring import NEW_LESSON
 from station.drills.library import lessons_dir
+from station.drills.writing.authoring import NEW_LESSON
 from tests.toml_kinds import GOOD, Good, read_as
 
 

@@ -3,7 +3,7 @@
 from station.core.toml_faults import Fault
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from station.music.score import Note
 
 QUARTER = PPQ

@@ -3,11 +3,11 @@
 import re
 from pathlib import Path
 
-from station.drills.authoring import NEW_LESSON
 from station.drills.grid.tab_symbols import SYMBOLS, TabFamily
-from station.drills.lesson_fields import FIELDS
-from station.drills.lesson_file import parse_lesson
-from station.drills.lesson_text import show
+from station.drills.reading.lesson_fields import FIELDS
+from station.drills.reading.lesson_file import parse_lesson
+from station.drills.writing.authoring import NEW_LESSON
+from station.drills.writing.lesson_text import show
 
 
 def test_the_new_lesson_is_a_lesson() -> None:

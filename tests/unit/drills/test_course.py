@@ -6,7 +6,6 @@ import pytest
 
 from station.app.toml_files import check_files
 from station.core.errors import BadInput
-from station.drills.authoring import NEW_LESSON
 from station.drills.course import Course, CoursePart
 from station.drills.library import (
     course_prerequisites,
@@ -17,6 +16,7 @@ from station.drills.library import (
     shipped_courses,
 )
 from station.drills.prerequisites import order_faults
+from station.drills.writing.authoring import NEW_LESSON
 from station.scoring.matching.hit_windows import Level
 
 GOOD = """\

@@ -4,7 +4,7 @@ import pytest
 
 from station.core.pieces import Limb, Ornament, Piece
 from station.drills.lesson import Lesson
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from tests.unit.drills.reading import EIGHTH, QUARTER, SIXTEENTH, WHOLE, faults
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from station.core.pieces import Limb, Piece
 from station.drills.lesson import Lesson
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from tests.unit.drills.reading import QUARTER, WHOLE, faults
 
 HEAD = 'title = "T"\ntempo_bpm = 60\n'

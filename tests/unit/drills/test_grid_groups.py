@@ -4,7 +4,7 @@ import pytest
 
 from station.core.toml_faults import Wrong
 from station.drills.grid.grid_timing import meter, meters
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from tests.unit.drills.reading import EIGHTH, QUARTER, WHOLE, faults, read, text_of, ticks
 
 SEVEN = 'tempo_bpm = 60\nmeter = "3+2+2/8"'

@@ -7,7 +7,7 @@ from station.core.units import PPQ
 from station.drills.grid.grid_reader import GridSection, read_grid
 from station.drills.grid.grid_timing import GridTiming
 from station.drills.lesson import Lesson
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from station.music.tempo import MeterChange
 from tests.unit.drills.reading import EIGHTH, QUARTER, WHOLE, faults
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from tests.unit.drills.lesson_faults import FAULTS, GOOD, Planted
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from station.core.errors import BadInput
 from station.drills.lesson import Goals
-from station.drills.lesson_file import parse_lesson, read_lesson
+from station.drills.reading.lesson_file import parse_lesson, read_lesson
 from station.scoring.analysis.fault_table import Asked
 from station.scoring.matching.hit_windows import Level
 from tests.unit.drills.reading import EIGHTH, QUARTER, SIXTEENTH, faults

@@ -7,10 +7,10 @@ import pytest
 
 from station.core.errors import BadInput
 from station.drills import lesson_row
-from station.drills.authoring import NEW_LESSON
 from station.drills.lesson import Lesson
-from station.drills.lesson_file import read_lesson
 from station.drills.lesson_row import rows_below
+from station.drills.reading.lesson_file import read_lesson
+from station.drills.writing.authoring import NEW_LESSON
 from station.scoring.matching.hit_windows import Level
 
 

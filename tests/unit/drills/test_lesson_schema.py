@@ -12,9 +12,9 @@ from typing import Any
 import pytest
 
 from station.core.expected import DRAFT
-from station.drills.lesson_file import parse_lesson
-from station.drills.lesson_schema import lesson_schema
 from station.drills.library import lesson_names, lesson_path
+from station.drills.reading.lesson_file import parse_lesson
+from station.drills.writing.lesson_schema import lesson_schema
 from tests.unit.drills.lesson_faults import GOOD
 from tools.lesson_reference import PAGE, page_with_tables
 

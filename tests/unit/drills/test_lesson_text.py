@@ -3,10 +3,10 @@
 import pytest
 
 from station.core.toml_source import load
-from station.drills.lesson_difference import first_difference
-from station.drills.lesson_file import parse_lesson
-from station.drills.lesson_text import show, with_value
 from station.drills.library import find_lesson, lesson_names
+from station.drills.reading.lesson_file import parse_lesson
+from station.drills.writing.lesson_difference import first_difference
+from station.drills.writing.lesson_text import show, with_value
 from tests.unit.drills.lesson_faults import GOOD
 
 HEAD = 'title = "T"\n'

@@ -7,11 +7,11 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
-from station.drills.lesson_difference import score_difference
-from station.drills.lesson_file import parse_lesson
-from station.drills.lesson_writer import note_length, write_lesson
 from station.drills.library import find_lesson
 from station.drills.quantise import lesson_of
+from station.drills.reading.lesson_file import parse_lesson
+from station.drills.writing.lesson_difference import score_difference
+from station.drills.writing.lesson_writer import note_length, write_lesson
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from tests.unit.drills.reading import QUARTER, SIXTEENTH, TRIPLET, WHOLE, read

@@ -5,7 +5,6 @@ from datetime import date
 
 import pytest
 
-from station.drills.lesson_file import parse_lesson
 from station.drills.level_range import LevelRange
 from station.drills.library import find_lesson
 from station.drills.mastery.agenda import next_turn
@@ -16,6 +15,7 @@ from station.drills.mastery.probes import Probes
 from station.drills.mastery.reviews import Review
 from station.drills.mastery.rules import Rules
 from station.drills.mastery.tempo_ladder import Ladder
+from station.drills.reading.lesson_file import parse_lesson
 from station.scoring.matching.hit_windows import Level
 
 DAY = date(2024, 3, 1)

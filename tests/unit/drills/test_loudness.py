@@ -6,7 +6,7 @@ from math import log10, sqrt
 import pytest
 
 from station.core.units import PPQ
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from tests.unit.drills.reading import faults, notes, text_of
 
 NORMAL = 80

@@ -6,11 +6,11 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
-from station.drills.lesson_difference import score_difference
-from station.drills.lesson_file import parse_lesson
-from station.drills.lesson_writer import write_lesson
 from station.drills.library import find_lesson
 from station.drills.quantise import lesson_of, quantise_score
+from station.drills.reading.lesson_file import parse_lesson
+from station.drills.writing.lesson_difference import score_difference
+from station.drills.writing.lesson_writer import write_lesson
 from station.music.formats.smf.standard_midi import read_midi, score_from_midi
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap

@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from station.music.tempo import TempoChange
 from tests.unit.drills.reading import QUARTER, SIXTEENTH, WHOLE, faults
 

@@ -6,7 +6,7 @@ One hand plays six strokes in a row at 10.5 Hz at most and three at 12.5, one fo
 
 import pytest
 
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from station.motion.kit.kit import DEFAULT_KIT, load_kit
 from station.motion.sticking.limbs import assign_limbs
 from tests.unit.drills.reading import faults, read, text_of

@@ -4,7 +4,7 @@ import pytest
 
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
-from station.drills.lesson_file import parse_lesson
+from station.drills.reading.lesson_file import parse_lesson
 
 
 def lesson_of(text: str) -> Lesson:

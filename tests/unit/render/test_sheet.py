@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.core.units import PPQ
-from station.drills.lesson_file import parse_lesson
 from station.drills.library import find_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.files.pdf_file import pdf

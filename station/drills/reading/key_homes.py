@@ -10,10 +10,10 @@ from types import MappingProxyType
 
 from station.core.schema import Fields
 from station.core.toml_faults import Noted
-from station.drills.bar_cues import AT
 from station.drills.grid.grid_reader import GRID
 from station.drills.grid.grid_timing import DYNAMICS, GRACES
-from station.drills.lesson_fields import BAR_GOALS, FIELDS, GOALS
+from station.drills.reading.bar_cues import AT
+from station.drills.reading.lesson_fields import BAR_GOALS, FIELDS, GOALS
 
 _HOMES: Mapping[str, Fields] = MappingProxyType(
     {

@@ -13,7 +13,7 @@ from station.core.schema import Field, Fields, checked_values, list_of, number, 
 from station.core.toml_faults import Faults
 from station.core.units import PPQ
 from station.drills.lesson import BarCue
-from station.drills.tempo_marks import TempoMark
+from station.drills.reading.tempo_marks import TempoMark
 from station.motion.style.style_file import style_names
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 

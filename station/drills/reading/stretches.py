@@ -9,13 +9,13 @@ from dataclasses import dataclass
 from itertools import chain, groupby
 
 from station.core.toml_faults import wrong
-from station.drills.bar_cues import GridCue
-from station.drills.form import WrittenGrid, repetitions
 from station.drills.grid.cell_strokes import WrittenCell
 from station.drills.grid.grid_reader import GridSection
 from station.drills.grid.voice import MAX_BARS
 from station.drills.lesson import BarCue, Section
-from station.drills.tempo_marks import STEPS_A_BEAT, Ramp, TempoMark, marked_tempos
+from station.drills.reading.bar_cues import GridCue
+from station.drills.reading.form import WrittenGrid, repetitions
+from station.drills.reading.tempo_marks import STEPS_A_BEAT, Ramp, TempoMark, marked_tempos
 from station.music.tempo import MeterChange, TempoChange
 
 MAX_STROKES = 20_000

@@ -6,8 +6,8 @@ from typing import Any
 from station.core.expected import DRAFT, JsonSchema, list_like
 from station.core.schema import table_like
 from station.drills.grid.tab_symbols import LINE_PIECES
-from station.drills.lesson_fields import FIELDS
-from station.drills.lesson_words import LINES, words_of
+from station.drills.reading.lesson_fields import FIELDS
+from station.drills.writing.lesson_words import LINES, words_of
 
 _MOST_NAMED = 8
 """So many words to choose from are named in a table's cell (our choice)."""

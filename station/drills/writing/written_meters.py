@@ -10,10 +10,10 @@ from typing import Any
 from station.core.schema import checked_values
 from station.core.toml_faults import Faults
 from station.core.toml_places import KeyPath
-from station.drills.form import written_grids
 from station.drills.grid.grid_timing import TIMING, GridTiming, meter, timing_of
-from station.drills.lesson_fields import DEFAULT_TIMING
-from station.drills.line_layout import Meters
+from station.drills.reading.form import written_grids
+from station.drills.reading.lesson_fields import DEFAULT_TIMING
+from station.drills.writing.line_layout import Meters
 
 
 def written_meters(raw: Mapping[str, object]) -> dict[KeyPath, Meters]:

@@ -22,17 +22,17 @@ from station.core.schema import Reader, checked_values, read, reading, row_of, w
 from station.core.toml_faults import Fault, Faults, Wrong, wrong
 from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ
-from station.drills.bar_cues import GridShape, read_cues
-from station.drills.form import WrittenGrid, home_of, played_order, told_at_home, written_grids
 from station.drills.grid.cell_strokes import Origin, WrittenCell, expand
 from station.drills.grid.grid_reader import read_grid
 from station.drills.grid.grid_timing import GridTiming, timing_of
 from station.drills.grid.landing import read_landing
 from station.drills.grid.voice import MAX_BARS, MAX_CELLS, CellCount
-from station.drills.key_homes import sent_home
 from station.drills.lesson import Goals, Lesson
-from station.drills.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
-from station.drills.stretches import (
+from station.drills.reading.bar_cues import GridShape, read_cues
+from station.drills.reading.form import WrittenGrid, home_of, played_order, told_at_home, written_grids
+from station.drills.reading.key_homes import sent_home
+from station.drills.reading.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
+from station.drills.reading.stretches import (
     ReadGrid,
     Stretch,
     check_size,
@@ -42,7 +42,7 @@ from station.drills.stretches import (
     sections_of,
     tempos_of,
 )
-from station.drills.unplayable import note_unplayable
+from station.drills.reading.unplayable import note_unplayable
 from station.music.loudness_marks import joined_marks
 from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoMap

@@ -30,8 +30,6 @@ from station.core.schema import (
 )
 from station.core.toml_faults import Faults, wrong
 from station.core.units import PPQ
-from station.drills.bar_cues import AT
-from station.drills.form import FORM_FIELDS
 from station.drills.grid.grid_lines import LINES
 from station.drills.grid.grid_reader import GRID
 from station.drills.grid.grid_timing import TIMING, GridTiming
@@ -39,6 +37,8 @@ from station.drills.grid.swing import MAX_RATIO
 from station.drills.grid.tab_symbols import LIMB_TABLES
 from station.drills.grid.voice import MAX_BARS
 from station.drills.lesson import DEFAULT_DEMONSTRATIONS, DEFAULT_PASSES, LEVELS, BarGoals, Goals, PartGoals
+from station.drills.reading.bar_cues import AT
+from station.drills.reading.form import FORM_FIELDS
 from station.motion.kit.kit import kit_names
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 from station.scoring.analysis.fault_table import MUTE, Asked

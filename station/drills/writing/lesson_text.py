@@ -17,8 +17,8 @@ from station.core.toml_places import KeyPath, Places
 from station.core.toml_source import load
 from station.core.toml_write import toml_value
 from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
-from station.drills.line_layout import Meters, bar_count, laid_out
-from station.drills.written_meters import written_meters
+from station.drills.writing.line_layout import Meters, bar_count, laid_out
+from station.drills.writing.written_meters import written_meters
 
 _LINE_KEYS = frozenset({*LINE_PIECES, "sticking", "loudness"})
 _COUNT = re.compile(r"#[ ]{2,}1[\d&.·a-z]*(?: +(?:\d[\d&.·a-z]*|[&·eat]+))*")
