@@ -216,20 +216,6 @@ def double_interval_ms(score: Score) -> float:
     return float(np.median(gaps_ms)) if len(second) else float("inf")
 
 
-def hands_compared(score: Score, fewest: int = 1) -> Flags:
-    """Strokes of a dynamic that both hands play, each `fewest` times or more: there a weak hand can be told.
-
-    Where the left hand has all the accents, a left hand that is weak and accents that are flat are the same thing.
-    """
-    notes, flags = score.notes, np.zeros(len(score), bool)
-    for dynamic in np.unique(notes["dynamic"]).tolist():
-        here = ~score.is_grace & (notes["dynamic"] == dynamic)
-        hands = [here & (notes["limb"] == hand) for hand in (Limb.RIGHT_HAND, Limb.LEFT_HAND)]
-        if all(hand.sum() >= fewest for hand in hands):
-            flags |= hands[0] | hands[1]
-    return flags
-
-
 def _beside_other_hand(hand: NDArray[np.int8], at_ns: NDArray[np.int64], first: int) -> bool:
     """Whether the other hand strikes alone before stroke `first` or after the next, about as near as these two are."""
     other = _OTHER_HAND.get(int(hand[first]))

@@ -20,11 +20,12 @@ from station.drills.lesson import Lesson
 from station.drills.quantise import lesson_of, quantise_score
 from station.drills.reading.lesson_fields import FIELDS
 from station.drills.reading.lesson_file import parse_lesson
-from station.drills.writing.lesson_difference import first_difference, score_difference
 from station.drills.writing.lesson_text import show
 from station.drills.writing.lesson_writer import write_lesson
+from station.drills.writing.score_difference import score_difference
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
+from tests.same_lesson import first_difference
 
 COMMON = MeterChange(0, 4, 4)
 METERS = ("4/4", "3/4", "2/4", "5/4", "6/8", "12/8", "7/8", "2/2", "3+2+2/8", "2+3/4")

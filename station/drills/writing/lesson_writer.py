@@ -17,8 +17,8 @@ from station.drills.grid.swing import Swing
 from station.drills.grid.touch import Graces, Velocities
 from station.drills.lesson import Lesson, Section, tidy_bpm
 from station.drills.reading.lesson_file import parse_lesson
-from station.drills.writing.lesson_difference import score_difference
 from station.drills.writing.lesson_text import show
+from station.drills.writing.score_difference import score_difference
 from station.music.score import Score
 
 _DYNAMICS = ("ghost", "normal", "accent")

@@ -16,9 +16,9 @@ from station.core.named_view import NamedView
 from station.core.settings import Settings
 from station.drills.lesson import BarCue
 from station.drills.library import find_lesson
-from station.drills.writing.lesson_difference import first_difference
 from station.motion.sticking.hand_notes import Hands
 from station.music.formats.smf.standard_midi import read_midi
+from tests.same_lesson import first_difference
 
 ROCK = find_lesson("rock-1")
 PATIENCE_S = 60.0

@@ -5,8 +5,8 @@ import pytest
 from station.core.toml_source import load
 from station.drills.library import find_lesson, lesson_names
 from station.drills.reading.lesson_file import parse_lesson
-from station.drills.writing.lesson_difference import first_difference
 from station.drills.writing.lesson_text import show, with_value
+from tests.same_lesson import first_difference
 from tests.unit.drills.lesson_faults import GOOD
 
 HEAD = 'title = "T"\n'

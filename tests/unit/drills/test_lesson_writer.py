@@ -10,8 +10,8 @@ from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
 from station.drills.library import find_lesson
 from station.drills.quantise import lesson_of
 from station.drills.reading.lesson_file import parse_lesson
-from station.drills.writing.lesson_difference import score_difference
 from station.drills.writing.lesson_writer import note_length, write_lesson
+from station.drills.writing.score_difference import score_difference
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from tests.unit.drills.reading import QUARTER, SIXTEENTH, TRIPLET, WHOLE, read

@@ -9,8 +9,8 @@ from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zo
 from station.drills.library import find_lesson
 from station.drills.quantise import lesson_of, quantise_score
 from station.drills.reading.lesson_file import parse_lesson
-from station.drills.writing.lesson_difference import score_difference
 from station.drills.writing.lesson_writer import write_lesson
+from station.drills.writing.score_difference import score_difference
 from station.music.formats.smf.standard_midi import read_midi, score_from_midi
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
+from station.core.pieces import Articulation, Limb, Ornament, Piece
 from station.core.units import PPQ
 from station.music import passages
 from station.music.score import Note, Score
@@ -124,17 +124,6 @@ def test_an_empty_score_has_no_passages() -> None:
     score = Score.from_notes([], TempoMap(), 4 * PPQ)
     assert len(passages.fills(score)) == len(passages.long_waits(score)) == len(passages.second_of_doubles(score)) == 0
     assert len(passages.swung(score).flags) == 0
-
-
-def test_hands_are_compared_where_both_play_one_dynamic() -> None:
-    """R R L R accented on the left only: two causes of one sound. With one plain left stroke they can be told apart."""
-    right, left = Limb.RIGHT_HAND, Limb.LEFT_HAND
-    rows = [(right, Dynamic.NORMAL), (right, Dynamic.NORMAL), (left, Dynamic.ACCENT), (right, Dynamic.NORMAL)]
-    notes = [Note(k * PPQ, Piece.SNARE, limb=limb, dynamic=dynamic) for k, (limb, dynamic) in enumerate(rows)]
-    assert not passages.hands_compared(Score.from_notes(notes, TempoMap.constant(120))).any()
-    told = Score.from_notes([*notes, Note(4 * PPQ, Piece.SNARE, limb=left)], TempoMap.constant(120))
-    assert passages.hands_compared(told).tolist() == [True, True, False, True, True]
-    assert not passages.hands_compared(told, fewest=2).any()
 
 
 def test_offbeats_of_a_grouped_meter_count_from_its_groups_in_every_bar() -> None:

@@ -1,29 +1,12 @@
-"""Where two lessons differ, said for people: what tells that a text written anew is still the same lesson."""
-
-from dataclasses import fields
+"""Where two scores differ, said for people: what tells that music written anew is still the same."""
 
 import numpy as np
 
 from station.core.pieces import word
-from station.drills.lesson import Lesson
 from station.music.score import NOTE_DTYPE, Score
 
 _SILENT = ("midi_note", "swing_ticks")
 """Columns that no player hears: where a note came from, and how the swing that it is played with is written."""
-_APART = ("score", "landing", "name", "text")
-"""Fields that are compared in their own way, or not: a lesson may be written to another file in another layout."""
-
-
-def first_difference(a: Lesson, b: Lesson) -> str:
-    """The first thing that `b` says or plays otherwise than `a`; empty if they are one lesson."""
-    if found := score_difference(a.score, b.score):
-        return found
-    if a.landing.tobytes() != b.landing.tobytes():
-        return "the landing differs"
-    for name in (each.name for each in fields(Lesson) if each.name not in _APART):
-        if getattr(a, name) != getattr(b, name):
-            return f"{name}: {getattr(a, name)} became {getattr(b, name)}"
-    return ""
 
 
 def score_difference(a: Score, b: Score) -> str:
