@@ -11,7 +11,7 @@ Who plays what is asked of `motion.sticking`, so that a lesson without a stickin
 from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from itertools import pairwise
 from types import MappingProxyType
 
@@ -23,7 +23,7 @@ from station.core.units import PPQ
 from station.drills.grid.swing import STRAIGHT, Swing
 from station.drills.lesson import Lesson
 from station.motion.kit.kit import Kit, load_kit
-from station.motion.sticking.limbs import assign_limbs
+from station.motion.sticking.limbs import limbs_and_reasons
 from station.music.score import Score
 
 BUSY_S = 2.0
@@ -184,7 +184,7 @@ def measured(score: Score, beat_ticks: int = PPQ, swing: Swing = Swing()) -> Dif
     return Difficulty(MappingProxyType(figures), _busiest(loop, loop.limbs >= 0))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class _Loop:
     """A score and what the parts ask of it.
 
@@ -202,7 +202,7 @@ class _Loop:
 
     @classmethod
     def of(cls, score: Score, beat_ticks: int, swing: Swing) -> "_Loop":
-        limbs = assign_limbs(score, _kit()).limbs
+        limbs, _ = limbs_and_reasons(score, _kit())
         struck: dict[int, set[int]] = {}
         for tick, limb, grace in zip(score.notes["tick"].tolist(), limbs.tolist(), score.is_grace, strict=True):
             if not grace:
@@ -217,6 +217,16 @@ class _Loop:
     @property
     def beats(self) -> float:
         return self.score.end_tick / self.beat_ticks
+
+    @cached_property
+    def worth(self) -> NDArray[np.float64]:
+        """What each row (n,) counts as a stroke: rebounds count `REBOUND`."""
+        counts = np.where(self.score.is_grace, REBOUND, 1.0)
+        diddles = _is_diddle(self.score.notes)
+        for limb in self.who if diddles.any() else ():
+            own = self.strokes_of(limb)
+            counts[own[diddles[own]][1::2]] = REBOUND
+        return counts
 
     @property
     def who(self) -> list[int]:
@@ -270,14 +280,9 @@ def _kit() -> Kit:
 
 def _busiest(loop: _Loop, rows: NDArray[np.bool_]) -> float:
     """Strokes a second of these rows in the busiest `BUSY_S`, as the loop goes round; rebounds count `REBOUND`."""
-    notes = loop.score.notes
     if not rows.any():
         return 0.0
-    counts = np.where(loop.score.is_grace, REBOUND, 1.0)
-    for limb in loop.who:
-        own = loop.strokes_of(limb)
-        counts[own[_is_diddle(notes[own])][1::2]] = REBOUND
-    times, counts = loop.score.onset_s[rows], counts[rows]
+    times, counts = loop.score.onset_s[rows], loop.worth[rows]
     rounds = int(np.ceil(BUSY_S / loop.length_s)) + 1
     at = np.concatenate([times + i * loop.length_s for i in range(rounds)])
     order = np.argsort(at, kind="stable")

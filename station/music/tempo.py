@@ -90,7 +90,7 @@ class MeterChange:
     def continues(self, before: "MeterChange") -> bool:
         """Whether nothing changes here: the same meter on a bar's start."""
         on_a_bar = (self.tick - before.tick) % before.bar_ticks == 0
-        return on_a_bar and replace(self, tick=0) == replace(before, tick=0)
+        return on_a_bar and (self.beats, self.unit, self.groups) == (before.beats, before.unit, before.groups)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ piece make a roll. `BarClock` says where the music that is written straight is p
 
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from types import MappingProxyType
 
@@ -17,12 +17,13 @@ from numpy.typing import NDArray
 from station.core.pieces import CYMBALS, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.toml_places import KeyPath
 from station.drills.grid.grid import Bar
-from station.drills.grid.swing import Swing
+from station.drills.grid.swing import STRAIGHT, Swing
 from station.drills.grid.tab_symbols import CHOKE, HOLD, RESTS, SYMBOLS, TabSymbol, family_of, not_a_letter
 from station.drills.grid.touch import MAX_VELOCITY, MIN_VELOCITY, Touch
 from station.music.score import NOTE_DTYPE
 from station.music.tempo import MeterChange
 
+_USUAL_TOUCH = Touch()
 OTHER_HAND = MappingProxyType({Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND})
 
 
@@ -59,7 +60,7 @@ class BarClock:
 
     def place(self, tick: int, swings: bool) -> CellPlace:
         """The moment written at `tick`."""
-        if not swings:
+        if not swings or self.swing.ratio == STRAIGHT:
             return CellPlace(tick, tick)
         bar = self.bars[bisect_right(self.bars, tick, key=lambda b: b.tick) - 1]
         played = bar.tick + self.swing.swung(tick - bar.tick, bar)
@@ -82,7 +83,7 @@ class WrittenCell:
     limb: Limb
     origin: Origin
     until: CellPlace | None = None
-    touch: Touch = field(default_factory=Touch)
+    touch: Touch = _USUAL_TOUCH
     gain: float = 1.0
 
     @property
@@ -92,8 +93,18 @@ class WrittenCell:
 
     def moved(self, ticks: int) -> "WrittenCell":
         """The same letter `ticks` later."""
+        if not ticks:
+            return self
         until = None if self.until is None else self.until.moved(ticks)
         return replace(self, place=self.place.moved(ticks), middle=self.middle.moved(ticks), until=until)
+
+    def struck(self, touch: Touch, gain: float) -> "WrittenCell":
+        """The same letter, as loud as `touch` and `gain` say."""
+        return WrittenCell(
+            *(self.place, self.middle, self.length_ticks, self.piece, self.letter, self.limb, self.origin, self.until),
+            touch=touch,
+            gain=gain,
+        )
 
     def velocity(self, dynamic: Dynamic) -> int:
         """Velocity 1–127 of its stroke, were it `dynamic`."""
@@ -114,9 +125,12 @@ def line_strokes(
     is_known = True  # what the line struck last; not after a faulty bar
     for start, bar in bars:
         for cell in bar.cells:
+            if cell.letter in RESTS:
+                open_end = None
+                continue
             here = clock.place(start + cell.tick, cell.swings)
-            end = clock.place(here.straight + cell.length_ticks, cell.swings)
             if cell.letter == HOLD:
+                end = clock.place(here.straight + cell.length_ticks, cell.swings)
                 open_end = _hold(strokes, open_end, end, cell.char, report if is_known else _unheard)
                 continue
             open_end = None
@@ -124,14 +138,15 @@ def line_strokes(
                 _choke(strokes, line.piece, here, cell.char, report if is_known else _unheard)
             elif cell.letter in symbols:
                 letter = symbols[cell.letter]
-                open_end = end if letter.articulation is Articulation.BUZZ else None
+                if letter.articulation is Articulation.BUZZ:
+                    open_end = clock.place(here.straight + cell.length_ticks, cell.swings)
                 middle = clock.place(here.straight + cell.length_ticks // 2, cell.swings)
                 origin = Origin(line.path, cell.char)
                 strokes.append(
                     WrittenCell(here, middle, cell.length_ticks, line.piece, letter, line.limb, origin, open_end)
                 )
                 is_known = True
-            elif cell.letter not in RESTS:
+            else:
                 report(cell.char, not_a_letter(cell.letter, family_of(line.piece)))
                 is_known = False
         if not bar.sound:
@@ -239,12 +254,17 @@ def _graces(stroke: WrittenCell, velocity: int) -> list[tuple[float, ...]]:
     return [_row(grace, graces.velocity(velocity), ornament, {"lead_ms": lead}) for lead in leads_ms]
 
 
+_ALL_ZERO = MappingProxyType(dict.fromkeys(NOTE_DTYPE.names or (), 0))
+"""The fields in their order."""
+
+
 def _row(
     stroke: WrittenCell, velocity: int, ornament: Ornament, more: Mapping[str, float] = MappingProxyType({})
 ) -> tuple[float, ...]:
     """One row; `more` holds the fields that most strokes leave at 0."""
     letter = stroke.letter
     values: dict[str, float] = {
+        **_ALL_ZERO,
         "tick": stroke.place.played,
         "swing_ticks": stroke.place.swing_ticks,
         "openness": np.nan if letter.openness is None else letter.openness,
@@ -257,4 +277,4 @@ def _row(
         "limb": stroke.limb,
         **more,
     }
-    return tuple(values.get(name, 0) for name in NOTE_DTYPE.names or ())
+    return tuple(values.values())

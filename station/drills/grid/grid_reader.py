@@ -185,7 +185,7 @@ class _Builder:
     def _struck(self, strokes: Sequence[WrittenCell], level: Loudness) -> tuple[WrittenCell, ...]:
         """The strokes as loud as the grid says."""
         touch = self.timing.touch
-        return tuple(replace(s, touch=touch, gain=level.gain(s.place.straight)) for s in strokes)
+        return tuple(s.struck(touch, level.gain(s.place.straight)) for s in strokes)
 
     def _must_not_cross(self, lines: Sequence[ParsedLine], bars: Sequence[MeterChange]) -> None:
         """Note a fault where cells swing in pairs that do not fill the beat that is counted, and so would cross it."""

@@ -8,6 +8,7 @@ each group.
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 
 from station.core.units import PPQ
 from station.music.tempo import MeterChange
@@ -30,13 +31,15 @@ class Swing:
 
         Where the pairs do not fill the bar (eighths in 7/8) or one of its groups, its last cell stays straight.
         """
+        if self.ratio == STRAIGHT:
+            return tick
         start, end = _stretch(tick, meter)
         pair = 2 * self.unit_ticks
         start += (tick - start) // pair * pair
         inside = tick - start
-        if self.ratio == STRAIGHT or not inside or start + pair > end:
+        if not inside or start + pair > end:
             return tick
-        long_share = self._long_share
+        long_share = _long_share(self.ratio)
         if inside <= self.unit_ticks:
             return start + round(inside * 2 * long_share)
         return start + round(pair * long_share + (inside - self.unit_ticks) * 2 * (1 - long_share))
@@ -50,11 +53,12 @@ class Swing:
         """
         return self.ratio not in (STRAIGHT, TRIPLETS)
 
-    @property
-    def _long_share(self) -> Fraction:
-        """The long cell's share of the pair, exactly."""
-        ratio = Fraction(self.ratio).limit_denominator(_LIMIT_DENOMINATOR)
-        return ratio / (ratio + 1)
+
+@lru_cache
+def _long_share(ratio: float) -> Fraction:
+    """The long cell's share of the pair, exactly."""
+    exact = Fraction(ratio).limit_denominator(_LIMIT_DENOMINATOR)
+    return exact / (exact + 1)
 
 
 def _stretch(tick: int, meter: MeterChange) -> tuple[int, int]:

@@ -21,7 +21,8 @@ from station.motion.feasibility.limb_speeds import SPANS_S
 from station.music.score import Score
 
 MAX_HANDS = 2
-_HANDS_STRIKE = np.array(sorted(HAND_PIECES), np.uint8)
+_HANDS_STRIKE = np.isin(np.arange(256), sorted(HAND_PIECES))
+"""By `Piece`, whether a hand strikes it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +77,7 @@ def _too_soon(times_s: NDArray[np.float64], spans_s: Mapping[int, float]) -> NDA
 
 def _is_hand(notes: NDArray[np.void]) -> NDArray[np.bool_]:
     by_foot = notes["limb"] >= Limb.RIGHT_FOOT
-    return np.isin(notes["piece"], _HANDS_STRIKE) & ~by_foot
+    return np.asarray(_HANDS_STRIKE[notes["piece"]] & ~by_foot)
 
 
 def _crowded_moments(score: Score) -> list[Impossible]:

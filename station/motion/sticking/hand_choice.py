@@ -37,7 +37,7 @@ def choose_hands(notes: HandNotes) -> tuple[NDArray[np.int8], list[str]]:
     settled_s = price.settled_s(notes)
     states = [_START]
     for i in range(len(notes.time_s)):
-        states = [s for hand in (RIGHT, LEFT) for s in _best_into(notes, i, hand, states, settled_s)]
+        states = [s for hand in _who_may(notes, i) for s in _best_into(notes, i, hand, states, settled_s)]
     path = _path(min(states, key=_cost))
     limbs, reasons = np.empty(len(path), np.int8), [""] * len(path)
     for i, state in enumerate(path):
@@ -45,6 +45,12 @@ def choose_hands(notes: HandNotes) -> tuple[NDArray[np.int8], list[str]]:
         limbs[row] = Limb.RIGHT_HAND if state.hand == RIGHT else Limb.LEFT_HAND
         reasons[row] = _reason(notes, i, state)
     return limbs, reasons
+
+
+def _who_may(notes: HandNotes, i: int) -> tuple[int, ...]:
+    """The hands that may play note `i`: a written one is played by no other."""
+    written = int(notes.written[i])
+    return (written,) if written in (RIGHT, LEFT) else (RIGHT, LEFT)
 
 
 def _cost(state: _State) -> float:
@@ -72,11 +78,11 @@ def _best_into(notes: HandNotes, i: int, hand: int, states: list[_State], settle
         if other not in by_other:
             by_other[other] = sum(price.beside(notes, i, hand, other))
         cost = state.cost + by_itself + by_own[own, bounced] + by_other[other]
-        after = _after(notes, i, hand, state, cost)
         where = other if other < 0 or notes.time_s[i] - notes.time_s[other] < settled_s else -2 - notes.kind[other]
-        known = best.get((where, *after.bounced))
+        doubled = _doubled(notes, i, hand, state)
+        known = best.get((where, *doubled))
         if known is None or cost < known.cost:
-            best[(where, *after.bounced)] = after
+            best[(where, *doubled)] = _State(cost, hand, other, doubled, state)
     if len(best) > MOST_STATES:
         return heapq.nsmallest(MOST_STATES, best.values(), key=_cost)
     return list(best.values())
@@ -89,13 +95,13 @@ def _lasts(i: int, hand: int, state: _State) -> tuple[int, int, bool]:
     return state.other, i - 1, state.bounced[1]
 
 
-def _after(notes: HandNotes, i: int, hand: int, state: _State, cost: float) -> _State:
-    """The state after `hand` played note `i` at a total of `cost`; an old double is forgotten."""
+def _doubled(notes: HandNotes, i: int, hand: int, state: _State) -> tuple[bool, bool]:
+    """Whether `hand` doubles with note `i`, and whether the other hand did; an old double is forgotten."""
     own, other, _ = _lasts(i, hand, state)
     others = state.bounced[1] if hand == state.hand else state.bounced[0]
     if others and notes.time_s[i] - notes.time_s[other] >= EASY_REPEAT_S:
         others = False
-    return _State(cost, hand, other, (price.is_double(notes, i, own), others), state)
+    return price.is_double(notes, i, own), others
 
 
 # --- the reason -------------------------------------------------------------------------------------------------------

@@ -46,6 +46,14 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
 
     Raises `BadInput` for an unknown method.
     """
+    limbs, why = limbs_and_reasons(score, kit, method, hands)
+    return Assignment(limbs, tuple(why), method, infeasible_demands(score, kit, limbs))
+
+
+def limbs_and_reasons(
+    score: Score, kit: Kit, method: str = "station", hands: Hands | None = None
+) -> tuple[NDArray[np.int8], list[str]]:
+    """The same without the question what is beyond a human: the limbs (n,), and why each was chosen."""
     if method not in METHODS:
         raise BadInput("method", method, f"no such method of limb assignment; there are {' and '.join(METHODS)}")
     lead = hands or (Hands.LEFT if kit.left_handed else Hands.RIGHT)
@@ -58,7 +66,7 @@ def assign_limbs(score: Score, kit: Kit, method: str = "station", hands: Hands |
         limbs[rows] = chosen
         for row, reason in zip(rows, reasons, strict=True):
             why[row] = "written" if written[row] else reason
-    return Assignment(limbs, tuple(why), method, infeasible_demands(score, kit, limbs))
+    return limbs, why
 
 
 def as_led(score: Score, kit: Kit, hands: Hands | None = None) -> Score:
