@@ -106,6 +106,14 @@ class WrittenCell:
             gain=gain,
         )
 
+    def played_by(self, limb: Limb) -> "WrittenCell":
+        """The same letter, played by `limb`."""
+        return WrittenCell(
+            *(self.place, self.middle, self.length_ticks, self.piece, self.letter, limb, self.origin, self.until),
+            touch=self.touch,
+            gain=self.gain,
+        )
+
     def velocity(self, dynamic: Dynamic) -> int:
         """Velocity 1–127 of its stroke, were it `dynamic`."""
         loud = round(self.touch.velocities.of(self.piece, dynamic) * self.gain)

@@ -60,7 +60,7 @@ class GridSection:
 
     def bars_at(self, start_tick: int) -> list[MeterChange]:
         """The bars of a repetition that begins at `start_tick`."""
-        return [replace(bar, tick=bar.tick + start_tick) for bar in self.meters]
+        return [replace(bar, tick=bar.tick + start_tick) for bar in self.meters] if start_tick else list(self.meters)
 
     def at(self, start_tick: int) -> list[WrittenCell]:
         """The strokes of all repetitions, one after the other from `start_tick` on."""

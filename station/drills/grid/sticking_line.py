@@ -6,7 +6,6 @@ other hand, a diddle stays in one. B says that both hands strike: the right hand
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from types import MappingProxyType
 
 from station.core.pieces import TOMS, Limb, Piece, word
@@ -107,4 +106,4 @@ def _hands(letter: str, here: Sequence[WrittenCell]) -> list[Limb]:
 
 
 def _with_hands(letter: str, here: Sequence[WrittenCell]) -> list[WrittenCell]:
-    return [replace(s, limb=limb) for s, limb in zip(here, _hands(letter, here), strict=True)]
+    return [s.played_by(limb) for s, limb in zip(here, _hands(letter, here), strict=True)]

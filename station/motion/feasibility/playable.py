@@ -10,7 +10,6 @@ strokes keep their milliseconds at every speed, so the share is no mere quotient
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +22,8 @@ from station.music.score import Score
 MAX_HANDS = 2
 _HANDS_STRIKE = np.isin(np.arange(256), sorted(HAND_PIECES))
 """By `Piece`, whether a hand strikes it."""
+_GRACED = np.isin(np.arange(256), (Ornament.FLAM, Ornament.DRAG))
+"""By `Ornament`, whether grace strokes go before it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,13 +85,11 @@ def _crowded_moments(score: Score) -> list[Impossible]:
     """Moments that ask for three hands, or for one limb in two places."""
     found: list[Impossible] = []
     notes = score.notes
-    ticks, limbs = notes["tick"].tolist(), notes["limb"].tolist()
-    is_hand = _is_hand(notes).tolist()
-    graced = np.isin(notes["ornament"], (Ornament.FLAM, Ornament.DRAG)).tolist()
-    for _, group in groupby(np.flatnonzero(~score.is_grace).tolist(), key=ticks.__getitem__):
-        rows = list(group)
+    limbs, struck = notes["limb"].tolist(), np.flatnonzero(~score.is_grace)
+    is_hand, graced = _is_hand(notes), _GRACED[notes["ornament"]]
+    for rows in _crowds(notes["tick"][struck], (is_hand * (1 + graced))[struck], notes["limb"][struck], struck):
         hands = [i for i in rows if is_hand[i]]
-        needed = len(hands) + sum(graced[i] for i in hands)
+        needed = len(hands) + int(graced[hands].sum())
         if needed > MAX_HANDS:
             ornament = " with its grace strokes" if needed > len(hands) else ""
             what = f"{needed} hands needed at once: {_pieces(score, hands)}{ornament}"
@@ -103,6 +102,18 @@ def _crowded_moments(score: Score) -> list[Impossible]:
     return found
 
 
+def _crowds(
+    ticks: NDArray[np.int64], hands: NDArray[np.int64], limbs: NDArray[np.int8], rows: NDArray[np.int64]
+) -> list[list[int]]:
+    """Of strokes (n,) in order of `ticks` the `rows` of each moment that needs too many `hands` or a limb twice."""
+    moment = np.cumsum(np.diff(ticks, prepend=ticks[:1]) != 0)
+    known = limbs != Limb.UNKNOWN
+    who = np.sort(moment[known] * len(Limb) + limbs[known])
+    twice = who[1:][np.diff(who) == 0] // len(Limb)
+    crowded = np.union1d(np.flatnonzero(np.bincount(moment, hands) > MAX_HANDS), twice)
+    return [rows[moment == one].tolist() for one in crowded.tolist()]
+
+
 def _pieces(score: Score, rows: Sequence[int]) -> str:
     names = [word(Piece(score.notes["piece"][i])) for i in rows]
     return ", ".join(names[:-1]) + (" and " if names[1:] else "") + names[-1]
@@ -112,6 +123,8 @@ def _open_and_shut(score: Score) -> list[Impossible]:
     """Open strokes on a hi-hat that the foot closes at the same moment."""
     notes = score.notes
     chicks = notes["tick"][notes["articulation"] == Articulation.CHICK]
+    if not len(chicks):
+        return []
     open_hats = (notes["piece"] == Piece.HIHAT) & (np.nan_to_num(notes["openness"]) >= HALF_OPEN)
     at_fault = np.flatnonzero(open_hats & np.isin(notes["tick"], chicks))
     return [Impossible(int(i), "the hi-hat is struck open while the foot closes it") for i in at_fault]
@@ -119,7 +132,9 @@ def _open_and_shut(score: Score) -> list[Impossible]:
 
 def _too_fast(score: Score) -> list[Impossible]:
     """The first place of each limb, or of both hands together, that is faster than people are."""
-    return [found for crew in _crews(score) if (found := _first_too_fast(crew, score))]
+    beat_s = score.tempo_map.seconds_at(score.notes["tick"])
+    lead_s = score.notes["lead_ms"].astype(np.float64) / 1000
+    return [found for crew in _crews(score) if (found := _first_too_fast(crew, beat_s, lead_s))]
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,10 +160,12 @@ def _crews(score: Score) -> list[_Crew]:
     ]
 
 
-def _first_too_fast(crew: _Crew, score: Score) -> Impossible | None:
+def _first_too_fast(crew: _Crew, beat_s: NDArray[np.float64], lead_s: NDArray[np.float64]) -> Impossible | None:
+    """The same of one crew, where the strokes of all (n,) are `lead_s` before `beat_s`."""
     rows = np.flatnonzero(crew.rows)
-    beat_s = score.tempo_map.seconds_at(score.notes["tick"][rows])
-    lead_s = score.notes["lead_ms"][rows].astype(np.float64) / 1000
+    if len(rows) < 2:
+        return None
+    beat_s, lead_s = beat_s[rows], lead_s[rows]
     order = np.argsort(beat_s - lead_s, kind="stable")
     order = order[~_surplus(beat_s[order], lead_s[order], crew.limbs)]
     rows, beat_s, lead_s = rows[order], beat_s[order], lead_s[order]
