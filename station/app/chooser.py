@@ -1,11 +1,13 @@
 """What the user has chosen of the catalog, and that it is what is shown before it begins."""
 
+from collections.abc import Sequence
+from concurrent.futures import Executor, Future
 from dataclasses import replace
 from typing import assert_never
 
 from station.app.actions import ChoiceAction, ChooseBars, JudgeAt, Select, TapBeat
 from station.app.lesson_cards import request_of
-from station.app.room_state import Stage
+from station.app.room_state import LessonCard, Stage
 from station.app.selection import Selection
 from station.app.sessions.session_control import Launch, SessionControl
 from station.app.settings_store import SettingsStore
@@ -13,9 +15,14 @@ from station.practice.control.tap_tempo import TapTempo as Taps
 
 
 class Chooser:
-    """The `selection`; at first what `launch` opens on, which `sessions` show already."""
+    """The `selection`; at first what `launch` opens on, which `sessions` show already.
 
-    def __init__(self, sessions: SessionControl, store: SettingsStore, launch: Launch) -> None:
+    The `reader` reads all other lessons beside what goes on, when they are asked for.
+    """
+
+    def __init__(self, sessions: SessionControl, store: SettingsStore, launch: Launch, reader: Executor) -> None:
+        self._reader = reader
+        self._reading: Future[Sequence[LessonCard]] | None = None
         self._sessions, self._store, self._taps = sessions, store, Taps()
         first = replace(request_of(launch.plan), adapt=launch.adapt)
         self.selection = Selection.of([sessions.catalog.first_card()], first)
@@ -49,17 +56,28 @@ class Chooser:
                 assert_never(action)
 
     def offer_all(self) -> None:
-        """Offer every lesson there is from now on; the first call takes a moment."""
-        catalog = self._sessions.catalog
-        if not self._has_catalog:
-            self._has_catalog = True
-            self.selection = self.selection.offer(catalog.cards(), catalog.courses(), self._store.now.course)
+        """Offer every lesson there is, as soon as they are read."""
+        if self._reading is None and not self._has_catalog:
+            self._sessions.catalog.courses()
+            self._reading = self._reader.submit(self._sessions.catalog.cards)
+
+    def _take_catalog(self) -> None:
+        """Offer what was read; raises `BadInput` where a lesson that ships cannot be read."""
+        if self._reading is not None and self._reading.done():
+            reading, self._reading, self._has_catalog = self._reading, None, True
+            courses, course = self._sessions.catalog.courses(), self._store.now.course
+            self.selection = self.selection.offer(reading.result(), courses, course)
+
+    def close(self) -> None:
+        """End the reader; what it reads is dropped."""
+        self._reader.shutdown(wait=False, cancel_futures=True)
 
     def update(self) -> None:
         """Show what is chosen, if something else is shown, how far the student is, and how strictly they are judged.
 
         A result is shown until it is left. Raises `StationError`.
         """
+        self._take_catalog()
         if self._has_catalog:
             progress, levels = self._sessions.catalog.progress(), self._sessions.catalog.levels()
             if progress is not self.selection.progress or levels is not self.selection.levels:

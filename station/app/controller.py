@@ -68,7 +68,7 @@ class Controller:
         self.phase = PhasePage(
             self.sessions.listen_to, self.sessions.is_listening_to, self.sessions.quiet, ThreadPoolExecutor(1, "motion")
         )
-        self._chooser = Chooser(self.sessions, store, launch)
+        self._chooser = Chooser(self.sessions, store, launch, ThreadPoolExecutor(1, "catalog"))
         self._shown = do.Show()
         self._now_ns = 0
         self._view: State | None = None
@@ -337,6 +337,7 @@ class Controller:
         self.calibration.close()
         self.export.cancel()
         self.phase.close()
+        self._chooser.close()
         if self.sessions.practice.is_playing:
             self.sessions.practice.end()
             fault = self.sessions.practice.fault

@@ -10,6 +10,7 @@ mouse and presses the keys; nothing here reaches past the window but to look.
 
 import json
 import sys
+import time
 import traceback
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -214,6 +215,7 @@ class Drive:
                 self.station.dispatch(EndSession())
                 self.station.dispatch(Dismiss())
                 ctx.yield_(2)
+                self._wait_for_lessons(ctx)
                 scenario(self, ctx)
             except Exception:
                 self.seen["traceback"] = traceback.format_exc()
@@ -228,6 +230,13 @@ class Drive:
                 return frame
             ctx.yield_()
         raise AssertionError(f"{stage!r} did not come in {MOST_FRAMES} frames")
+
+    def _wait_for_lessons(self, ctx: imgui.test_engine.TestContext) -> None:
+        """Let frames pass until the list is read, which may take seconds where nothing is cached."""
+        deadline = time.monotonic() + TIMEOUT_S
+        while len(self.state.selection.lessons) == 1:
+            assert time.monotonic() < deadline, "the lessons are not read"
+            ctx.yield_()
 
     def choose(self, ctx: imgui.test_engine.TestContext, passes: int) -> None:
         """Take `LESSON` from the list and set its passes."""

@@ -1,6 +1,7 @@
 """The station behind the window: nothing that was played is lost when the engine fails, and each kind of practice."""
 
 import json
+import time
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -54,6 +55,8 @@ from tests.fakes.stations import Line, choose, just_play, room, shown, station_o
 
 TARGET_BPM = find_lesson("rock-1").target_tempo_bpm
 PLAN = plan_practice(find_lesson("rock-1"), PlanOptions(loops=1, demonstrations=0))
+MOST_READING_S = 60.0
+"""A slow machine reads all lessons well within this."""
 
 
 def station_at(lines: list[Line], sessions: Path) -> Controller:
@@ -456,9 +459,19 @@ def test_a_faulty_file_is_told_and_keeps_nobody_from_practising(tmp_path: Path) 
     assert room(station).stage is Stage.PLAYING
 
 
+def offer_all(station: Controller, now_ns: int = 1) -> None:
+    """Show the list, and go on until all lessons are in it; the window goes on meanwhile."""
+    station.dispatch(Show(catalog=True))
+    assert [card.name for card in station.view().selection.lessons] == ["rock-1"], "nothing waits for the others"
+    deadline = time.monotonic() + MOST_READING_S
+    while len(station.view().selection.lessons) == 1 and time.monotonic() < deadline:
+        station.update(now_ns)
+    assert {"rock-1", "rock-2"} <= {card.name for card in station.view().selection.lessons}
+
+
 def test_what_is_chosen_is_shown_and_its_bars_are_repeated(tmp_path: Path) -> None:
     station = station_at([Line()], tmp_path)
-    station.dispatch(Show(catalog=True))
+    offer_all(station)
     cards = {card.name: card for card in station.view().selection.lessons}
     station.dispatch(Select(station.view().selection.choose(cards["rock-2"])))
     station.dispatch(ChooseBars((1, 1)))
@@ -516,8 +529,7 @@ def test_a_lesson_is_judged_as_it_suggests_until_the_student_chooses(tmp_path: P
     assert level_of_a_session(station, line) == "beginner"
     station.dispatch(JudgeAt("rock-1", Level.ADVANCED))
     assert level_of_a_session(station, line) == "advanced"
-    station.dispatch(Show(catalog=True))
-    station.update(2 * NS_PER_S)
+    offer_all(station, 2 * NS_PER_S)
     assert station.view().selection.level is Level.ADVANCED
 
 
@@ -526,7 +538,7 @@ def test_a_choice_of_level_holds_for_that_lesson_and_the_next_time(tmp_path: Pat
     line = Line()
     again = station_at([line], tmp_path)
     assert level_of_a_session(again, line) == "elementary"
-    again.dispatch(Show(catalog=True))
+    offer_all(again)
     selection = again.view().selection
     again.dispatch(Select(selection.choose(next(card for card in selection.lessons if card.name == "rock-2"))))
     assert again.view().selection.level is Level.BEGINNER
