@@ -14,7 +14,7 @@ from station.core.settings import Settings, settings_path
 from station.drills.lesson import Lesson
 from station.motion.kit.kit import DEFAULT_KIT, Kit, load_kit
 from station.motion.sticking.hand_notes import Hands
-from station.motion.sticking.limbs import as_led, assign_limbs
+from station.motion.sticking.limbs import as_led, limbs_and_reasons
 from station.music.score import Score
 
 
@@ -44,7 +44,8 @@ def with_sticking(section: Score, kit: Kit, hands: Hands | None) -> Score:
     So the demonstration, the per-limb figures and the advice all speak of the same hands.
     """
     led = as_led(section, kit, hands)
-    return led.with_limbs(assign_limbs(led, kit, hands=hands).limbs)
+    limbs, _ = limbs_and_reasons(led, kit, hands=hands)
+    return led.with_limbs(limbs)
 
 
 def led_to_landing(
