@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
+from station.core.units import PPQ
 from station.music.score import Score
 from station.music.tempo_words import TempoWord, tempo_words
 from station.render.notation.beams import (
@@ -24,6 +25,7 @@ from station.render.notation.beams import (
     draw_flags,
     draw_tuplet,
 )
+from station.render.notation.beat_note import draw_beat_note
 from station.render.notation.loudness_row import LOUDNESS_Y, ROW_BOTTOM, draw_loudness
 from station.render.notation.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
 from station.render.notation.rhythm import BeatGroup, TimedValue, beat_groups, spell
@@ -88,7 +90,7 @@ def bottom_of(score: Score) -> float:
 class Engraver:
     """Engraves the bars of one score; `limbs` (n,) of `Limb` writes the sticking, None that of the score itself.
 
-    `meter_words`: new meters stand above the staff; a sheet has room for them within.
+    Tempi count beats of `beat_ticks`. `meter_words`: new meters stand above the staff; a sheet has room for them within.
     """
 
     def __init__(
@@ -97,10 +99,12 @@ class Engraver:
         atlas: Atlas,
         limbs: NDArray[np.int8] | None = None,
         numbers: BarNumbers | None = None,
+        beat_ticks: int = PPQ,
         meter_words: bool = True,
     ) -> None:
         self.score = score
         self.numbers = numbers or BarNumbers()
+        self.beat_ticks = beat_ticks
         self._atlas = atlas
         self._limbs = score.notes["limb"] if limbs is None else limbs
         self.loudness_y = LOUDNESS_Y if np.isin(self._limbs, list(_LETTERS)).any() else STICKING_Y
@@ -220,9 +224,9 @@ class _BarEngraver:
             left = x if word.tick == self._start else -0.6
             if word.way:
                 left += _WORD_GAP / 2 + self._draw_list.text(_RAMPS[word.way], (left, _WORDS_Y), _WORD)
-            self._draw_list.ellipse((left + 0.45, _WORDS_Y - 0.26), (0.36, 0.26), BRAND, -0.38)
-            self._draw_list.line((left + 0.76, _WORDS_Y - 0.3), (left + 0.76, _WORDS_Y - 1.15), 0.12, BRAND)
-            self._draw_list.text(f"= {word.tempo_bpm:.0f}", (left + 1.3, _WORDS_Y), _WORD)
+            left = draw_beat_note(self._draw_list, (left, _WORDS_Y), 1.0, self._e.beat_ticks, BRAND)
+            beats = word.tempo_bpm * PPQ / self._e.beat_ticks
+            self._draw_list.text(f"= {beats:.0f}", (left, _WORDS_Y), _WORD)
 
     def _silent_bar(self) -> None:
         if self._start < self._e.score.end_tick:
