@@ -13,9 +13,7 @@ _AFTER, _BESIDE = 1.3, 0.35
 set so much smaller than on a staff. What a note takes with the gap after it, and a flag or a dot besides."""
 
 
-def draw_beat_note(
-    draw_list: DrawList, at: tuple[float, float], unit: float, beat_ticks: int, colour: Colour
-) -> float:
+def draw_beat_note(draw_list: DrawList, at: tuple[float, float], unit: float, beat_ticks: int, colour: Colour) -> float:
     """A note `beat_ticks` long whose left end on the baseline is `at`, a `unit` large; returns where text goes on."""
     (left, base), dotted = at, _is_dotted(beat_ticks)
     plain_ticks = beat_ticks * 2 // 3 if dotted else beat_ticks

@@ -6,7 +6,7 @@ Proportions follow Gould, "Behind Bars" (2011): stems 3½ spaces, beams half a s
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from station.music.score import Score
 from station.music.tempo_words import TempoWord, tempo_words
 from station.render.notation.beams import (
     BEAM_STEP,
+    FLAG_STEP,
     STEM,
     STEM_X,
     Anchor,
@@ -26,9 +27,10 @@ from station.render.notation.beams import (
     draw_tuplet,
 )
 from station.render.notation.beat_note import draw_beat_note
+from station.render.notation.held_rolls import draw_tie, held_until, long_groups, spelled, tie_way
 from station.render.notation.loudness_row import LOUDNESS_Y, ROW_BOTTOM, draw_loudness
 from station.render.notation.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
-from station.render.notation.rhythm import BeatGroup, TimedValue, beat_groups, spell
+from station.render.notation.rhythm import BeatGroup, TimedValue, Value, beat_groups
 from station.render.notation.staff import FOOT_PIECES, PLACES, head_of, height, ledger_steps
 from station.render.notation.swing_words import swing_words
 from station.render.palette import BRAND, INK, INK_SOFT
@@ -62,6 +64,14 @@ _GRACE_STEP = 1.0
 _GRACE_GAP = 1.5
 _BUZZ_OFF = 1.4
 """From a stem's end to the middle of a buzz's sign on it, clear of one beam."""
+_BUZZ_BELOW_FLAG = 3.2
+"""And clear of one flag, which is two and a half spaces long."""
+_BUZZ_OVER_WHOLE = 1.6
+"""And from a whole note's head, which has no stem."""
+_HOLLOW = 2
+"""Heads of notes from a half on are hollow."""
+_INCOMING, _OVER_LINE = 1.7, 0.9
+"""A tie from the line before begins so far left of its head, one over a bar line on paper ends so far right of it."""
 _BRACKET = 0.55
 """How much farther a dot or a grace stroke stands from a note in brackets."""
 
@@ -80,6 +90,8 @@ class _Chord:
     written: int
     mains: tuple[int, ...]
     graces: tuple[int, ...]
+    is_tied: bool = False
+    """No stroke, but a roll that goes on: it is tied to the note before it."""
 
 
 def bottom_of(score: Score) -> float:
@@ -90,7 +102,8 @@ def bottom_of(score: Score) -> float:
 class Engraver:
     """Engraves the bars of one score; `limbs` (n,) of `Limb` writes the sticking, None that of the score itself.
 
-    Tempi count beats of `beat_ticks`. `meter_words`: new meters stand above the staff; a sheet has room for them within.
+    Tempi count beats of `beat_ticks`. `meter_words`: new meters stand above the staff; a sheet has room for them
+    within.
     """
 
     def __init__(
@@ -114,10 +127,15 @@ class Engraver:
         self._swing_words = swing_words(score)
         feet = [int(p) for p in FOOT_PIECES]
         self._is_foot = np.isin(score.notes["piece"], feet)
+        self.written = score.notes["tick"] - score.notes["swing_ticks"]
+        self.until = held_until(score, self._is_foot)
 
-    def bar(self, bar: int, with_line: bool = True) -> NDArray[np.void]:
-        """The shapes of one bar, `with_line` the bar line on its left, dtype `draw_list.SHAPE_DTYPE`."""
-        return _BarEngraver(self, bar, with_line).shapes()
+    def bar(self, bar: int, with_line: bool = True, opens_line: bool = False) -> NDArray[np.void]:
+        """The shapes of one bar, `with_line` the bar line on its left, dtype `draw_list.SHAPE_DTYPE`.
+
+        `opens_line`: it is the first of its line on paper, where ties from the line before begin anew.
+        """
+        return _BarEngraver(self, bar, with_line, opens_line).shapes()
 
     # --- what a bar asks ------------------------------------------------------------------------------------------
 
@@ -138,6 +156,11 @@ class Engraver:
             _Chord(int(notes["tick"][[*mains, *graces]].min()), written, tuple(mains), tuple(graces))
             for written, (mains, graces) in sorted(places.items())
         ]
+
+    def held_into(self, start: int, feet: bool) -> tuple[int, ...]:
+        """The rolls of one voice that were struck before tick `start` and are still held there."""
+        held = (self.written < start) & (self.until > start) & (self._is_foot == feet)
+        return tuple(np.flatnonzero(held).tolist())
 
     def limb(self, index: int) -> Limb:
         """Who plays stroke `index`."""
@@ -180,20 +203,22 @@ _OPEN_FROM, _WIDE_FROM = 0.25, 0.75
 class _BarEngraver:
     """The work of one bar."""
 
-    def __init__(self, engraver: Engraver, bar: int, with_line: bool) -> None:
-        self._with_line = with_line
+    def __init__(self, engraver: Engraver, bar: int, with_line: bool, opens_line: bool) -> None:
+        self._with_line, self._opens_line = with_line, opens_line
         self._e = engraver
         self._tempo = engraver.score.tempo_map
         self._bar = bar
         self._start, self._end = self._tempo.bar_start(bar), self._tempo.bar_start(bar + 1)
         self._draw_list = engraver.draw_list()
         self._anchor = Anchor(self._draw_list, self._tempo)
+        self._last: int | None = None
+        """Where the voice in work has its last note."""
 
     def shapes(self) -> NDArray[np.void]:
         self._bar_line()
         rows = self._e.rows(self._start, self._end)
         hands, feet = self._e.chords(rows, feet=False), self._e.chords(rows, feet=True)
-        if not hands and not feet:
+        if not hands and not feet and not self._e.held_into(self._start, feet=False):
             self._silent_bar()
         else:
             self._voice(hands, _HANDS, beside=bool(feet))
@@ -237,14 +262,54 @@ class _BarEngraver:
 
     def _voice(self, chords: Sequence[_Chord], voice: StaffVoice, beside: bool) -> None:
         mains = [c for c in chords if c.mains]
-        for start, end in beat_groups(self._tempo.meter_at(self._start), self._end - self._start):
-            inside = [c for c in mains if start <= c.written - self._start < end]
-            group = spell([c.written - self._start for c in inside], start, end)
+        self._last = None
+        groups = beat_groups(self._tempo.meter_at(self._start), self._end - self._start)
+        for group in long_groups(groups, self._holds(mains, voice)):
+            inside = [c for c in mains if group[0] <= c.written - self._start < group[1]]
+            held = self._held_at(self._start + group[0], mains, voice)
+            inside = [*held, *inside]
+            until = max((int(self._e.until[i]) - self._start for c in held for i in c.mains), default=None)
+            spelling = spelled([c.written - self._start for c in inside], group, until)
             if inside or voice is _HANDS:
-                self._rests(group, voice, beside and bool(inside))
-            self._group(group, inside, voice)
+                self._rests(spelling, voice, beside and bool(inside))
+            self._group(spelling, self._with_tied(inside, spelling), voice)
+        if tied := self._e.held_into(self._end, voice is _FEET):
+            over = 0.0 if self._with_line else _OVER_LINE
+            self._tie(tied, (self._last, self._end), (STEM_X, over - STEM_X), voice)
         for chord in chords:
             self._graces(chord, voice)
+
+    def _tie(
+        self, rows: Sequence[int], ticks: tuple[int | None, int], ends_x: tuple[float, float], voice: StaffVoice
+    ) -> None:
+        """Ties of these strokes' heads; where a bar has nothing before them, the bar before drew what leads here."""
+        first, last = ticks
+        if first is None:
+            first, ends_x = last, (-_INCOMING, ends_x[1])
+            if not self._opens_line:
+                return
+        for i in rows:
+            draw_tie(self._anchor, (first, last), ends_x, height(self._step(i)), tie_way(voice))
+
+    def _holds(self, mains: Sequence[_Chord], voice: StaffVoice) -> list[tuple[int, int]]:
+        """From where and up to where in the bar rolls are held, in ticks from its start."""
+        rows = [*self._e.held_into(self._start, voice is _FEET), *(i for c in mains for i in c.mains)]
+        last = self._end - self._start
+        spans = [(int(self._e.written[i]) - self._start, int(self._e.until[i]) - self._start) for i in rows]
+        return [(max(begin, 0), min(end, last)) for begin, end in spans if end > begin]
+
+    def _held_at(self, tick: int, mains: Sequence[_Chord], voice: StaffVoice) -> list[_Chord]:
+        """What is held at `tick` and was struck before, as one chord."""
+        rows = self._e.held_into(tick, voice is _FEET)
+        return [_Chord(tick, tick, rows, (), is_tied=True)] if rows else []
+
+    def _with_tied(self, chords: Sequence[_Chord], group: BeatGroup) -> list[_Chord]:
+        """A chord for each of the group's notes: those that go on with the one before it are tied to it."""
+        coming, found = iter(chords), list[_Chord]()
+        for stroke in group.strokes:
+            tick = self._start + stroke.tick
+            found.append(replace(found[-1], tick=tick, graces=(), is_tied=True) if stroke.is_tied else next(coming))
+        return found
 
     def _rests(self, group: BeatGroup, voice: StaffVoice, beside: bool) -> None:
         for rest in group.rests:
@@ -259,10 +324,15 @@ class _BarEngraver:
         if not chords:
             return
         beam_y = self._beam_y(chords, voice)
+        flagged = [(c, s) for c, s in zip(chords, group.strokes, strict=True) if s.value.beams]
         for chord, stroke in zip(chords, group.strokes, strict=True):
+            if chord.is_tied:
+                self._tie(chord.mains, (self._last, chord.tick), (STEM_X, -STEM_X), voice)
             self._anchor.at(chord.tick)
             self._chord(chord, stroke, voice, beam_y)
-        flagged = [(c, s) for c, s in zip(chords, group.strokes, strict=True) if s.value.beams]
+            if self._is_buzz(chord):
+                self._buzz(chord, stroke.value, voice, (beam_y, len(flagged) == 1))
+            self._last = chord.tick
         if len(flagged) == 1:
             draw_flags(self._anchor, flagged[0][0].tick, flagged[0][1].value.beams, voice, beam_y)
         elif flagged:
@@ -285,19 +355,36 @@ class _BarEngraver:
     def _chord(self, chord: _Chord, stroke: TimedValue, voice: StaffVoice, beam_y: float) -> None:
         heights = [height(self._step(i)) for i in chord.mains]
         root = max(heights) if voice is _HANDS else min(heights)
-        self._draw_list.line((voice.stem_x, root), (voice.stem_x, beam_y), STEM, INK)
+        if stroke.value.base > 1:
+            self._draw_list.line((voice.stem_x, root), (voice.stem_x, beam_y), STEM, INK)
         for i in chord.mains:
-            self._head(i, 0.0, 1.0)
+            self._head(i, 0.0, 1.0, is_hollow=stroke.value.base <= _HOLLOW)
             if stroke.value.dots:
                 dot_x = 1.15 + (_BRACKET if self._is_bracketed(i) else 0.0)
                 self._draw_list.ellipse((dot_x, height(self._step(i) | 1)), (0.2, 0.2), INK)
-        if any(self._e.score.notes["articulation"][i] == Articulation.BUZZ for i in chord.mains):
-            below = _BUZZ_OFF + BEAM_STEP * max(stroke.value.beams - 1, 0)
-            self._draw_list.sign("buzz", (voice.stem_x, beam_y - voice.way * below), INK)
-        self._above(chord, voice, beam_y)
-        self._sticking(chord)
+        if not chord.is_tied:
+            self._above(chord, voice, beam_y)
+            self._sticking(chord)
 
-    def _head(self, index: int, x: float, scale: float) -> None:
+    def _is_buzz(self, chord: _Chord) -> bool:
+        return any(self._e.score.notes["articulation"][i] == Articulation.BUZZ for i in chord.mains)
+
+    def _buzz(self, chord: _Chord, value: Value, voice: StaffVoice, end: tuple[float, bool]) -> None:
+        """The sign on the stem, or above a head without one; `end` is the stem's, and whether it bears flags alone."""
+        beam_y, has_flags = end
+        levels = max(value.beams - 1, 0)
+        heights = [height(self._step(i)) for i in chord.mains]
+        if value.base == 1:
+            at = 0.0, (min(heights) if voice.is_up else max(heights)) + voice.way * _BUZZ_OVER_WHOLE
+        elif has_flags and value.beams:
+            nearest = (min(heights) if voice.is_up else max(heights)) + voice.way * _BUZZ_OFF
+            below = beam_y - voice.way * (_BUZZ_BELOW_FLAG + FLAG_STEP * levels)
+            at = voice.stem_x, min(below, nearest) if voice.is_up else max(below, nearest)
+        else:
+            at = voice.stem_x, beam_y - voice.way * (_BUZZ_OFF + BEAM_STEP * levels)
+        self._draw_list.sign("buzz", at, INK)
+
+    def _head(self, index: int, x: float, scale: float, is_hollow: bool = False) -> None:
         row = self._e.score.notes[index]
         piece, zone, how = Piece(int(row["piece"])), Zone(int(row["zone"])), Articulation(int(row["articulation"]))
         step = PLACES[piece].step
@@ -306,7 +393,7 @@ class _BarEngraver:
             self._draw_list.line(
                 (x - 1.05 * scale, height(line)), (x + 1.05 * scale, height(line)), STAFF_LINE, INK_SOFT
             )
-        draw_head(self._draw_list, head_of(piece, zone, how), (x, y), scale)
+        draw_head(self._draw_list, head_of(piece, zone, how), (x, y), scale, is_hollow)
         if self._is_bracketed(index):
             self._draw_list.sign("bracket_left", (x - 1.0 * scale, y), INK, scale)
             self._draw_list.sign("bracket_right", (x + 1.0 * scale, y), INK, scale)

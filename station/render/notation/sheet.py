@@ -94,7 +94,9 @@ class _SheetPage:
         self._atlas = OutlineAtlas()
         limbs = score.notes["limb"]
         shown = limbs if setting.with_sticking else np.full_like(limbs, Limb.UNKNOWN)
-        self._engraver = Engraver(score, self._atlas, shown, BarNumbers(words.first_bar - 1), words.beat_ticks, meter_words=False)
+        self._engraver = Engraver(
+            score, self._atlas, shown, BarNumbers(words.first_bar - 1), words.beat_ticks, meter_words=False
+        )
         self._pages = [_Page()]
         tempo = score.tempo_map
         self._new_meters = {
@@ -215,7 +217,8 @@ class _SheetPage:
         self._print(page, draw_list, PaperSpot((MARGIN, middle_y), self._space))
         for box in boxes:
             spot = PaperSpot((MARGIN + self._lead * self._space, middle_y), self._space, ruler(self._score, box))
-            page.areas += filled(self._engraver.bar(box.bar, with_line=False), self._atlas, spot)
+            bar = self._engraver.bar(box.bar, with_line=False, opens_line=box is boxes[0])
+            page.areas += filled(bar, self._atlas, spot)
 
 
 def _bar_line(draw_list: DrawList, x: float, width: float = 0.16) -> None:
