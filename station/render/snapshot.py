@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from station.core.named_view import NamedView
 from station.core.pieces import Limb, Piece
+from station.core.units import PPQ
 from station.motion.kinematics.figure import Figure
 from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit
@@ -159,9 +160,9 @@ class Snapshot:
 
     `position_s` is the score's time at the play line, negative in a count-in. `marks` (n,) of `MARK_DTYPE` belongs to
     the rows of `score`; nobody writes to it after it was put here. `limbs` (n,) of `Limb` shows the sticking, None what
-    the score says. `pose` None draws the kit alone. Where there is a `strip`, it stands in place of the score.
-    `double` is the student beside the demonstrator, for those who want to see it. `view` is from where the lesson's
-    teacher wants it to be seen, None where they leave it to whoever looks.
+    the score says. Written tempi count beats of `beat_ticks`. `pose` None draws the kit alone. Where there is a
+    `strip`, it stands in place of the score. `double` is the student beside the demonstrator, for those who want to see
+    it. `view` is from where the lesson's teacher wants it to be seen, None where they leave it to whoever looks.
     """
 
     score: Score
@@ -175,6 +176,7 @@ class Snapshot:
     strikes: tuple[SeenStrike, ...] = ()
     hud: Hud = field(default_factory=Hud)
     bar_numbers: BarNumbers = BarNumbers()
+    beat_ticks: int = PPQ
     strip: Strip | None = None
     double: StudentShown | None = None
     view: NamedView | None = None

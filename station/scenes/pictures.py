@@ -64,7 +64,14 @@ def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) 
         right=right,
         judged=len(result.score),
     )
-    shown = replace(snapshot, marks=marks, extras=tuple(extras), hud=hud, bar_numbers=numbers)
+    shown = replace(
+        snapshot,
+        marks=marks,
+        extras=tuple(extras),
+        hud=hud,
+        bar_numbers=numbers,
+        beat_ticks=plan.lesson.beat_ticks,
+    )
     draw_png(shown, path)
 
 

@@ -135,6 +135,7 @@ class SessionView:
             strikes=strikes(session.heard.recent, now_ns),
             hud=self._hud(session, now_ns, message or _why(session)),
             bar_numbers=part.bar_numbers,
+            beat_ticks=self.plan.lesson.beat_ticks,
             double=double,
             view=direction_of(session).view,
         )
@@ -182,6 +183,7 @@ class SessionView:
             pose=drummer.pose(WAITING_S),
             limbs=part.score.notes["limb"],
             bar_numbers=part.bar_numbers,
+            beat_ticks=self.plan.lesson.beat_ticks,
         )
 
     def _extras(self, session: Session) -> tuple[ExtraHit, ...]:

@@ -280,6 +280,7 @@ class DemoPlayer:
             pose=drummer.pose(position_s - raising_s),
             limbs=drummer.assignment.limbs,
             hud=self._hud(),
+            beat_ticks=self.lesson.beat_ticks,
             view=self._direction.view,
         )
 

@@ -63,8 +63,12 @@ def parsed(raw: RawLine, frames: Sequence[GridFrame], faults: Faults) -> ParsedL
 
 
 def agreed_bars(lines: Sequence[ParsedLine], faults: Faults) -> int:
-    """The bars of most of the lines, of the longer ones where they are as many; a fault for each other line."""
-    counts = Counter(len(line.bars) for line in lines)
+    """The bars of most of the lines, of the longer ones where they are as many; a fault for each other line.
+
+    A line with bars at fault is counted only where all are so; where it has but those too many, that is told already.
+    """
+    sound = [line for line in lines if all(bar.sound for bar in line.bars)]
+    counts = Counter(len(line.bars) for line in sound or lines)
     count = max(counts, key=lambda n: (counts[n], n), default=1)
     model = next((line.raw.line for line in lines if len(line.bars) == count), None)
     for line in lines:
@@ -72,7 +76,8 @@ def agreed_bars(lines: Sequence[ParsedLine], faults: Faults) -> int:
         if have != count and model:
             text = f"{have} bar{'s' * (have != 1)}, but {model.path[-1]} has {count}"
             remedy = "% repeats a bar, - is a bar's rest" if have < count else "is a bar line too many?"
-            faults.add(line.raw.line.path, f"{text}; {remedy}", len(line.raw.text))
+            if sum(bar.sound for bar in line.bars) != count:
+                faults.add(line.raw.line.path, f"{text}; {remedy}", len(line.raw.text))
             line.aligned = False
     return count
 

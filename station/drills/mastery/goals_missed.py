@@ -103,15 +103,15 @@ def allowed_wrong_pads(notes: int, rules: Rules) -> int:
 
 def _spread(sd_ms: float, limit_ms: float) -> Miss:
     sentence = (
-        f"No one fault stands out, but your strokes spread by {math.ceil(sd_ms)} ms and {math.floor(limit_ms)} are the"
-        " goal: stay at this tempo, or go slower, until they lie closer together."
+        f"No one fault stands out, but your strokes spread by {_ms(sd_ms, limit_ms)} ms and {math.floor(limit_ms)} are"
+        " the goal: stay at this tempo, or go slower, until they lie closer together."
     )
     return Miss(PassFault.SPREAD, sd_ms, limit_ms, f"spread {sd_ms:.0f} ms, {limit_ms:.0f} allowed", sentence)
 
 
 def _lean(lean_ms: float, limit_ms: float) -> Miss:
     sentence = (
-        f"You play {math.ceil(abs(lean_ms))} ms {_side(lean_ms)} on average and the lesson allows {limit_ms:g}:"
+        f"You play {_ms(lean_ms, limit_ms)} ms {_side(lean_ms)} on average and the lesson allows {limit_ms:g}:"
         " play it again and listen to the click."
     )
     words = f"{lean_ms:+.0f} ms beside the click, {limit_ms:.0f} allowed"
@@ -181,7 +181,7 @@ def _of_part(result: PartResult, goals: PartGoals) -> Iterator[Miss]:
         (PassFault.TEMPO, result.tempo_error_pct, goals.max_tempo_error_pct),
     ):
         if (size := _beyond(value, 0.0, limit_of)) is not None and limit_of is not None:
-            figure = f"{math.ceil(abs(size))}" if fault in _IN_MS else _up(size)
+            figure = _ms(size, limit_of) if fault in _IN_MS else _up(size)
             yield _part_miss(fault, result.part, size, limit_of, figure, f"{limit_of:g}")
 
 
@@ -213,6 +213,12 @@ def _beyond(value: float | None, centre: float, limit: float | None) -> float | 
 
 def _side(lean_ms: float) -> str:
     return "early" if lean_ms < 0 else "late"
+
+
+def _ms(value: float, limit: float) -> str:
+    """The size of what misses `limit` in whole ms: the nearest, as advice says it, or above where that seems enough."""
+    nearest = round(abs(value))
+    return f"{nearest if nearest > limit else math.ceil(abs(value))}"
 
 
 def _up(value: float) -> str:

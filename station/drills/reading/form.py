@@ -220,6 +220,12 @@ def _end(grid: WrittenGrid, numbers: Sequence[int], before: Sequence[WrittenGrid
             return
 
 
+def ending_word(grid: WrittenGrid) -> str:
+    """What an ending without a name is called after its grid's name: "ending 2", "ending 1 and 3"."""
+    *firsts, last = (str(repetition + 1) for repetition in sorted(grid.repetitions))
+    return f"ending {', '.join(firsts)}{' and ' if firsts else ''}{last}"
+
+
 def _no_late_endings(grids: Sequence[WrittenGrid], faults: Faults) -> None:
     """Note endings of repetitions that are never played."""
     for grid in grids:

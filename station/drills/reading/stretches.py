@@ -14,7 +14,7 @@ from station.drills.grid.grid_reader import GridSection
 from station.drills.grid.voice import MAX_BARS
 from station.drills.lesson import BarCue, Section
 from station.drills.reading.bar_cues import GridCue
-from station.drills.reading.form import WrittenGrid, repetitions
+from station.drills.reading.form import WrittenGrid, ending_word, repetitions
 from station.drills.reading.tempo_marks import STEPS_A_BEAT, Ramp, TempoMark, marked_tempos
 from station.music.tempo import MeterChange, TempoChange
 
@@ -85,7 +85,7 @@ def laid_out(order: Sequence[int], grids: Sequence[ReadGrid]) -> list[Stretch]:
         name = grids[main].written.name
         for index, repetition in repetitions(main, [g.written for g in grids], [g.section.times for g in grids]):
             grid = grids[index]
-            called = name if index == main else grid.written.name or (name and f"{name} ending")
+            called = name if index == main else grid.written.name or (name and f"{name}, {ending_word(grid.written)}")
             stretches.append(Stretch(grid, repetition, turn, tick, bars, called))
             tick, bars = stretches[-1].end_tick, bars + grid.section.bar_count
             strokes += len(grid.section.parts[repetition])

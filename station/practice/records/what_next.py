@@ -4,6 +4,7 @@ Pure: an assessment document, what was measured and what was practised in, sente
 minute.
 """
 
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from math import ceil, floor
 
@@ -11,6 +12,7 @@ from station.drills.mastery.goals_missed import Miss, missed_goals
 from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.rules import Rules
 from station.engine.engine import KEYBOARD
+from station.practice.records.said_already import says_so
 from station.practice.session.plan import Plan
 from station.practice.session.session import SessionResult
 from station.scoring.report.assessment_document import Json
@@ -45,8 +47,16 @@ def what_next(document: dict[str, Json], plan: Plan, measured: PassResult) -> tu
         return (_NOTHING_HEARD,)
     missed = missed_goals(measured, _rules(plan))
     if advice := advice_of(document):
-        return (*advice, *(miss.sentence for miss in missed if miss.part is not None))[:MOST_STEPS]
+        return (*advice, *_besides(document, missed))[:MOST_STEPS]
     return (missed[0].sentence if missed else _go_on(plan, measured),)
+
+
+def _besides(document: dict[str, Json], missed: Iterable[Miss]) -> Iterator[str]:
+    """What limbs and bars miss and the advice has not said already."""
+    said = list(_advice_rows(document))
+    for miss in missed:
+        if miss.part is not None and not any(says_so(one, miss) for one in said):
+            yield miss.sentence
 
 
 def missed_document(plan: Plan, measured: PassResult) -> list[Json]:
@@ -66,9 +76,13 @@ def _missed(miss: Miss) -> Json:
 
 def advice_of(document: dict[str, Json]) -> tuple[str, ...]:
     """The sentences of the assessment's advice, each with the hint of the lesson's author."""
+    return tuple(_with_hint(item) for item in _advice_rows(document))
+
+
+def _advice_rows(document: dict[str, Json]) -> Iterator[dict[str, Json]]:
     advice = document["advice"]
     assert isinstance(advice, list), "the report is ours"
-    return tuple(_with_hint(item) for item in advice if isinstance(item, dict))
+    return (item for item in advice if isinstance(item, dict))
 
 
 def _with_hint(advice: dict[str, Json]) -> str:

@@ -16,7 +16,7 @@ STEM, STEM_X = 0.13, 0.56
 """A stem's thickness, and how far from its head's middle it stands."""
 _BEAM = 0.50
 BEAM_STEP = 0.78
-_FLAG_STEP = 0.85
+FLAG_STEP = 0.85
 _STUB = 1.1
 _GAP = 0.7
 """What a bracket leaves free on either side of its number's middle."""
@@ -64,7 +64,7 @@ def draw_flags(anchor: Anchor, tick: int, count: int, voice: StaffVoice, beam_y:
     """So many flags at the end of the stem at `tick`, which is at `beam_y`."""
     anchor.at(tick)
     for k in range(count):
-        y = beam_y - voice.way * k * _FLAG_STEP
+        y = beam_y - voice.way * k * FLAG_STEP
         anchor.draw_list.sign("flag", (voice.stem_x, y), INK, 0.95, mirrored=not voice.is_up)
 
 

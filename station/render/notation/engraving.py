@@ -5,18 +5,17 @@ hangs on a note (stems, brackets, grace notes) is shifted by spaces. A bar is la
 Proportions follow Gould, "Behind Bars" (2011): stems 3½ spaces, beams half a space, stem right of the head when up.
 """
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
+from station.core.pieces import Dynamic
+from station.core.units import PPQ
 from station.music.score import Score
 from station.music.tempo_words import TempoWord, tempo_words
 from station.render.notation.beams import (
-    BEAM_STEP,
-    STEM,
     STEM_X,
     Anchor,
     StaffVoice,
@@ -24,20 +23,20 @@ from station.render.notation.beams import (
     draw_flags,
     draw_tuplet,
 )
+from station.render.notation.beat_note import draw_beat_note
+from station.render.notation.chord_pen import LETTERS, OPEN_FROM, STICKING_Y, Chord, ChordPen, closing_hats
+from station.render.notation.held_rolls import draw_tie, held_until, long_groups, spelled, tie_way
 from station.render.notation.loudness_row import LOUDNESS_Y, ROW_BOTTOM, draw_loudness
-from station.render.notation.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
-from station.render.notation.rhythm import BeatGroup, TimedValue, beat_groups, spell
-from station.render.notation.staff import FOOT_PIECES, PLACES, head_of, height, ledger_steps
+from station.render.notation.rhythm import BeatGroup, beat_groups
+from station.render.notation.staff import FOOT_PIECES, height
 from station.render.notation.swing_words import swing_words
-from station.render.palette import BRAND, INK, INK_SOFT
+from station.render.palette import BRAND, INK_SOFT
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 
 STAFF_TOP, STAFF_BOTTOM = -2.0, 2.0
-STICKING_Y = 7.0
-"""Baseline of the R and L below the staff, clear of the accents and numbers below the feet's beams."""
 BAR_NUMBER_Y = -7.4
 _NUMBER_X = 0.35
 """A bar's number begins so far left of its line: clear of what stands over the first beat."""
@@ -55,29 +54,9 @@ _TUPLET_OFF = {-1: 1.0, 1: 0.75}
 """How far a tuplet's number stands from the stems' ends: below there are the sticking's letters."""
 _TUPLET_FAR = 2.0
 """And where an accent stands between: no farther, for there the staff's room ends (`TOP_Y`)."""
-_GRACE = 0.62
-_GRACE_STEP = 1.0
-_GRACE_GAP = 1.5
-_BUZZ_OFF = 1.4
-"""From a stem's end to the middle of a buzz's sign on it, clear of one beam."""
-_BRACKET = 0.55
-"""How much farther a dot or a grace stroke stands from a note in brackets."""
-
-
+_INCOMING, _OVER_LINE = 1.7, 0.9
+"""A tie from the line before begins so far left of its head, one over a bar line on paper ends so far right of it."""
 _HANDS, _FEET = StaffVoice(-1, 0.0), StaffVoice(1, 2.5)
-
-
-@dataclass(frozen=True, slots=True)
-class _Chord:
-    """The main strokes of one voice at one place, and the grace strokes before it: indices into the score.
-
-    `tick` is where they sound and stand, `written` the cell in which notation writes them (straight where they swing).
-    """
-
-    tick: int
-    written: int
-    mains: tuple[int, ...]
-    graces: tuple[int, ...]
 
 
 def bottom_of(score: Score) -> float:
@@ -88,7 +67,8 @@ def bottom_of(score: Score) -> float:
 class Engraver:
     """Engraves the bars of one score; `limbs` (n,) of `Limb` writes the sticking, None that of the score itself.
 
-    `meter_words`: new meters stand above the staff; a sheet has room for them within.
+    Tempi count beats of `beat_ticks`. `meter_words`: new meters stand above the staff; a sheet has room for them
+    within.
     """
 
     def __init__(
@@ -97,23 +77,30 @@ class Engraver:
         atlas: Atlas,
         limbs: NDArray[np.int8] | None = None,
         numbers: BarNumbers | None = None,
+        beat_ticks: int = PPQ,
         meter_words: bool = True,
     ) -> None:
         self.score = score
         self.numbers = numbers or BarNumbers()
+        self.beat_ticks = beat_ticks
         self._atlas = atlas
         self._limbs = score.notes["limb"] if limbs is None else limbs
-        self.loudness_y = LOUDNESS_Y if np.isin(self._limbs, list(_LETTERS)).any() else STICKING_Y
-        self._closing = _closing_hats(score)
+        self.loudness_y = LOUDNESS_Y if np.isin(self._limbs, list(LETTERS)).any() else STICKING_Y
+        self._closing = closing_hats(score)
         self._tempo_words = tempo_words(score.tempo_map)
         self._new_meters = {meter.tick for meter in score.tempo_map.meters if meter_words and meter.tick > 0}
         self._swing_words = swing_words(score)
         feet = [int(p) for p in FOOT_PIECES]
         self._is_foot = np.isin(score.notes["piece"], feet)
+        self.written = score.notes["tick"] - score.notes["swing_ticks"]
+        self.until = held_until(score, self._is_foot)
 
-    def bar(self, bar: int, with_line: bool = True) -> NDArray[np.void]:
-        """The shapes of one bar, `with_line` the bar line on its left, dtype `draw_list.SHAPE_DTYPE`."""
-        return _BarEngraver(self, bar, with_line).shapes()
+    def bar(self, bar: int, with_line: bool = True, opens_line: bool = False) -> NDArray[np.void]:
+        """The shapes of one bar, `with_line` the bar line on its left, dtype `draw_list.SHAPE_DTYPE`.
+
+        `opens_line`: it is the first of its line on paper, where ties from the line before begin anew.
+        """
+        return _BarEngraver(self, bar, with_line, opens_line).shapes()
 
     # --- what a bar asks ------------------------------------------------------------------------------------------
 
@@ -122,7 +109,7 @@ class Engraver:
         first, last = np.searchsorted(self.score.notes["tick"], [start, end])
         return range(int(first), int(last))
 
-    def chords(self, rows: range, feet: bool) -> list[_Chord]:
+    def chords(self, rows: range, feet: bool) -> list[Chord]:
         """The strokes of one voice, gathered by where they are written."""
         notes = self.score.notes
         places: dict[int, tuple[list[int], list[int]]] = {}
@@ -131,17 +118,18 @@ class Engraver:
                 mains, graces = places.setdefault(int(notes["tick"][i] - notes["swing_ticks"][i]), ([], []))
                 (graces if notes["lead_ms"][i] > 0 else mains).append(i)
         return [
-            _Chord(int(notes["tick"][[*mains, *graces]].min()), written, tuple(mains), tuple(graces))
+            Chord(int(notes["tick"][[*mains, *graces]].min()), written, tuple(mains), tuple(graces))
             for written, (mains, graces) in sorted(places.items())
         ]
 
-    def limb(self, index: int) -> Limb:
-        """Who plays stroke `index`."""
-        return Limb(int(self._limbs[index]))
+    def held_into(self, start: int, feet: bool) -> tuple[int, ...]:
+        """The rolls of one voice that were struck before tick `start` and are still held there."""
+        held = (self.written < start) & (self.until > start) & (self._is_foot == feet)
+        return tuple(np.flatnonzero(held).tolist())
 
-    def closes_hat(self, index: int) -> bool:
-        """Whether stroke `index` is the first closed one after an open hi-hat."""
-        return bool(self._closing[index])
+    def pen(self, anchor: Anchor) -> ChordPen:
+        """What draws the score's chords at `anchor`."""
+        return ChordPen(self.score, self._limbs, self._closing, anchor)
 
     def tempo_words(self, start: int, end: int) -> list[TempoWord]:
         """What is written of the tempo in [start, end) ticks."""
@@ -160,36 +148,26 @@ class Engraver:
         return DrawList(self._atlas)
 
 
-def _closing_hats(score: Score) -> NDArray[np.bool_]:
-    hats = np.flatnonzero(score.notes["piece"] == Piece.HIHAT)
-    opened = score.notes["openness"][hats] >= _OPEN_FROM
-    closing = np.zeros(len(score), np.bool_)
-    closing[hats[1:]] = opened[:-1] & (score.notes["openness"][hats[1:]] < _OPEN_FROM)
-    return closing
-
-
-_LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L"}
-_OPEN_FROM, _WIDE_FROM = 0.25, 0.75
-"""Openness from which a hat is written half open and open (our choice)."""
-
-
 class _BarEngraver:
     """The work of one bar."""
 
-    def __init__(self, engraver: Engraver, bar: int, with_line: bool) -> None:
-        self._with_line = with_line
+    def __init__(self, engraver: Engraver, bar: int, with_line: bool, opens_line: bool) -> None:
+        self._with_line, self._opens_line = with_line, opens_line
         self._e = engraver
         self._tempo = engraver.score.tempo_map
         self._bar = bar
         self._start, self._end = self._tempo.bar_start(bar), self._tempo.bar_start(bar + 1)
         self._draw_list = engraver.draw_list()
         self._anchor = Anchor(self._draw_list, self._tempo)
+        self._pen = engraver.pen(self._anchor)
+        self._last: int | None = None
+        """Where the voice in work has its last note."""
 
     def shapes(self) -> NDArray[np.void]:
         self._bar_line()
         rows = self._e.rows(self._start, self._end)
         hands, feet = self._e.chords(rows, feet=False), self._e.chords(rows, feet=True)
-        if not hands and not feet:
+        if not hands and not feet and not self._e.held_into(self._start, feet=False):
             self._silent_bar()
         else:
             self._voice(hands, _HANDS, beside=bool(feet))
@@ -220,9 +198,9 @@ class _BarEngraver:
             left = x if word.tick == self._start else -0.6
             if word.way:
                 left += _WORD_GAP / 2 + self._draw_list.text(_RAMPS[word.way], (left, _WORDS_Y), _WORD)
-            self._draw_list.ellipse((left + 0.45, _WORDS_Y - 0.26), (0.36, 0.26), BRAND, -0.38)
-            self._draw_list.line((left + 0.76, _WORDS_Y - 0.3), (left + 0.76, _WORDS_Y - 1.15), 0.12, BRAND)
-            self._draw_list.text(f"= {word.tempo_bpm:.0f}", (left + 1.3, _WORDS_Y), _WORD)
+            left = draw_beat_note(self._draw_list, (left, _WORDS_Y), 1.0, self._e.beat_ticks, BRAND)
+            beats = word.tempo_bpm * PPQ / self._e.beat_ticks
+            self._draw_list.text(f"= {beats:.0f}", (left, _WORDS_Y), _WORD)
 
     def _silent_bar(self) -> None:
         if self._start < self._e.score.end_tick:
@@ -231,16 +209,56 @@ class _BarEngraver:
 
     # --- a voice ------------------------------------------------------------------------------------------------------
 
-    def _voice(self, chords: Sequence[_Chord], voice: StaffVoice, beside: bool) -> None:
+    def _voice(self, chords: Sequence[Chord], voice: StaffVoice, beside: bool) -> None:
         mains = [c for c in chords if c.mains]
-        for start, end in beat_groups(self._tempo.meter_at(self._start), self._end - self._start):
-            inside = [c for c in mains if start <= c.written - self._start < end]
-            group = spell([c.written - self._start for c in inside], start, end)
+        self._last = None
+        groups = beat_groups(self._tempo.meter_at(self._start), self._end - self._start)
+        for group in long_groups(groups, self._holds(mains, voice)):
+            inside = [c for c in mains if group[0] <= c.written - self._start < group[1]]
+            held = self._held_at(self._start + group[0], voice)
+            inside = [*held, *inside]
+            until = max((int(self._e.until[i]) - self._start for c in held for i in c.mains), default=None)
+            spelling = spelled([c.written - self._start for c in inside], group, until)
             if inside or voice is _HANDS:
-                self._rests(group, voice, beside and bool(inside))
-            self._group(group, inside, voice)
+                self._rests(spelling, voice, beside and bool(inside))
+            self._group(spelling, self._with_tied(inside, spelling), voice)
+        if tied := self._e.held_into(self._end, voice is _FEET):
+            over = 0.0 if self._with_line else _OVER_LINE
+            self._tie(tied, (self._last, self._end), (STEM_X, over - STEM_X), voice)
         for chord in chords:
-            self._graces(chord, voice)
+            self._pen.draw_graces(chord)
+
+    def _tie(
+        self, rows: Sequence[int], ticks: tuple[int | None, int], ends_x: tuple[float, float], voice: StaffVoice
+    ) -> None:
+        """Ties of these strokes' heads; where a bar has nothing before them, the bar before drew what leads here."""
+        first, last = ticks
+        if first is None:
+            first, ends_x = last, (-_INCOMING, ends_x[1])
+            if not self._opens_line:
+                return
+        for i in rows:
+            draw_tie(self._anchor, (first, last), ends_x, height(self._pen.step(i)), tie_way(voice))
+
+    def _holds(self, mains: Sequence[Chord], voice: StaffVoice) -> list[tuple[int, int]]:
+        """From where and up to where in the bar rolls are held, in ticks from its start."""
+        rows = [*self._e.held_into(self._start, voice is _FEET), *(i for c in mains for i in c.mains)]
+        last = self._end - self._start
+        spans = [(int(self._e.written[i]) - self._start, int(self._e.until[i]) - self._start) for i in rows]
+        return [(max(begin, 0), min(end, last)) for begin, end in spans if end > begin]
+
+    def _held_at(self, tick: int, voice: StaffVoice) -> list[Chord]:
+        """What is held at `tick` and was struck before, as one chord."""
+        rows = self._e.held_into(tick, voice is _FEET)
+        return [Chord(tick, tick, rows, (), is_tied=True)] if rows else []
+
+    def _with_tied(self, chords: Sequence[Chord], group: BeatGroup) -> list[Chord]:
+        """A chord for each of the group's notes: those that go on with the one before it are tied to it."""
+        coming, found = iter(chords), list[Chord]()
+        for stroke in group.strokes:
+            tick = self._start + stroke.tick
+            found.append(replace(found[-1], tick=tick, graces=(), is_tied=True) if stroke.is_tied else next(coming))
+        return found
 
     def _rests(self, group: BeatGroup, voice: StaffVoice, beside: bool) -> None:
         for rest in group.rests:
@@ -251,14 +269,19 @@ class _BarEngraver:
             if rest.value.dots:
                 self._draw_list.ellipse((0.95, y - 0.5), (0.2, 0.2), INK_SOFT)
 
-    def _group(self, group: BeatGroup, chords: Sequence[_Chord], voice: StaffVoice) -> None:
+    def _group(self, group: BeatGroup, chords: Sequence[Chord], voice: StaffVoice) -> None:
         if not chords:
             return
         beam_y = self._beam_y(chords, voice)
-        for chord, stroke in zip(chords, group.strokes, strict=True):
-            self._anchor.at(chord.tick)
-            self._chord(chord, stroke, voice, beam_y)
         flagged = [(c, s) for c, s in zip(chords, group.strokes, strict=True) if s.value.beams]
+        for chord, stroke in zip(chords, group.strokes, strict=True):
+            if chord.is_tied:
+                self._tie(chord.mains, (self._last, chord.tick), (STEM_X, -STEM_X), voice)
+            self._anchor.at(chord.tick)
+            self._pen.draw(chord, stroke, voice, beam_y)
+            if self._pen.is_buzz(chord):
+                self._pen.draw_buzz(chord, stroke.value, voice, (beam_y, len(flagged) == 1))
+            self._last = chord.tick
         if len(flagged) == 1:
             draw_flags(self._anchor, flagged[0][0].tick, flagged[0][1].value.beams, voice, beam_y)
         elif flagged:
@@ -266,89 +289,17 @@ class _BarEngraver:
         if group.tuplet:
             self._tuplet(group, chords, voice, beam_y, len(flagged) == len(chords) > 1 and not group.rests)
 
-    def _beam_y(self, chords: Sequence[_Chord], voice: StaffVoice) -> float:
+    def _beam_y(self, chords: Sequence[Chord], voice: StaffVoice) -> float:
         """Where the stems of a group end: level, clear of every head."""
-        heights = [height(self._step(i)) for c in chords for i in c.mains]
+        heights = [height(self._pen.step(i)) for c in chords for i in c.mains]
         if voice is _HANDS:
             return min(_UP_BEAM_Y, min(heights) - 1.8)
         return max(_DOWN_BEAM_Y, max(heights) + 2.0)
 
-    def _step(self, index: int) -> int:
-        return PLACES[Piece(int(self._e.score.notes["piece"][index]))].step
-
-    # --- a chord ------------------------------------------------------------------------------------------------------
-
-    def _chord(self, chord: _Chord, stroke: TimedValue, voice: StaffVoice, beam_y: float) -> None:
-        heights = [height(self._step(i)) for i in chord.mains]
-        root = max(heights) if voice is _HANDS else min(heights)
-        self._draw_list.line((voice.stem_x, root), (voice.stem_x, beam_y), STEM, INK)
-        for i in chord.mains:
-            self._head(i, 0.0, 1.0)
-            if stroke.value.dots:
-                dot_x = 1.15 + (_BRACKET if self._is_bracketed(i) else 0.0)
-                self._draw_list.ellipse((dot_x, height(self._step(i) | 1)), (0.2, 0.2), INK)
-        if any(self._e.score.notes["articulation"][i] == Articulation.BUZZ for i in chord.mains):
-            below = _BUZZ_OFF + BEAM_STEP * max(stroke.value.beams - 1, 0)
-            self._draw_list.sign("buzz", (voice.stem_x, beam_y - voice.way * below), INK)
-        self._above(chord, voice, beam_y)
-        self._sticking(chord)
-
-    def _head(self, index: int, x: float, scale: float) -> None:
-        row = self._e.score.notes[index]
-        piece, zone, how = Piece(int(row["piece"])), Zone(int(row["zone"])), Articulation(int(row["articulation"]))
-        step = PLACES[piece].step
-        y = height(step)
-        for line in ledger_steps(step):
-            self._draw_list.line(
-                (x - 1.05 * scale, height(line)), (x + 1.05 * scale, height(line)), STAFF_LINE, INK_SOFT
-            )
-        draw_head(self._draw_list, head_of(piece, zone, how), (x, y), scale)
-        if self._is_bracketed(index):
-            self._draw_list.sign("bracket_left", (x - 1.0 * scale, y), INK, scale)
-            self._draw_list.sign("bracket_right", (x + 1.0 * scale, y), INK, scale)
-        if how is Articulation.RIM_SHOT:
-            self._draw_list.sign("slash", (x, y), INK, scale)
-        if row["choke_ticks"] > 0:
-            self._draw_list.sign("choke", (x + 1.3, y - 0.7), INK)
-
-    def _is_bracketed(self, index: int) -> bool:
-        """Whether brackets say that the stroke is soft; grace strokes are so by themselves."""
-        row = self._e.score.notes[index]
-        return bool(row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0)
-
-    def _above(self, chord: _Chord, voice: StaffVoice, beam_y: float) -> None:
-        """Hi-hat signs and accents, stacked outward from the stem's end."""
-        notes, way = self._e.score.notes, voice.way
-        y = beam_y + way * (0.85 if voice is _HANDS else 0.65)
-        for kind in self._hat_signs(chord):
-            draw_hat_sign(self._draw_list, kind, (voice.stem_x, y))
-            y += way * 1.15
-        if any(notes["dynamic"][i] == Dynamic.ACCENT for i in chord.mains):
-            self._draw_list.sign("accent", (voice.stem_x * 0.4, y), INK, 0.95)
-
-    def _hat_signs(self, chord: _Chord) -> Iterator[str]:
-        notes = self._e.score.notes
-        for i in chord.mains:
-            piece = notes["piece"][i]
-            if piece == Piece.HIHAT and notes["openness"][i] >= _OPEN_FROM:
-                yield "open" if notes["openness"][i] >= _WIDE_FROM else "half"
-            elif piece == Piece.HIHAT and self._e.closes_hat(i):
-                yield "closed"
-            elif piece == Piece.HIHAT_PEDAL and notes["articulation"][i] == Articulation.SPLASH:
-                yield "open"
-
-    def _sticking(self, chord: _Chord) -> None:
-        """The hands' letters, grace strokes small before the main stroke as drummers write them (lR, llR)."""
-        graces = sorted(chord.graces, key=lambda i: -self._e.score.notes["lead_ms"][i])
-        text = "".join(_LETTERS.get(self._e.limb(i), "").lower() for i in graces)
-        text += "".join(sorted({_LETTERS.get(self._e.limb(i), "") for i in chord.mains}, reverse=True))
-        if text:
-            self._draw_list.text(text, (0.0, STICKING_Y), TypeStyle(1.3, INK_SOFT, Face.BOLD, 0.5))
-
     # --- tuplets ------------------------------------------------------------------------------------------------------
 
     def _tuplet(
-        self, group: BeatGroup, chords: Sequence[_Chord], voice: StaffVoice, beam_y: float, beamed: bool
+        self, group: BeatGroup, chords: Sequence[Chord], voice: StaffVoice, beam_y: float, beamed: bool
     ) -> None:
         off = voice.way * (_TUPLET_FAR if self._crowded(chords) else _TUPLET_OFF[voice.way])
         y = beam_y + off + (0.3 if voice.is_up else 0.45)
@@ -356,34 +307,9 @@ class _BarEngraver:
         end = max(chords[-1].tick, self._start + group.start + (group.end - group.start) * 2 // 3)
         draw_tuplet(self._anchor, group.tuplet, (start, end), voice, y, with_bracket=not beamed)
 
-    def _crowded(self, chords: Sequence[_Chord]) -> bool:
+    def _crowded(self, chords: Sequence[Chord]) -> bool:
         """Whether signs stand where the tuplet's number would."""
         notes = self._e.score.notes
         return any(
-            notes["dynamic"][i] == Dynamic.ACCENT or notes["openness"][i] >= _OPEN_FROM for c in chords for i in c.mains
+            notes["dynamic"][i] == Dynamic.ACCENT or notes["openness"][i] >= OPEN_FROM for c in chords for i in c.mains
         )
-
-    # --- grace notes --------------------------------------------------------------------------------------------------
-
-    def _graces(self, chord: _Chord, voice: StaffVoice) -> None:
-        if not chord.graces:
-            return
-        self._anchor.at(chord.tick)
-        count = len(chord.graces)
-        notes = self._e.score.notes
-        gap = _GRACE_GAP + (_BRACKET if any(map(self._is_bracketed, chord.mains)) else 0.0)
-        top = min(height(self._step(i)) for i in chord.graces) - 2.4
-        stems: list[float] = []
-        for k, i in enumerate(sorted(chord.graces, key=lambda i: -notes["lead_ms"][i])):
-            x = -gap - (count - 1 - k) * _GRACE_STEP
-            self._head(i, x, _GRACE)
-            stems.append(x + STEM_X * _GRACE)
-            self._draw_list.line((stems[-1], height(self._step(i))), (stems[-1], top), STEM * 0.8, INK)
-        if count == 1:
-            self._draw_list.sign("flag", (stems[0], top), INK, 0.55)
-            self._draw_list.line((stems[0] - 0.55, top + 1.35), (stems[0] + 0.75, top + 0.45), 0.1, INK)
-        else:
-            for level in range(2):
-                self._draw_list.box((stems[0], top + 0.5 * level), (stems[-1] - stems[0], 0.3), INK)
-        low = max(height(self._step(i)) for i in chord.graces)
-        self._draw_list.sign("slur", (-gap / 2 - 0.1, low + 0.7), INK_SOFT, 0.95)

@@ -4,7 +4,7 @@ Widths are staff spaces. A bar wants room for its shortest step between strokes;
 bars where it can, so that phrases stand under each other, and is then spread to its full width.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,7 +51,7 @@ def want(score: Score, bar: int, before: float = 0.0) -> Want:
     start, end = tempo.bar_start(bar), tempo.bar_start(bar + 1)
     first, last = np.searchsorted(score.notes["tick"], [start, end])
     notes, is_grace = score.notes[first:last], score.is_grace[first:last]
-    ticks = np.unique(notes["tick"][~is_grace])
+    ticks = np.unique([*notes["tick"][~is_grace], *_tails(score, start, end)]).astype(np.int64)
     steps = np.diff([*ticks.tolist(), end])
     shortest = max(int(steps.min()), _FINEST) if len(ticks) else end - start
     graced, counts = np.unique(notes["tick"][is_grace], return_counts=True)
@@ -60,6 +60,15 @@ def want(score: Score, bar: int, before: float = 0.0) -> Want:
     if len(graced) and graced[0] == start:
         inset += _GRACE_STEP * int(counts[0]) + _BRACKET
     return Want(inset, max(_LEAST_BAR, step * (end - start) / shortest))
+
+
+def _tails(score: Score, start: int, end: int) -> Iterator[int]:
+    """Where rolls that are held over a beat are tied and end in [start, end) ticks."""
+    notes = score.notes[score.notes["duration_ticks"] > 0]
+    for tick, length in zip((notes["tick"] - start).tolist(), notes["duration_ticks"].tolist(), strict=True):
+        first, last = (tick // PPQ + 1) * PPQ, (tick + length - 1) // PPQ * PPQ
+        if first <= last:
+            yield from (start + at for at in (first, last, tick + length) if 0 <= at < end - start)
 
 
 def systems(score: Score, width: float, before: Mapping[int, float] | None = None) -> list[list[BarBox]]:

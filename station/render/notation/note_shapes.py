@@ -15,6 +15,8 @@ STAFF_LINE = 0.10
 """Thickness of a staff line."""
 _HEAD_HALF = (0.66, 0.46)
 _HEAD_TURN = -0.38
+_RING = 0.18
+"""How thick the line round a hollow head is (our choice)."""
 _SIGNATURE, _GROUPS, _WIDEST = 2.75, 2.1, 8.0
 """The letters of a time signature fill two spaces; one with groups is set smaller, the smaller the more they are."""
 _FIGURE = 0.711
@@ -23,9 +25,14 @@ SIGNATURE_GAP = 0.8
 """What a time signature leaves free on either side at the least."""
 
 
-def draw_head(draw_list: DrawList, head: NoteHead, at: tuple[float, float], scale: float) -> None:
-    """One note head in the score's ink."""
-    if head is NoteHead.ROUND:
+def draw_head(
+    draw_list: DrawList, head: NoteHead, at: tuple[float, float], scale: float, is_hollow: bool = False
+) -> None:
+    """One note head in the score's ink; round ones may be hollow, as those of half and whole notes are."""
+    if head is NoteHead.ROUND and is_hollow:
+        half = ((_HEAD_HALF[0] - _RING / 2) * scale, (_HEAD_HALF[1] - _RING / 2) * scale)
+        draw_list.ellipse(at, half, INK, _HEAD_TURN, (0.0, _RING * scale, 0.0))
+    elif head is NoteHead.ROUND:
         draw_list.ellipse(at, (_HEAD_HALF[0] * scale, _HEAD_HALF[1] * scale), INK, _HEAD_TURN)
     elif head in (NoteHead.CROSS, NoteHead.RINGED_CROSS):
         draw_list.cross(at, (0.48 * scale, 0.44 * scale), 0.22 * scale, INK)

@@ -36,10 +36,14 @@ class Value:
 
 @dataclass(frozen=True, slots=True)
 class TimedValue:
-    """A stroke or a rest of `value` at `tick` from the bar's start; strokes keep the tick that they were played at."""
+    """A stroke or a rest of `value` at `tick` from the bar's start; strokes keep the tick that they were played at.
+
+    `is_tied`: no stroke, but how the one before it goes on.
+    """
 
     tick: int
     value: Value
+    is_tied: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,23 +67,36 @@ def beat_groups(meter: MeterChange, length: int) -> list[tuple[int, int]]:
     return groups
 
 
-def spell(onsets: Sequence[int], start: int, end: int) -> BeatGroup:
-    """The group [start, end) with strokes at `onsets` (ticks from the bar's start, rising)."""
+def spell(onsets: Sequence[int], start: int, end: int, until: int | None = None) -> BeatGroup:
+    """The group [start, end) with strokes at `onsets` (ticks from the bar's start, rising).
+
+    `until` is where the first of them ends, if not at the next or with the group: what one value does not write is
+    tied.
+    """
     length = end - start
     if not onsets:
         return BeatGroup(start, end, (), tuple(_rests(0, length, start, _smallest_unit(length), 0)))
     divisions = _divisions(length)
-    division = _best_division([o - start for o in onsets], length, divisions)
+    ends = [] if until is None or until in onsets else [until]
+    division = _best_division([tick - start for tick in sorted([*onsets, *ends])], length, divisions)
     unit, unit_base, tuplet = _unit(length, division)
     slots = [min(round((o - start) / unit), division - 1) for o in onsets]
     strokes: list[TimedValue] = []
     rests = _rests(0, slots[0] * unit, start, unit, unit_base)
     for i, (onset, slot) in enumerate(zip(onsets, slots, strict=True)):
         gap = (slots[i + 1] if i + 1 < len(slots) else division) - slot
-        value, taken = _value(max(gap, 1), unit_base)
+        value, taken = _value(max(gap if until is None or i else _slots(until - start, unit) - slot, 1), unit_base)
         strokes.append(TimedValue(onset, value))
+        while until is not None and i == 0 and slot + taken < _slots(until - start, unit):
+            value, more = _value(_slots(until - start, unit) - slot - taken, unit_base)
+            strokes.append(TimedValue(start + round((slot + taken) * unit), value, is_tied=True))
+            taken += more
         rests += _rests((slot + taken) * unit, (slot + gap) * unit, start, unit, unit_base)
     return BeatGroup(start, end, tuple(strokes), tuple(rests), tuplet)
+
+
+def _slots(ticks: int, unit: float) -> int:
+    return round(ticks / unit)
 
 
 def _divisions(length: int) -> tuple[int, ...]:

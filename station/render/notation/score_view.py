@@ -183,7 +183,9 @@ class ScoreView:
     def _engraved(self, snapshot: Snapshot) -> Engraver:
         engraver = self._engraver
         if engraver is None or engraver.score is not snapshot.score or self._limbs is not snapshot.limbs:
-            engraver = self._engraver = Engraver(snapshot.score, self._atlas, snapshot.limbs, snapshot.bar_numbers)
+            engraver = self._engraver = Engraver(
+                snapshot.score, self._atlas, snapshot.limbs, snapshot.bar_numbers, snapshot.beat_ticks
+            )
             self._limbs = snapshot.limbs
             self._bars.clear()
         return engraver

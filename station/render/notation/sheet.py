@@ -11,6 +11,7 @@ from station.core.pieces import Limb
 from station.core.units import PPQ
 from station.music.score import Score
 from station.render.notation import engraving, note_shapes
+from station.render.notation.beat_note import draw_beat_note
 from station.render.notation.engraving import Engraver
 from station.render.notation.line_breaks import REPEAT, BarBox, ruler, systems
 from station.render.notation.sheet_key import KEY_HEIGHT, draw_key
@@ -32,6 +33,8 @@ _CLEF_X, _SIGNATURE_X = 0.8, 0.8 + note_shapes.CLEF_WIDTH + note_shapes.SIGNATUR
 _TOP, _BELOW = engraving.TOP_Y - 0.6, 0.4
 _SECTION_Y = -9.0
 _TITLE, _TEXT, _SMALL = 22.0, 11.0, 9.5
+_BEAT_NOTE = 9.2
+"""The unit of the note before the tempo: a little taller than its figures (our choice)."""
 _ABOUT_LINES = 3
 _HEAD_HEIGHT = 62.0
 
@@ -91,7 +94,9 @@ class _SheetPage:
         self._atlas = OutlineAtlas()
         limbs = score.notes["limb"]
         shown = limbs if setting.with_sticking else np.full_like(limbs, Limb.UNKNOWN)
-        self._engraver = Engraver(score, self._atlas, shown, BarNumbers(words.first_bar - 1), meter_words=False)
+        self._engraver = Engraver(
+            score, self._atlas, shown, BarNumbers(words.first_bar - 1), words.beat_ticks, meter_words=False
+        )
         self._pages = [_Page()]
         tempo = score.tempo_map
         self._new_meters = {
@@ -168,15 +173,7 @@ class _SheetPage:
     def _tempo(self, draw_list: DrawList, y: float) -> float:
         """The beat as a note, and how many a minute; returns where it ends."""
         words = self._words
-        draw_list.ellipse((4.0, y - 2.6), (3.3, 2.3), INK, -0.38)
-        draw_list.line((6.9, y - 3.2), (6.9, y - 16.0), 0.8, INK)
-        x = 12.0
-        if words.beat_ticks < PPQ:
-            draw_list.sign("flag", (6.5, y - 16.0), INK, 4.4)
-            x += 3.0
-        if words.beat_ticks % PPQ == PPQ // 2 and words.beat_ticks > PPQ:
-            draw_list.ellipse((11.0, y - 2.6), (1.1, 1.1), INK)
-            x += 3.0
+        x = draw_beat_note(draw_list, (0.0, y), _BEAT_NOTE, words.beat_ticks, INK)
         return x + draw_list.text(f"= {words.beats_a_minute:g}", (x, y), TypeStyle(_TEXT, INK, Face.BOLD)) + 16.0
 
     def _feet(self) -> None:
@@ -220,7 +217,8 @@ class _SheetPage:
         self._print(page, draw_list, PaperSpot((MARGIN, middle_y), self._space))
         for box in boxes:
             spot = PaperSpot((MARGIN + self._lead * self._space, middle_y), self._space, ruler(self._score, box))
-            page.areas += filled(self._engraver.bar(box.bar, with_line=False), self._atlas, spot)
+            bar = self._engraver.bar(box.bar, with_line=False, opens_line=box is boxes[0])
+            page.areas += filled(bar, self._atlas, spot)
 
 
 def _bar_line(draw_list: DrawList, x: float, width: float = 0.16) -> None:

@@ -55,7 +55,7 @@ SECOND = '[[grid]]\nending = 2\nname = "way out"\nsnare = "--o- | ---o"\n'
 def test_endings_are_played_after_their_repetitions() -> None:
     """Bars: A, first ending, A, second ending (two bars), B."""
     text = A + FIRST + SECOND + B
-    assert bars_of(text) == [("A", 1, 1), ("A ending", 2, 2), ("A", 3, 3), ("way out", 4, 5), ("B", 6, 6)]
+    assert bars_of(text) == [("A", 1, 1), ("A, ending 1", 2, 2), ("A", 3, 3), ("way out", 4, 5), ("B", 6, 6)]
     assert ticks_of(text) == [
         0,
         WHOLE + QUARTER,
@@ -69,6 +69,14 @@ def test_an_ending_may_serve_several_repetitions_and_others_have_none() -> None:
     """A, ending, A, A, ending, A: the third bar from the end has no ending after it."""
     text = A + "times = 4\n" + FIRST.replace("ending = 1", "ending = [1, 3]")
     assert ticks_of(text) == [0, WHOLE + QUARTER, 2 * WHOLE, 3 * WHOLE, 4 * WHOLE + QUARTER, 5 * WHOLE]
+
+
+def test_endings_without_a_name_tell_which_they_are() -> None:
+    text = A + "times = 4\n" + FIRST.replace("ending = 1", "ending = [1, 3]") + FIRST.replace("= 1", "= 2")
+    assert [name for name, _, _ in bars_of(text)] == [
+        *("A", "A, ending 1 and 3", "A", "A, ending 2"),
+        *("A", "A, ending 1 and 3", "A"),
+    ]
 
 
 def test_the_form_plays_a_grid_with_its_endings() -> None:
@@ -234,6 +242,6 @@ def test_more_than_anyone_practises_is_refused_at_once(what: str) -> None:
 def test_each_bar_knows_its_part_where_the_parts_have_names() -> None:
     """A, its two endings (the second of two bars, with a name of its own), B."""
     parts = lesson(A + FIRST + SECOND + B).part_of_bar
-    assert parts == {0: "A", 1: "A ending", 2: "A", 3: "way out", 4: "way out", 5: "B"}
+    assert parts == {0: "A", 1: "A, ending 1", 2: "A", 3: "way out", 4: "way out", 5: "B"}
     assert lesson(A + "times = 3\n").part_of_bar == {}
     assert lesson(A + '[[grid]]\nkick = "o"\n').part_of_bar == {0: "A"}

@@ -127,7 +127,7 @@ def asking(part: Part, **goals: float) -> Rules:
             PartResult(LEFT, 20, 20, sd_ms=33.2),
             {"max_sd_ms": 25},
             "spread",
-            "Your left hand spreads 34 ms; the goal is 25.",
+            "Your left hand spreads 33 ms; the goal is 25.",
         ),
         (
             PartResult(LEFT, 20, 17),

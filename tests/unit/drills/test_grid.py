@@ -172,3 +172,23 @@ def test_a_faulty_bar_does_not_shift_the_others() -> None:
 
 def test_sixteenths_are_a_quarter_of_a_quarter() -> None:
     assert 4 * SIXTEENTH == QUARTER
+
+
+@pytest.mark.parametrize(
+    "lines",
+    [
+        'snare = "| |"',
+        'snare = "o---"\nsticking = "R---| |"',
+        'snare = "o---| |"\nkick = "o---"\nhihat = "x---"',
+        'snare = "o---| | oooo"\nkick = "o--- | o---"',
+        'snare = "o---| |"\nkick = "o--- | o---"',
+    ],
+)
+def test_an_empty_bar_is_told_once(lines: str) -> None:
+    assert [f.text for f in faults(text_of(lines))] == ["an empty bar; a bar's rest is written -"]
+
+
+def test_bars_too_many_are_told_beside_an_empty_one() -> None:
+    """Three bars with one of them empty are two, and the other line has one."""
+    found = [f.text for f in faults(text_of('snare = "o---| | oooo"\nkick = "o---"'))]
+    assert found == ["an empty bar; a bar's rest is written -", "3 bars, but kick has 1; is a bar line too many?"]

@@ -256,6 +256,22 @@ def test_a_new_tempo_is_a_number_and_a_ramp_a_word_with_its_target() -> None:
     assert letters(bars[2], "5") == 2, "the target, 55"
 
 
+def test_tempi_count_the_lesson_s_beat() -> None:
+    """Dotted quarters: 90 quarters are 60 of them, and a ramp to 120 quarters goes to 80."""
+    steps = [TempoChange.from_bpm(6 * PPQ + k * PPQ // 4, 90 + 30 * k / 12) for k in range(12)]
+    six_eight = [MeterChange(0, 6, 8)]
+    tempo_map = TempoMap.build([TempoChange.from_bpm(0, 75), TempoChange.from_bpm(3 * PPQ, 90), *steps], six_eight)
+    score = Score.from_notes([Note(8 * PPQ, Piece.SNARE)], tempo_map)
+    engraver = Engraver(score, ATLAS, beat_ticks=3 * PPQ // 2)
+    plain, ramp = engraver.bar(1), engraver.bar(2)
+    assert [letters(plain, character) for character in "609"] == [1, 1, 0]
+    assert [letters(ramp, character) for character in "8012"] == [1, 1, 0, 0]
+    word_y = of_kind(plain, ShapeKind.ELLIPSE)["centre"][:, 1].max()
+    dots = [row for row in of_kind(plain, ShapeKind.ELLIPSE) if row["half"][0] == row["half"][1]]
+    assert [row["centre"][1] for row in dots] == [word_y], "the beat's dot, level with its head"
+    assert not [row for row in of_kind(Engraver(score, ATLAS).bar(1), ShapeKind.ELLIPSE) if np.ptp(row["half"]) == 0]
+
+
 # --- swing in words ---------------------------------------------------------------------------------------------------
 
 

@@ -1,0 +1,136 @@
+"""Rolls held over beats and bars: note values by the common table of notes, ties counted by hand."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from station.core.pieces import Articulation, Piece
+from station.core.units import PPQ
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
+from station.render.notation.engraving import Engraver
+from station.render.notation.held_rolls import held_until, long_groups
+from station.render.notation.line_breaks import want
+from station.render.notation.rhythm import Value, spell
+from station.render.text.atlas import Atlas
+from station.render.text.draw_list import ShapeKind
+from tests.unit.render.scores import BAR, score_of
+
+ATLAS = Atlas()
+SIXTEENTH = PPQ // 4
+Shapes = NDArray[np.void]
+
+
+def roll(tick: int, length: int, swing: int = 0) -> Note:
+    return Note(tick, Piece.SNARE, articulation=Articulation.BUZZ, duration_ticks=length, swing_ticks=swing)
+
+
+def signs(shapes: Shapes, name: str) -> list[float]:
+    """When each of these signs stands, in seconds; a quarter lasts half a second."""
+    uv = np.array(ATLAS.sign(name).uv, np.float32)
+    return sorted(shapes["time_s"][(np.sort(shapes["uv"], axis=1) == np.sort(uv)).all(axis=1), 0].tolist())
+
+
+def heads(shapes: Shapes, hollow: bool) -> list[float]:
+    """When the heads that are filled, or `hollow`, stand; dots are round and no heads."""
+    round_ones = shapes[(shapes["kind"] == ShapeKind.ELLIPSE) & (np.ptp(shapes["half"], axis=1) > 0)]
+    return sorted(round_ones["time_s"][(round_ones["style"][:, 1] > 0) == hollow, 0].tolist())
+
+
+def stems(shapes: Shapes) -> int:
+    return int(((shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"][:, 1], 0.065)).sum())
+
+
+def tied(shapes: Shapes) -> tuple[float, float] | None:
+    """From when to when ties reach; None where there is none."""
+    steps = shapes[(shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"][:, 1], 0.075)]
+    return (float(steps["time_s"][:, 0].min()), float(steps["time_s"].sum(axis=1).max())) if len(steps) else None
+
+
+def bars_of(*notes: Note, count: int = 1, meter: tuple[int, int] = (4, 4)) -> list[Shapes]:
+    tempo_map = TempoMap.constant(120, *meter)
+    engraver = Engraver(Score.from_notes(notes, tempo_map, tempo_map.bar_start(count)), ATLAS)
+    return [engraver.bar(bar) for bar in range(count)]
+
+
+def test_a_roll_of_two_beats_is_a_half_note() -> None:
+    (shapes,) = bars_of(roll(0, 2 * PPQ), Note(2 * PPQ, Piece.SNARE), Note(3 * PPQ, Piece.SNARE))
+    assert (heads(shapes, hollow=True), heads(shapes, hollow=False)) == ([0.0], [1.0, 1.5])
+    assert (signs(shapes, "buzz"), signs(shapes, "rest_4"), tied(shapes)) == ([0.0], [], None)
+    assert stems(shapes) == 3
+
+
+def test_a_roll_of_a_bar_is_a_whole_note_without_a_stem() -> None:
+    (shapes,) = bars_of(roll(0, BAR))
+    assert (heads(shapes, hollow=True), stems(shapes), signs(shapes, "buzz")) == ([0.0], 0, [0.0])
+    assert signs(shapes, "rest_4") == []
+
+
+def test_in_six_eight_a_bar_is_a_dotted_half() -> None:
+    (shapes,) = bars_of(roll(0, 3 * PPQ), meter=(6, 8))
+    dots = shapes[(shapes["kind"] == ShapeKind.ELLIPSE) & (np.ptp(shapes["half"], axis=1) == 0)]
+    assert (heads(shapes, hollow=True), stems(shapes), len(dots)) == ([0.0], 1, 1)
+
+
+def test_what_begins_off_the_beat_is_tied_to_it_and_ends_where_it_ends() -> None:
+    """An eighth before beat 2, all of beat 2, an eighth of beat 3; then a sixteenth's rest and a stroke."""
+    last = 2 * PPQ + 3 * SIXTEENTH
+    (shapes,) = bars_of(roll(PPQ // 2, 2 * PPQ), Note(last, Piece.SNARE))
+    assert heads(shapes, hollow=False) == [0.25, 0.5, 1.0, 1.375]
+    assert signs(shapes, "buzz") == [0.25, 0.5, 1.0]
+    assert tied(shapes) == pytest.approx((0.25, 1.0))
+    assert signs(shapes, "rest_16") == [1.25]
+
+
+def test_a_roll_over_the_bar_line_is_tied_to_the_next_bar_and_is_no_silence_there() -> None:
+    first, second = bars_of(roll(2 * PPQ, 4 * PPQ), count=2)
+    assert (heads(first, hollow=True), heads(second, hollow=True)) == ([1.0], [2.0])
+    assert tied(first) == pytest.approx((1.0, 2.0))
+    assert tied(second) is None, "the bar before drew it"
+    assert signs(second, "rest_4") == [3.0, 3.5]
+
+
+def test_a_tie_from_the_line_before_begins_anew() -> None:
+    score = score_of(roll(2 * PPQ, 6 * PPQ))
+    shapes = Engraver(score, ATLAS).bar(1, with_line=False, opens_line=True)
+    assert tied(shapes) == (2.0, 2.0)
+
+
+def test_a_roll_inside_its_beat_is_written_like_a_stroke() -> None:
+    (shapes,) = bars_of(*(roll(k * PPQ, SIXTEENTH) for k in range(4)))
+    assert heads(shapes, hollow=False) == [0.0, 0.5, 1.0, 1.5]
+    assert (signs(shapes, "flag"), signs(shapes, "rest_16"), tied(shapes)) == ([], [], None)
+
+
+def test_a_roll_ends_at_the_next_stroke_of_its_voice_as_it_is_written() -> None:
+    """The feet do not end it; a swung stroke does where notation has it, on the half beat."""
+    late = round(PPQ * 2 / 3) - PPQ // 2
+    notes = [roll(0, 4 * PPQ), Note(PPQ, Piece.KICK), Note(PPQ + PPQ // 2 + late, Piece.SNARE, swing_ticks=late)]
+    score = score_of(*notes)
+    until = held_until(score, score.notes["piece"] == Piece.KICK)
+    assert until.tolist() == [PPQ + PPQ // 2, PPQ, PPQ + PPQ // 2]
+
+
+def test_long_notes_join_only_whole_beats_that_are_held() -> None:
+    beats = [(k * PPQ, (k + 1) * PPQ) for k in range(4)]
+    held = list(long_groups(beats, [(PPQ, 3 * PPQ + SIXTEENTH)]))
+    assert held == [(0, PPQ, None), (PPQ, 3 * PPQ, Value(2)), (3 * PPQ, 4 * PPQ, None)]
+    assert [group[2] for group in long_groups(beats, [(1, 3 * PPQ)])] == [None, Value(2), None]
+
+
+def test_what_one_value_does_not_write_is_tied() -> None:
+    """Five of eight thirty-seconds: an eighth and a thirty-second."""
+    eighth = PPQ // 8
+    group = spell([0], 0, PPQ, 5 * eighth)
+    assert [(s.tick, s.value, s.is_tied) for s in group.strokes] == [
+        (0, Value(8), False),
+        (4 * eighth, Value(32), True),
+    ]
+    assert [(rest.tick, rest.value) for rest in group.rests] == [(5 * eighth, Value(32)), (6 * eighth, Value(16))]
+
+
+def test_a_bar_has_room_for_where_a_roll_ends() -> None:
+    plain = want(score_of(Note(0, Piece.SNARE), Note(2 * PPQ, Piece.SNARE)), 0)
+    held = want(score_of(roll(0, PPQ + SIXTEENTH), Note(2 * PPQ, Piece.SNARE)), 0)
+    assert held.width > plain.width
+    assert want(score_of(roll(0, SIXTEENTH), Note(2 * PPQ, Piece.SNARE)), 0) == plain
