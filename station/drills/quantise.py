@@ -68,7 +68,11 @@ def quantise_score(score: Score) -> Quantised:
 
 
 def lesson_of(score: Score, name: str, title: str, velocities: Velocities | None = None) -> Lesson:
-    """A lesson around `score`: sections of four bars, cut where tempo or meter change, all of it looped."""
+    """A lesson around `score`: sections of four bars, cut where tempo or meter change, all of it looped.
+
+    Of the title, which another program may have written, what can be printed counts, else the name.
+    """
+    title = " ".join("".join(c if c.isprintable() else " " for c in title).split()) or name
     changes = {t.tick for t in score.tempo_map.tempos} | {m.tick for m in score.tempo_map.meters}
     starts = [0]
     for bar in range(1, score.bar_count):

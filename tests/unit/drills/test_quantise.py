@@ -192,6 +192,15 @@ def test_a_bar_cut_where_no_meter_can_is_refused() -> None:
         quantise_score(Score.from_notes([snare(0), snare(1001)], tempo_map))
 
 
+@pytest.mark.parametrize(("title", "shown"), [("Song\x1b[2J\n two ", "Song [2J two"), ("\x00", "take")])
+def test_of_a_title_what_can_be_printed_counts(title: str, shown: str) -> None:
+    found = quantise_score(Score.from_notes([snare(0)], TempoMap()))
+    lesson = lesson_of(found.score, "take", title, found.velocities)
+    again = parse_lesson(write_lesson(lesson), "x", "x").lesson
+    assert again
+    assert (lesson.title, again.title) == (shown, shown)
+
+
 @pytest.mark.parametrize("path", real_files("gmd/*/eval_session/*.mid"))
 def test_what_people_played_becomes_a_lesson(path: Path) -> None:
     score = score_from_midi(read_midi(path))

@@ -143,11 +143,11 @@ def test_a_veto_stays_with_the_last_tempo() -> None:
 
 
 def test_passes_in_a_row_lie_apart() -> None:
-    """A bar of 4/4 at 80 bpm, as it is written, lasts 3 s: one such bar is rest enough."""
+    """A bar of 4/4 at 84 bpm, as it is written, lasts 2.9 s: one such bar is rest enough. Quarters are whole µs."""
     score = plan_practice(replace(FILL, landing=FILL.landing[:0]), PlanOptions(loops=1)).score
     row = ScoreRow((score, score))
     assert row.start_bars == (0, 5)
-    assert row.start_ns[1] == pytest.approx(20 * 60e9 / 80, abs=20)
+    assert row.start_ns[1] == pytest.approx(20 * 60e9 / 84, abs=20 * 500)
 
 
 def test_bars_of_a_chunk_keep_the_lesson_s_numbers() -> None:
