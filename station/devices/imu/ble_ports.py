@@ -216,6 +216,8 @@ class BlePort:
     def read(self) -> list[Packet]:
         """What came since the last call; raises `DeviceError` once the sensor has gone."""
         found = [self._came.popleft() for _ in range(len(self._came))]
+        if self._is_closed:  # what a sensor tells until it knows is for nobody
+            return []
         if self._fault and not found:
             raise DeviceError(self._fault)
         return found
@@ -228,7 +230,6 @@ class BlePort:
 
     def close(self) -> None:
         """End the connection; a closed port reads as empty."""
-        self._came.clear()
         if not self._is_closed:
             self._is_closed, self.is_open, self._fault = True, False, ""
             self._radio.submit(self._leave())
