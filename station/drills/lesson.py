@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb
 from station.core.units import PPQ
+from station.drills.grid.stroke_settings import Velocities
 from station.drills.grid.swing import STRAIGHT, Swing
-from station.drills.grid.touch import Velocities
 from station.drills.level_range import OF_DIFFICULTY, LevelRange
 from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoChange

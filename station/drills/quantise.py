@@ -17,8 +17,8 @@ from station.core.errors import BadInput
 from station.core.pieces import HALF_OPEN, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.grid.cell_strokes import OTHER_HAND
+from station.drills.grid.stroke_settings import Graces, Velocities
 from station.drills.grid.tab_symbols import FOOT_OF, SYMBOLS, TabFamily, TabSymbol, family_of
-from station.drills.grid.touch import Graces, Velocities
 from station.drills.lesson import Lesson, Section
 from station.drills.quantise_time import at_bar_starts, on_cells
 from station.drills.writing.lesson_writer import write_lesson

@@ -11,8 +11,8 @@ from types import MappingProxyType
 
 from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
+from station.drills.families.coordination import linear, ostinato
 from station.drills.families.lesson_page import Page, level_word
-from station.drills.families.limbs_apart import linear, ostinato
 from station.drills.families.rhythms import polyrhythms, reading, syncopation
 from station.drills.families.stickings import accents, paradiddles, permutations
 from station.drills.lesson import LEVELS

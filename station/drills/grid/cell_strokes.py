@@ -17,13 +17,13 @@ from numpy.typing import NDArray
 from station.core.pieces import CYMBALS, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.toml_places import KeyPath
 from station.drills.grid.grid import Bar
+from station.drills.grid.stroke_settings import MAX_VELOCITY, MIN_VELOCITY, StrokeSettings
 from station.drills.grid.swing import STRAIGHT, Swing
 from station.drills.grid.tab_symbols import CHOKE, HOLD, RESTS, SYMBOLS, TabSymbol, family_of, not_a_letter
-from station.drills.grid.touch import MAX_VELOCITY, MIN_VELOCITY, Touch
 from station.music.score import NOTE_DTYPE
 from station.music.tempo import MeterChange
 
-_USUAL_TOUCH = Touch()
+_USUAL_SETTINGS = StrokeSettings()
 OTHER_HAND = MappingProxyType({Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND})
 
 
@@ -72,7 +72,7 @@ class WrittenCell:
     """One letter of a line.
 
     `middle` is where a diddle's second stroke falls; `until` where a buzz roll ends or a cymbal is grabbed; `gain`
-    multiplies the velocities of its touch.
+    multiplies the velocities of its settings.
     """
 
     place: CellPlace
@@ -83,7 +83,7 @@ class WrittenCell:
     limb: Limb
     origin: Origin
     until: CellPlace | None = None
-    touch: Touch = _USUAL_TOUCH
+    settings: StrokeSettings = _USUAL_SETTINGS
     gain: float = 1.0
 
     @property
@@ -98,11 +98,11 @@ class WrittenCell:
         until = None if self.until is None else self.until.moved(ticks)
         return replace(self, place=self.place.moved(ticks), middle=self.middle.moved(ticks), until=until)
 
-    def struck(self, touch: Touch, gain: float) -> "WrittenCell":
-        """The same letter, as loud as `touch` and `gain` say."""
+    def struck(self, settings: StrokeSettings, gain: float) -> "WrittenCell":
+        """The same letter, as loud as `settings` and `gain` say."""
         return WrittenCell(
             *(self.place, self.middle, self.length_ticks, self.piece, self.letter, self.limb, self.origin, self.until),
-            touch=touch,
+            settings=settings,
             gain=gain,
         )
 
@@ -110,13 +110,13 @@ class WrittenCell:
         """The same letter, played by `limb`."""
         return WrittenCell(
             *(self.place, self.middle, self.length_ticks, self.piece, self.letter, limb, self.origin, self.until),
-            touch=self.touch,
+            settings=self.settings,
             gain=self.gain,
         )
 
     def velocity(self, dynamic: Dynamic) -> int:
         """Velocity 1–127 of its stroke, were it `dynamic`."""
-        loud = round(self.touch.velocities.of(self.piece, dynamic) * self.gain)
+        loud = round(self.settings.velocities.of(self.piece, dynamic) * self.gain)
         return min(max(loud, MIN_VELOCITY), MAX_VELOCITY)
 
 
@@ -250,7 +250,7 @@ def _rows(stroke: WrittenCell) -> list[tuple[float, ...]]:
 
 
 def _graces(stroke: WrittenCell, velocity: int) -> list[tuple[float, ...]]:
-    graces, ornament = stroke.touch.graces, stroke.letter.ornament
+    graces, ornament = stroke.settings.graces, stroke.letter.ornament
     leads_ms = graces.leads_ms(ornament)
     if not leads_ms:
         return []

@@ -11,8 +11,8 @@ from station.drills.grid.cell_strokes import BarClock, CellPlace, WrittenCell
 from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, lines_of_table, plain_line
 from station.drills.grid.grid_timing import meter
+from station.drills.grid.line_group import CellCount, agreed_bars, joined_strokes, parsed
 from station.drills.grid.sticking_line import STICKING
-from station.drills.grid.voice import CellCount, agreed_bars, parsed, voice_strokes
 from station.music.tempo import MeterChange
 
 CYCLE: Fields = {"meter": needed(meter, 'the meter of the cycle, such as meter = "5/8"'), **LINES}
@@ -65,7 +65,7 @@ def cycle_strokes(
     strokes: list[WrittenCell] = []
     for number in range(rounds):
         starts = [(number * bars + bar) * length for bar in range(bars)]
-        strokes += voice_strokes(lines, under, starts, clock, faults, are_all=cycle.are_all)
+        strokes += joined_strokes(lines, under, starts, clock, faults, are_all=cycle.are_all)
     return [_cut(stroke, end_tick) for stroke in strokes if stroke.place.straight < end_tick]
 
 

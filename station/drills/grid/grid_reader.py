@@ -13,10 +13,10 @@ from station.drills.grid.cycles import CYCLE, Cycle, by_repetition, cycle_stroke
 from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, cells, lines_of_table, plain_line
 from station.drills.grid.grid_timing import TIMING, GridTiming, timing_of
+from station.drills.grid.line_group import MAX_BARS, CellCount, ParsedLine, agreed_bars, joined_strokes, parsed
 from station.drills.grid.loudness import Loudness, read_loudness
 from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.swing import STRAIGHT
-from station.drills.grid.voice import MAX_BARS, CellCount, ParsedLine, agreed_bars, parsed, voice_strokes
 from station.music.loudness_marks import LoudnessMark
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
@@ -135,7 +135,7 @@ class _Builder:
         length = bars[-1].tick + bars[-1].bar_ticks
         clock = BarClock(bars, self.timing.swing)
         self._must_not_cross(lines, bars)
-        own = voice_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults, are_all=self.are_all)
+        own = joined_strokes(lines, under, [bar.tick for bar in bars], clock, self.faults, are_all=self.are_all)
         level = self._loudness(loudness, bars)
         parts = [self._struck([*own, *more], level) for more in self._cycled(bars, length, times)]
         if len(self.faults) == before:
@@ -184,8 +184,8 @@ class _Builder:
 
     def _struck(self, strokes: Sequence[WrittenCell], level: Loudness) -> tuple[WrittenCell, ...]:
         """The strokes as loud as the grid says."""
-        touch = self.timing.touch
-        return tuple(s.struck(touch, level.gain(s.place.straight)) for s in strokes)
+        settings = self.timing.settings
+        return tuple(s.struck(settings, level.gain(s.place.straight)) for s in strokes)
 
     def _must_not_cross(self, lines: Sequence[ParsedLine], bars: Sequence[MeterChange]) -> None:
         """Note a fault where cells swing in pairs that do not fill the beat that is counted, and so would cross it."""

@@ -1,4 +1,4 @@
-"""What a lesson says for all its grids, and a grid for itself and those after it: tempo, meter, beat, swing, touch.
+"""What a lesson says for all its grids, and a grid for itself and those after it: tempo, meter, beat, swing, strokes.
 
 `TIMING` is the schema of these keys; `timing_of` puts them on top of what was said before.
 """
@@ -13,9 +13,9 @@ from station.core.schema import Fields, list_of, number, optional, said, shown, 
 from station.core.toml_faults import Faults, wrong
 from station.core.toml_places import KeyPath
 from station.core.units import PPQ
+from station.drills.grid.stroke_settings import MAX_VELOCITY, MIN_VELOCITY, Graces, StrokeSettings, Velocities
 from station.drills.grid.swing import MAX_RATIO, MIN_RATIO, Swing
 from station.drills.grid.tab_symbols import LINE_PIECES
-from station.drills.grid.touch import MAX_VELOCITY, MIN_VELOCITY, Graces, Touch, Velocities
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
 MAX_BEATS = 32
@@ -26,7 +26,7 @@ MAX_METERS = 64
 
 @dataclass(frozen=True, slots=True)
 class GridTiming:
-    """What one grid hands to the next: tempo, meters, beat, swing and touch.
+    """What one grid hands to the next: tempo, meters, beat, swing and how strokes are struck.
 
     `tempo_bpm` in quarter notes a minute; `tempo_to_bpm` the tempo at which this grid arrives, None where it keeps
     its own (the next grid does not inherit it); `meters` are taken in turn, bar by bar, their ticks 0; `beat_ticks`
@@ -38,7 +38,7 @@ class GridTiming:
     meters: tuple[MeterChange, ...]
     beat_ticks: int
     swing: Swing = field(default_factory=Swing)
-    touch: Touch = field(default_factory=Touch)
+    settings: StrokeSettings = field(default_factory=StrokeSettings)
     tempo_to_bpm: float | None = None
     swing_path: KeyPath = ("swing_ratio",)
     is_sure: bool = True
@@ -46,12 +46,12 @@ class GridTiming:
     @property
     def velocities(self) -> Velocities:
         """The velocity of each dynamic."""
-        return self.touch.velocities
+        return self.settings.velocities
 
     @property
     def graces(self) -> Graces:
         """The grace strokes."""
-        return self.touch.graces
+        return self.settings.graces
 
 
 # --- the schema -------------------------------------------------------------------------------------------------------
@@ -128,13 +128,13 @@ def timing_of(values: Mapping[str, Any], before: GridTiming, faults: Faults, pat
     ratio, unit = values["swing_ratio"], values["swing_unit"]
     was, changes = before.velocities, values["dynamics"] or {}
     velocities = faults.attempt(lambda _: _velocities(changes, was), changes, was, "dynamics")
-    touch = Touch(velocities, replace(before.graces, **(values["graces"] or {})))
+    settings = StrokeSettings(velocities, replace(before.graces, **(values["graces"] or {})))
     return GridTiming(
         _tempo(values, "tempo_bpm", beat_ticks, faults) or before.tempo_bpm,
         before.meters if values["meter"] is None else values["meter"],
         beat_ticks,
         Swing(before.swing.ratio if ratio is None else ratio, before.swing.unit_ticks if unit is None else unit),
-        touch,
+        settings,
         _tempo(values, "tempo_to_bpm", beat_ticks, faults),
         before.swing_path if ratio is unit is None else (*path, "swing_ratio" if unit is None else "swing_unit"),
         not is_wrong and (before.is_sure or values["meter"] is not None),

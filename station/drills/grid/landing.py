@@ -13,9 +13,9 @@ from station.drills.grid.cell_strokes import BarClock, Origin, expand
 from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, lines_of_table, plain_line
 from station.drills.grid.grid_timing import GridTiming
+from station.drills.grid.line_group import joined_strokes, parsed
 from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.tab_symbols import CHOKE, HOLD, RESTS, SYMBOLS, family_of
-from station.drills.grid.voice import parsed, voice_strokes
 from station.music.tempo import MeterChange
 
 _NOTHING_STRUCK = RESTS + HOLD + CHOKE + "%()|"
@@ -45,8 +45,8 @@ def read_landing(
         under = None
     voices = [parsed(line, frames, faults) for line in sound]
     hands = parsed(under, frames, faults) if under and len(sound) == len(lines) else None
-    strokes = voice_strokes(voices, hands, [0], BarClock([_BEAT], timing.swing), faults, are_all=are_all)
-    rows, origins = expand([replace(stroke, touch=timing.touch) for stroke in strokes])
+    strokes = joined_strokes(voices, hands, [0], BarClock([_BEAT], timing.swing), faults, are_all=are_all)
+    rows, origins = expand([replace(stroke, settings=timing.settings) for stroke in strokes])
     order = np.lexsort((rows["piece"], -rows["lead_ms"]))
     return rows[order], [origins[i] for i in order]
 

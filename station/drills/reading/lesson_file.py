@@ -3,7 +3,7 @@
 The format is described for teachers in docs/lessons.md, and key by key in docs/lesson-format.md. Faults of all kinds
 are collected in one reading: syntax, values, letters of the grid, bars that do not fit, stickings that do not match,
 and music that two hands and two feet cannot play. `lesson_fields` has the top table's schema, `form` says what is
-played, `grid` reads it, `stretches` lays it out; here it is put together.
+played, `grid` reads it, `played` lays it out; here it is put together.
 """
 
 from collections.abc import Mapping, Sequence
@@ -26,15 +26,15 @@ from station.drills.grid.cell_strokes import Origin, WrittenCell, expand
 from station.drills.grid.grid_reader import read_grid
 from station.drills.grid.grid_timing import GridTiming, timing_of
 from station.drills.grid.landing import read_landing
-from station.drills.grid.voice import MAX_BARS, MAX_CELLS, CellCount
+from station.drills.grid.line_group import MAX_BARS, MAX_CELLS, CellCount
 from station.drills.lesson import Goals, Lesson
 from station.drills.reading.bar_cues import GridShape, read_cues
 from station.drills.reading.form import WrittenGrid, home_of, played_order, told_at_home, written_grids
-from station.drills.reading.key_homes import sent_home
 from station.drills.reading.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
-from station.drills.reading.stretches import (
+from station.drills.reading.misplaced_keys import sent_home
+from station.drills.reading.played_grids import (
+    PlayedGrid,
     ReadGrid,
-    Stretch,
     check_size,
     cues_of,
     laid_out,
@@ -105,26 +105,26 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     no_grids: list[ReadGrid] = []
     grids = faults.attempt(lambda _: _read_grids(written, timing, faults), written, no_grids)
     order = played_order(values["form"], written, faults) if written else []
-    nothing: list[Stretch] = []
-    stretches = faults.attempt(lambda _: laid_out(order, grids), grids, nothing) if grids else nothing
+    nothing: list[PlayedGrid] = []
+    played = faults.attempt(lambda _: laid_out(order, grids), grids, nothing) if grids else nothing
     are_sure = timing.is_sure and len(faults) == before  # else there may be more bars than could be read
-    score, origins = _score(stretches, written, faults)
+    score, origins = _score(played, written, faults)
     landing, landing_origins = _landing(values[LANDING], timing, faults)
     lesson = Lesson(
         name=name,
         score=replace(score, title=values["title"]),
         loop=_loop(values["loop"], score.bar_count if are_sure else MAX_BARS, faults),
-        swing=stretches[0].grid.section.timing.swing if stretches else timing.swing,
+        swing=played[0].grid.section.timing.swing if played else timing.swing,
         beat_ticks=timing.beat_ticks,
-        sections=sections_of(stretches),
+        sections=sections_of(played),
         velocities=timing.velocities,
-        cues=faults.attempt(lambda _: cues_of(stretches), None, ()),
+        cues=faults.attempt(lambda _: cues_of(played), None, ()),
         landing=landing,
         **{key: values[key] for key in AS_THEY_ARE},
     )
     lesson = replace(lesson, goals=_goals(values["goals"], lesson, faults))
     _check_prerequisites(lesson, faults)
-    beats = _Beats(stretches, lesson.beat_ticks)
+    beats = _Beats(played, lesson.beat_ticks)
     note_unplayable(lesson, [*origins, *landing_origins], beats.ticks_at, faults)
     faults.check()
     return lesson
@@ -179,20 +179,20 @@ def _read_grids(written: Sequence[WrittenGrid], timing: GridTiming, faults: Faul
     return grids
 
 
-def _score(stretches: Sequence[Stretch], written: Sequence[WrittenGrid], faults: Faults) -> tuple[Score, list[Origin]]:
-    """The score of all stretches, and the letter of the file that wrote each of its rows."""
-    strokes: list[WrittenCell] = [stroke for stretch in stretches for stroke in stretch.strokes]
+def _score(played: Sequence[PlayedGrid], written: Sequence[WrittenGrid], faults: Faults) -> tuple[Score, list[Origin]]:
+    """The score of all that is played, and the letter of the file that wrote each of its rows."""
+    strokes: list[WrittenCell] = [stroke for each in played for stroke in each.strokes]
     rows, origins = expand(strokes)
     order = np.lexsort((rows["piece"], -rows["lead_ms"], rows["tick"]))
-    tempo_map = TempoMap.build(faults.attempt(lambda _: tempos_of(stretches), None, []), meters_of(stretches))
-    end = stretches[-1].end_tick if stretches else tempo_map.bar_start(1)
+    tempo_map = TempoMap.build(faults.attempt(lambda _: tempos_of(played), None, []), meters_of(played))
+    end = played[-1].end_tick if played else tempo_map.bar_start(1)
     by_path = {grid.path: grid for grid in written}
     homes = {
         origin.path: home_of(origin.path, by_path[_grid_path(origin)], written)
         for origin in {(o.path): o for o in origins}.values()
     }
     at_home = [Origin(homes[origin.path], origin.char) for origin in origins]
-    loudness = joined_marks((s.start_tick, s.grid.section.loudness) for s in stretches)
+    loudness = joined_marks((s.start_tick, s.grid.section.loudness) for s in played)
     return Score.from_array(rows[order], tempo_map, end, loudness=loudness), [at_home[i] for i in order]
 
 
@@ -205,12 +205,12 @@ def _grid_path(origin: Origin) -> tuple[str | int, ...]:
 class _Beats:
     """The beat that a teacher counts at each place: that of its grid, `usual` where there is none."""
 
-    stretches: Sequence[Stretch]
+    played: Sequence[PlayedGrid]
     usual: int
 
     def ticks_at(self, tick: int) -> int:
         """Length of the beat at `tick`."""
-        here = (s for s in reversed(self.stretches) if s.start_tick <= tick)
+        here = (s for s in reversed(self.played) if s.start_tick <= tick)
         found = next(here, None)
         return self.usual if found is None else found.grid.section.timing.beat_ticks
 

@@ -38,7 +38,7 @@ WORDS: Mapping[str, str] = MappingProxyType(
         " once, as written",
         "landing": "what is struck on the first beat after the last loop: lines of one letter each",
         "hints": "what the report adds where it names a fault: the fault's word and a sentence",
-        # touch
+        # how strokes are struck
         "dynamics": "velocities of soft, normal and accented strokes; in a table of a piece's name, of that piece",
         "ghost": "velocity of a ghost stroke (32 if nothing says it)",
         "normal": "velocity of a normal stroke (80 if nothing says it)",

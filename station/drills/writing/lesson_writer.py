@@ -13,8 +13,8 @@ from station.core.toml_write import toml_text
 from station.core.units import PPQ
 from station.drills.grid.grid_writer import GridSetting, frame_of, with_repeats, write_lines
 from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines_of, strokes_by_bar
+from station.drills.grid.stroke_settings import Graces, Velocities
 from station.drills.grid.swing import Swing
-from station.drills.grid.touch import Graces, Velocities
 from station.drills.lesson import Lesson, Section, tidy_bpm
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_text import show

@@ -31,7 +31,7 @@ from station.devices.mapping.velocity_curve import (
     threshold_below,
 )
 from station.devices.mapping_commands import obey
-from station.drills.grid.touch import Velocities
+from station.drills.grid.stroke_settings import Velocities
 from station.engine.engine import Engine
 from station.engine.messages import RecordCapture
 

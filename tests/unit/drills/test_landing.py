@@ -7,11 +7,11 @@ from station.core.toml_faults import Faults
 from station.core.units import PPQ
 from station.drills.grid.grid_timing import GridTiming
 from station.drills.grid.landing import read_landing
-from station.drills.grid.touch import Graces, Touch
+from station.drills.grid.stroke_settings import Graces, StrokeSettings
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 
-TIMING = GridTiming(80, (MeterChange(0, 4, 4),), PPQ, touch=Touch(graces=Graces(flam_ms=20)))
+TIMING = GridTiming(80, (MeterChange(0, 4, 4),), PPQ, settings=StrokeSettings(graces=Graces(flam_ms=20)))
 
 
 def landed(table: dict[str, object]) -> list[Note]:

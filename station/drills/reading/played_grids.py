@@ -1,4 +1,4 @@
-"""A lesson as it is played: its grids in the order of the form, each repetition a stretch of ticks and bars.
+"""A lesson as it is played: its grids in the order of the form, each repetition a run of ticks and bars.
 
 What depends on where a grid is played is worked out here: ticks and bars, sections, meters, tempi, cues. A *turn* is
 one entry of the form: all repetitions of a grid, with the endings between them.
@@ -11,7 +11,7 @@ from itertools import chain, groupby
 from station.core.toml_faults import wrong
 from station.drills.grid.cell_strokes import WrittenCell
 from station.drills.grid.grid_reader import GridSection
-from station.drills.grid.voice import MAX_BARS
+from station.drills.grid.line_group import MAX_BARS
 from station.drills.lesson import BarCue, Section
 from station.drills.reading.bar_cues import GridCue
 from station.drills.reading.form import WrittenGrid, ending_word, repetitions
@@ -43,7 +43,7 @@ class ReadGrid:
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
+class PlayedGrid:
     """One repetition (from 0) of a grid in the given `turn`: where it begins, and the name that its section has."""
 
     grid: ReadGrid
@@ -77,80 +77,80 @@ def check_size(bars: int, strokes: int, grid: WrittenGrid) -> None:
         raise wrong(f"{strokes} strokes up to here; a lesson has at most {MAX_STROKES}", *grid.path)
 
 
-def laid_out(order: Sequence[int], grids: Sequence[ReadGrid]) -> list[Stretch]:
+def laid_out(order: Sequence[int], grids: Sequence[ReadGrid]) -> list[PlayedGrid]:
     """All that is played, turn by turn; raises `Wrong` where it is more than anyone practises."""
-    stretches: list[Stretch] = []
+    played: list[PlayedGrid] = []
     tick = bars = strokes = 0
     for turn, main in enumerate(order):
         name = grids[main].written.name
         for index, repetition in repetitions(main, [g.written for g in grids], [g.section.times for g in grids]):
             grid = grids[index]
             called = name if index == main else grid.written.name or (name and f"{name}, {ending_word(grid.written)}")
-            stretches.append(Stretch(grid, repetition, turn, tick, bars, called))
-            tick, bars = stretches[-1].end_tick, bars + grid.section.bar_count
+            played.append(PlayedGrid(grid, repetition, turn, tick, bars, called))
+            tick, bars = played[-1].end_tick, bars + grid.section.bar_count
             strokes += len(grid.section.parts[repetition])
             check_size(bars, strokes, grid.written)
-    return stretches
+    return played
 
 
-def sections_of(stretches: Sequence[Stretch]) -> tuple[Section, ...]:
+def sections_of(played: Sequence[PlayedGrid]) -> tuple[Section, ...]:
     """The sections that the report speaks of: repetitions of a grid that follow each other in a turn are one."""
-    runs = [list(run) for _, run in groupby(stretches, lambda s: (s.turn, id(s.grid)))]
+    runs = [list(run) for _, run in groupby(played, lambda s: (s.turn, id(s.grid)))]
     return tuple(
         Section(run[0].name, run[0].first_bar, run[-1].last_bar, run[0].grid.section.timing.swing) for run in runs
     )
 
 
-def cues_of(stretches: Sequence[Stretch]) -> tuple[BarCue, ...]:
+def cues_of(played: Sequence[PlayedGrid]) -> tuple[BarCue, ...]:
     """The words, cameras and styles of all bars in order; raises `Wrong` where they are more than anyone reads."""
     cues: list[BarCue] = []
-    for stretch in stretches:
-        here = (cue for cue in stretch.grid.cues if cue.is_in(stretch.repetition))
-        cues += [cue.at_bar(stretch.first_bar) for cue in here if cue.say or cue.camera or cue.style]
+    for each in played:
+        here = (cue for cue in each.grid.cues if cue.is_in(each.repetition))
+        cues += [cue.at_bar(each.first_bar) for cue in here if cue.say or cue.camera or cue.style]
         if len(cues) > MAX_CUES:
             text = f"{len(cues)} words, cameras and styles as played up to here; a lesson has at most {MAX_CUES}"
-            raise wrong(text, *stretch.grid.written.path)
+            raise wrong(text, *each.grid.written.path)
     return tuple(cues)
 
 
-def meters_of(stretches: Sequence[Stretch]) -> list[MeterChange]:
+def meters_of(played: Sequence[PlayedGrid]) -> list[MeterChange]:
     """The meter of every bar."""
-    return list(chain.from_iterable(s.grid.section.bars_at(s.start_tick) for s in stretches))
+    return list(chain.from_iterable(s.grid.section.bars_at(s.start_tick) for s in played))
 
 
-def tempos_of(stretches: Sequence[Stretch]) -> list[TempoChange]:
+def tempos_of(played: Sequence[PlayedGrid]) -> list[TempoChange]:
     """Every change of tempo; raises `Wrong` where ramps have more steps than anyone hears."""
     tempos: list[TempoChange] = []
-    for _, turn in groupby(stretches, lambda s: s.turn):
+    for _, turn in groupby(played, lambda s: s.turn):
         for change in _turn_tempos(list(turn)):
             tempos.append(change)
             if len(tempos) > MAX_STEPS:
                 text = f"the tempo changes {STEPS_A_BEAT} times a beat; a lesson has at most {MAX_STEPS} changes"
-                raise wrong(text, *turn_path(stretches, change.tick))
+                raise wrong(text, *turn_path(played, change.tick))
     return tempos
 
 
-def turn_path(stretches: Sequence[Stretch], tick: int) -> tuple[str | int, ...]:
+def turn_path(played: Sequence[PlayedGrid], tick: int) -> tuple[str | int, ...]:
     """The path of the grid that is played at `tick`."""
-    return next(s for s in reversed(stretches) if s.start_tick <= tick).grid.written.path
+    return next(s for s in reversed(played) if s.start_tick <= tick).grid.written.path
 
 
-def _turn_tempos(turn: Sequence[Stretch]) -> Iterator[TempoChange]:
+def _turn_tempos(turn: Sequence[PlayedGrid]) -> Iterator[TempoChange]:
     """The tempo over a turn: one line over all of them, but for endings with a tempo of their own."""
     main = turn[0]
     whole = _ramp(main, turn[-1].end_tick)
-    for stretch in turn:
-        is_own = stretch.grid is not main.grid and stretch.grid.has_own_tempo
-        ramp, owner = (_ramp(stretch, stretch.end_tick), stretch) if is_own else (whole, main)
+    for each in turn:
+        is_own = each.grid is not main.grid and each.grid.has_own_tempo
+        ramp, owner = (_ramp(each, each.end_tick), each) if is_own else (whole, main)
         marks = [
-            TempoMark(stretch.start_tick + cue.tempo.tick, cue.tempo.tempo_bpm, cue.tempo.tempo_to_bpm)
-            for cue in stretch.grid.cues
-            if cue.tempo and cue.is_in(stretch.repetition)
+            TempoMark(each.start_tick + cue.tempo.tick, cue.tempo.tempo_bpm, cue.tempo.tempo_to_bpm)
+            for cue in each.grid.cues
+            if cue.tempo and cue.is_in(each.repetition)
         ]
         beat_ticks = owner.grid.section.timing.beat_ticks
-        yield from marked_tempos(ramp, marks, stretch.start_tick, stretch.end_tick, beat_ticks)
+        yield from marked_tempos(ramp, marks, each.start_tick, each.end_tick, beat_ticks)
 
 
-def _ramp(stretch: Stretch, end: int) -> Ramp:
-    timing = stretch.grid.section.timing
-    return Ramp(stretch.start_tick, end, timing.tempo_bpm, timing.tempo_to_bpm or timing.tempo_bpm)
+def _ramp(each: PlayedGrid, end: int) -> Ramp:
+    timing = each.grid.section.timing
+    return Ramp(each.start_tick, end, timing.tempo_bpm, timing.tempo_to_bpm or timing.tempo_bpm)

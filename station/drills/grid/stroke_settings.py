@@ -49,7 +49,7 @@ class Graces:
 
 
 @dataclass(frozen=True, slots=True)
-class Touch:
+class StrokeSettings:
     """How the strokes of one grid are struck."""
 
     velocities: Velocities = field(default_factory=Velocities)

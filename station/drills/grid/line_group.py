@@ -17,15 +17,6 @@ MAX_CELLS = 200_000
 choice)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Voice:
-    """The lines of a grid or of one of its cycles; `frames` are those of its bars, taken in turn."""
-
-    lines: Sequence[RawLine]
-    sticking: RawLine | None
-    frames: Sequence[GridFrame]
-
-
 @dataclass(slots=True)
 class ParsedLine:
     """The bars of one line, and the characters of it that were at fault.
@@ -95,7 +86,7 @@ class CellCount:
             raise wrong(f"{self.cells} cells; a lesson has at most {MAX_CELLS}", *lines[0].raw.line.path)
 
 
-def voice_strokes(
+def joined_strokes(
     lines: Sequence[ParsedLine],
     under: ParsedLine | None,
     starts: Sequence[int],
