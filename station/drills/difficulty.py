@@ -20,11 +20,11 @@ from numpy.typing import NDArray
 
 from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import PPQ
-from station.drills.grid.swing import STRAIGHT, Swing
 from station.drills.lesson import Lesson
 from station.motion.kit.kit import Kit, load_kit
 from station.motion.sticking.limbs import limbs_and_reasons
 from station.music.score import Score
+from station.music.swing import STRAIGHT, Swing
 
 BUSY_S = 2.0
 """Speed is that of the busiest so many seconds: a fill's length at a middle tempo (our choice)."""

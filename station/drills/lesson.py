@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from station.core.pieces import Limb
 from station.core.units import PPQ
 from station.drills.grid.stroke_settings import Velocities
-from station.drills.grid.swing import STRAIGHT, Swing
 from station.drills.level_range import OF_DIFFICULTY, LevelRange
 from station.music.score import NOTE_DTYPE, Score
+from station.music.swing import STRAIGHT, Swing
 from station.music.tempo import TempoChange
 from station.scoring.analysis.fault_table import Asked
 from station.scoring.matching.hit_windows import Level

@@ -16,13 +16,13 @@ from types import MappingProxyType
 from station.core.errors import BadInput
 from station.core.pieces import HALF_OPEN, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import NS_PER_MS, PPQ
-from station.drills.grid.cell_strokes import OTHER_HAND
-from station.drills.grid.stroke_settings import Graces, Velocities
+from station.drills.grid.stroke_settings import Velocities
 from station.drills.grid.tab_symbols import FOOT_OF, SYMBOLS, TabFamily, TabSymbol, family_of
 from station.drills.lesson import Lesson, Section
 from station.drills.quantise_time import at_bar_starts, on_cells
 from station.drills.writing.lesson_writer import write_lesson
 from station.motion.feasibility.playable import MAX_HANDS, unplayable_rows
+from station.music.grace_strokes import Graces, with_graces
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 
@@ -242,17 +242,4 @@ def _velocities(notes: Sequence[Note]) -> Velocities:
 
 def _with_graces(note: Note, velocities: Velocities) -> list[Note]:
     """The note at the velocity of its dynamic, its grace strokes before it."""
-    velocity = velocities.of(note.piece, note.dynamic)
-    usual = Graces()
-    graces = [
-        replace(
-            note,
-            velocity=usual.velocity(velocity),
-            dynamic=Dynamic.GHOST,
-            lead_ms=lead,
-            limb=OTHER_HAND.get(note.limb, Limb.UNKNOWN),
-            midi_note=0,
-        )
-        for lead in usual.leads_ms(note.ornament)
-    ]
-    return [*graces, replace(note, velocity=velocity, midi_note=0)]
+    return with_graces(replace(note, velocity=velocities.of(note.piece, note.dynamic), midi_note=0))

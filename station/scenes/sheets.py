@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 
 from station.core.units import PPQ
-from station.drills.grid.swing import STRAIGHT, Swing
 from station.drills.lesson import Lesson, tidy_bpm
 from station.music.score import Score
+from station.music.swing import STRAIGHT, Swing
 from station.render.files.pdf_file import pdf
 from station.render.notation.sheet import PAPERS, SheetWords, sheet
 

@@ -14,7 +14,6 @@ from station.core.pieces import Piece, word
 from station.core.toml_places import Places
 from station.core.units import PPQ
 from station.drills.grid.grid import GridFrame, parse_line
-from station.drills.grid.swing import MAX_RATIO, Swing
 from station.drills.grid.tab_symbols import LINE_PIECES, SYMBOLS, family_of
 from station.drills.lesson import Lesson
 from station.drills.quantise import lesson_of, quantise_score
@@ -24,6 +23,7 @@ from station.drills.writing.lesson_text import show
 from station.drills.writing.lesson_writer import write_lesson
 from station.drills.writing.score_difference import score_difference
 from station.music.score import Note, Score
+from station.music.swing import MAX_RATIO, Swing
 from station.music.tempo import MeterChange, TempoMap
 from tests.same_lesson import first_difference
 

@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 from station.core.pieces import CYMBALS, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.toml_places import KeyPath
 from station.drills.grid.grid import Bar
-from station.drills.grid.stroke_settings import MAX_VELOCITY, MIN_VELOCITY, StrokeSettings
-from station.drills.grid.swing import STRAIGHT, Swing
+from station.drills.grid.stroke_settings import StrokeSettings
 from station.drills.grid.tab_symbols import CHOKE, HOLD, RESTS, SYMBOLS, TabSymbol, family_of, not_a_letter
+from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY, OTHER_HAND
 from station.music.score import NOTE_DTYPE
+from station.music.swing import STRAIGHT, Swing
 from station.music.tempo import MeterChange
 
 _USUAL_SETTINGS = StrokeSettings()
-OTHER_HAND = MappingProxyType({Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND})
 
 
 @dataclass(frozen=True, slots=True)

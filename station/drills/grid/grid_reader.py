@@ -16,8 +16,8 @@ from station.drills.grid.grid_timing import TIMING, GridTiming, timing_of
 from station.drills.grid.line_group import MAX_BARS, CellCount, ParsedLine, agreed_bars, joined_strokes, parsed
 from station.drills.grid.loudness import Loudness, read_loudness
 from station.drills.grid.sticking_line import STICKING
-from station.drills.grid.swing import STRAIGHT
 from station.music.loudness_marks import LoudnessMark
+from station.music.swing import STRAIGHT
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
 MAX_TIMES = 100

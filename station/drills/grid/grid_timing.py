@@ -13,9 +13,10 @@ from station.core.schema import Fields, list_of, number, optional, said, shown, 
 from station.core.toml_faults import Faults, wrong
 from station.core.toml_places import KeyPath
 from station.core.units import PPQ
-from station.drills.grid.stroke_settings import MAX_VELOCITY, MIN_VELOCITY, Graces, StrokeSettings, Velocities
-from station.drills.grid.swing import MAX_RATIO, MIN_RATIO, Swing
+from station.drills.grid.stroke_settings import StrokeSettings, Velocities
 from station.drills.grid.tab_symbols import LINE_PIECES
+from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY, Graces
+from station.music.swing import MAX_RATIO, MIN_RATIO, Swing
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
 MAX_BEATS = 32

@@ -11,8 +11,8 @@ from functools import cache
 
 from station.core.errors import BadInput
 from station.drills.grid.grid import Bar, GridFrame, parse_line
-from station.drills.grid.swing import Swing
 from station.drills.grid.tab_symbols import CHOKE, HOLD
+from station.music.swing import Swing
 from station.music.tempo import MeterChange
 
 PLAIN_CELLS = (1, 2, 3, 4, 6, 8)

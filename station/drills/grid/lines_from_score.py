@@ -13,8 +13,8 @@ from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Ornament, Piece, word
 from station.drills.grid.grid_writer import GridMark, LineText
 from station.drills.grid.sticking_line import BOTH, HANDS, RIGHT_FIRST, STICKING
-from station.drills.grid.stroke_settings import Graces
 from station.drills.grid.tab_symbols import ALIASES, FOOT_OF, LETTER_OF, LINE_ORDER, TabSymbol, family_of
+from station.music.grace_strokes import Graces
 from station.music.score import Note, Score
 
 _HAND_LETTER = {limb: letter for letter, limb in HANDS.items()}

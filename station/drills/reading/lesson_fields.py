@@ -34,12 +34,12 @@ from station.drills.grid.grid_lines import LINES
 from station.drills.grid.grid_reader import GRID
 from station.drills.grid.grid_timing import TIMING, GridTiming
 from station.drills.grid.line_group import MAX_BARS
-from station.drills.grid.swing import MAX_RATIO
 from station.drills.grid.tab_symbols import LIMB_TABLES
 from station.drills.lesson import DEFAULT_DEMONSTRATIONS, DEFAULT_PASSES, LEVELS, BarGoals, Goals, PartGoals
 from station.drills.reading.bar_cues import AT
 from station.drills.reading.form import FORM_FIELDS
 from station.motion.kit.kit import kit_names
+from station.music.swing import MAX_RATIO
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 from station.scoring.analysis.fault_table import MUTE, Asked
 from station.scoring.analysis.fault_table import WORDS as FAULT_WORDS

@@ -13,13 +13,14 @@ from station.core.toml_write import toml_text
 from station.core.units import PPQ
 from station.drills.grid.grid_writer import GridSetting, frame_of, with_repeats, write_lines
 from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines_of, strokes_by_bar
-from station.drills.grid.stroke_settings import Graces, Velocities
-from station.drills.grid.swing import Swing
+from station.drills.grid.stroke_settings import Velocities
 from station.drills.lesson import Lesson, Section, tidy_bpm
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_text import show
 from station.drills.writing.score_difference import score_difference
+from station.music.grace_strokes import Graces
 from station.music.score import Score
+from station.music.swing import Swing
 
 _DYNAMICS = ("ghost", "normal", "accent")
 

@@ -11,7 +11,7 @@ from types import MappingProxyType
 
 from station.core.counts import is_count
 from station.core.errors import BadInput
-from station.drills.grid.swing import MAX_RATIO, MIN_RATIO, Swing
+from station.music.swing import MAX_RATIO, MIN_RATIO, Swing
 from station.practice.session.click_pattern import (
     MAX_SUBDIVISIONS,
     PLAIN,

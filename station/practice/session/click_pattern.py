@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_S
-from station.drills.grid.swing import Swing
 from station.engine.messages import CUE_DTYPE, Bus, ClickVoice
+from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoMap
 from station.sound.buses import PART_LABELS, SPOKEN_LEAD_S, word_of_beat
 

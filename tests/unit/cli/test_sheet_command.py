@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 from station.cli.command_line import main
-from station.drills.grid.swing import Swing
 from station.drills.lesson import Section
 from station.drills.library import find_lesson
+from station.music.swing import Swing
 from station.scenes.sheets import lesson_labels
 from tests.unit.cli.test_cli import refused
 

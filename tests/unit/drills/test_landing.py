@@ -7,7 +7,8 @@ from station.core.toml_faults import Faults
 from station.core.units import PPQ
 from station.drills.grid.grid_timing import GridTiming
 from station.drills.grid.landing import read_landing
-from station.drills.grid.stroke_settings import Graces, StrokeSettings
+from station.drills.grid.stroke_settings import StrokeSettings
+from station.music.grace_strokes import Graces
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 

@@ -3,9 +3,9 @@
 import pytest
 
 from station.core.pieces import Limb, Piece
-from station.drills.grid.swing import Swing
 from station.drills.lesson import BarCue, BarGoals, Lesson, PartGoals
 from station.drills.reading.lesson_file import parse_lesson
+from station.music.swing import Swing
 from tests.unit.drills.reading import EIGHTH, SIXTEENTH, faults
 
 ALL = """

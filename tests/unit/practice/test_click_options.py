@@ -3,7 +3,7 @@
 import pytest
 
 from station.core.errors import BadInput
-from station.drills.grid.swing import Swing
+from station.music.swing import Swing
 from station.practice.session.click_options import parse_click
 from station.practice.session.click_pattern import PLAIN, ClickBeats, ClickLevels, ClickPattern, Displacement
 

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from station.core.units import NS_PER_S, PPQ
-from station.drills.grid.swing import Swing
 from station.engine.messages import Bus, ClickVoice
+from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.practice.session.click_pattern import (
     SPOKEN_LEAD_NS,

@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.drills.grid.swing import Swing
+from station.music.swing import Swing
 from station.music.tempo import MeterChange
 from tests.unit.drills.reading import EIGHTH, QUARTER, SIXTEENTH, TRIPLET, notes, ticks
 
