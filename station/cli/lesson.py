@@ -5,8 +5,7 @@ from pathlib import Path
 
 from station.cli import lesson_list
 from station.cli.console import print_json, say, write
-from station.cli.input.read_captures import is_capture
-from station.cli.input.read_scores import existing, is_midi, load_score
+from station.cli.input.read_scores import existing, is_lesson, load_part
 from station.cli.options.option_fields import (
     Command,
     NoOptions,
@@ -22,6 +21,7 @@ from station.cli.options.option_fields import (
 )
 from station.core.errors import BadInput
 from station.core.files import write_whole
+from station.music.formats.format_table import endings, writer_for
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -132,32 +132,37 @@ def _import(options: ImportOptions) -> int:
     from station.drills.quantise import lesson_of, quantise_score
     from station.drills.writing.lesson_writer import write_lesson
 
-    if not is_midi(options.source) and not is_capture(options.source):
-        raise BadInput(options.source, "", "expected a MIDI file (.mid) or a take (.capture)")
+    if is_lesson(options.source):
+        raise BadInput(options.source, "", f"expected a music file ({endings()}) or a take (.capture)")
     out = options.out
     _check_free(out, options.overwrite)
     source = existing(options.source)
-    score = load_score(str(source))
-    if not len(score):
+    part = load_part(str(source))
+    if not len(part.score):
         raise BadInput(source, "", "there is no drum note in it")
-    fitted = quantise_score(score)
-    lesson = lesson_of(fitted.score, out.stem, score.title or source.stem, fitted.velocities)
+    fitted = quantise_score(part.score)
+    lesson = lesson_of(fitted.score, out.stem, part.score.title or source.stem, fitted.velocities)
     write_whole(out, write_lesson(lesson).encode())
     if fitted.moved or fitted.left_out:
         moved = f"{_counted(fitted.moved, 'stroke')} moved onto the grid, by at most {fitted.furthest_ms:.0f} ms"
         say(f"{moved}; {fitted.left_out} left out that two hands and two feet cannot play")
+    for line in part.lost:
+        say(f"lost     {line}")
     say(f"lesson   {out}")
     return 0
 
 
 def _export(options: ExportOptions) -> int:
     from station.cli.input.find_own_lesson import find_any_lesson
-    from station.music.formats.smf.standard_midi import write_score
+    from station.drills.writing.lesson_part import part_of
 
-    if not is_midi(str(options.out)):
-        raise BadInput(options.out, "", "expected a name that ends in .mid")
-    write_score(find_any_lesson(options.lesson).score, options.out)
-    say(f"MIDI     {options.out}")
+    known = writer_for(options.out)
+    assert known.write is not None, "writer_for finds those that write"
+    written = known.write(part_of(find_any_lesson(options.lesson)))
+    write_whole(options.out, written.data)
+    for loss in written.lost:
+        say(f"lost     {loss.text}")
+    say(f"{known.name:8} {options.out}")
     return 0
 
 
@@ -176,7 +181,7 @@ COMMAND = Verbs(
         ),
         ("new", "a lesson to start from, or a drill of a family", Command(NewOptions, _new)),
         ("schema", "print the JSON Schema of lessons, for editors", Command(NoOptions, _schema)),
-        ("import", "write a lesson from a MIDI file or a take", Command(ImportOptions, _import)),
-        ("export", "write a lesson as a MIDI file", Command(ExportOptions, _export)),
+        ("import", "write a lesson from a music file or a take", Command(ImportOptions, _import)),
+        ("export", "write a lesson as a music file", Command(ExportOptions, _export)),
     )
 )

@@ -5,13 +5,12 @@ from pathlib import Path
 
 from station.cli.console import print_json, say, say_infeasible, write
 from station.cli.drummer_options import DrumsOptions, assigned, drums_of, led_score
-from station.cli.input.read_scores import TEXT_ENDING
 from station.cli.options.option_fields import Command, argument, flag, group, option
 from station.core.errors import BadInput
 from station.core.labels import limb_name, piece_name
 from station.core.pieces import Limb, Piece, word
 from station.motion.sticking.limbs import Assignment
-from station.music.formats.text_score import write_text_score
+from station.music.formats.text_score import TEXT_ENDING, write_text_score
 from station.music.score import Score
 
 SCHEMA = "drum-station/limbs/1"

@@ -9,6 +9,9 @@ from station.cli.input.read_captures import begins_as_capture, is_capture, perfo
 from station.cli.options.option_fields import unread
 from station.core.counts import is_count
 from station.core.errors import BadInput
+from station.music.drum_part import DrumPart
+from station.music.formats.format_table import is_music_file, read_part
+from station.music.formats.smf.midi_part import MIDI
 from station.music.performance import Performance
 from station.music.score import Score
 
@@ -18,9 +21,7 @@ if TYPE_CHECKING:
     from station.motion.sticking.hand_notes import Hands
     from station.practice.session.click_pattern import Gap
 
-TEXT_ENDING = ".txt"
-"""Of a text score: see `station.music.formats.text_score`."""
-MIDI_ENDINGS = (".mid", ".midi", ".smf", ".kar")
+MIDI_ENDINGS = MIDI.endings
 
 
 def is_midi(name: str) -> bool:
@@ -30,7 +31,7 @@ def is_midi(name: str) -> bool:
 
 def is_lesson(name: str) -> bool:
     """Whether `name` means a lesson, and not music in another file."""
-    return not is_midi(name) and not is_capture(name) and Path(name).suffix.lower() != TEXT_ENDING
+    return not is_music_file(name) and not is_capture(name)
 
 
 def existing(name: str) -> Path:
@@ -41,20 +42,24 @@ def existing(name: str) -> Path:
     return path
 
 
-def load_score(name: str) -> Score:
-    """The score that `name` means: a MIDI file, a text score or a take by its ending, else a lesson by name or path."""
+def load_part(name: str) -> DrumPart:
+    """The part that `name` means: a music file or a take by its ending, else a lesson by name or path."""
     if is_capture(name):
         from station.cli.input.read_takes import take_as_score
 
-        return take_as_score(existing(name))
-    if is_midi(name):
-        from station.music.formats.smf.standard_midi import read_midi, score_from_midi
+        return DrumPart(take_as_score(existing(name)), is_played=True)
+    if is_music_file(name):
+        return read_part(existing(name))
+    from station.cli.input.find_own_lesson import find_any_lesson
+    from station.drills.writing.lesson_part import part_of
 
-        return score_from_midi(read_midi(existing(name)))
-    if Path(name).suffix.lower() == TEXT_ENDING:
-        from station.music.formats.text_score import read_text_score
+    return part_of(find_any_lesson(name))
 
-        return read_text_score(existing(name))
+
+def load_score(name: str) -> Score:
+    """The score that `name` means; of a lesson without its landing."""
+    if not is_lesson(name):
+        return load_part(name).score
     from station.cli.input.find_own_lesson import find_any_lesson
 
     return find_any_lesson(name).score

@@ -25,6 +25,8 @@ from station.core.errors import BadInput
 from station.core.files import read_regular, write_whole
 from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Ornament, Piece, Zone, word
 from station.core.utf8 import utf8_text
+from station.music.drum_part import DrumPart
+from station.music.formats.music_format import MusicFormat
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 
@@ -67,7 +69,7 @@ def write_text_score(score: Score, limbs: NDArray[np.int8], path: Path) -> None:
 
 def read_text_score(path: Path) -> Score:
     """The score in a file; raises `BadInput` with the line of the first fault."""
-    return parse_text_score(utf8_text(read_regular(path, MOST_BYTES), path, "a text score"), str(path))
+    return _read_part(read_regular(path, MOST_BYTES), str(path)).score
 
 
 # --- writing ----------------------------------------------------------------------------------------------------------
@@ -253,3 +255,11 @@ class _Reader:
         if not 0 <= number <= most:  # also refuses NaN
             raise self.fault(extra, f"expected {name} from 0 to {most:g}")
         return number
+
+
+def _read_part(data: bytes, source: str) -> DrumPart:
+    return DrumPart(parse_text_score(utf8_text(data, source, "a text score"), source))
+
+
+TEXT_ENDING = ".txt"
+TEXT_SCORE = MusicFormat("text score", (TEXT_ENDING,), _read_part, lambda _: True, MOST_BYTES)

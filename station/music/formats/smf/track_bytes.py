@@ -6,13 +6,11 @@ Ticks are the file's own and absolute here; mido gets delta times.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from io import BytesIO
-from pathlib import Path
 
 import mido
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.files import write_whole
 from station.music.tempo import MeterChange, TempoChange
 
 MESSAGE_DTYPE = np.dtype(
@@ -41,10 +39,10 @@ class OutTrack:
     meters: Sequence[MeterChange] = ()
 
 
-def write_tracks(tracks: Sequence[OutTrack], division: int, end_tick: int, path: Path) -> None:
-    """Write one track as format 0, several as format 1; each ends at `end_tick` or with its last message.
+def tracks_bytes(tracks: Sequence[OutTrack], division: int, end_tick: int) -> bytes:
+    """A file of one track in format 0, of several in format 1; each ends at `end_tick` or with its last message.
 
-    `division` is in ticks a quarter note. Raises `DeviceError` if the disk refuses.
+    `division` is in ticks a quarter note.
     """
     file = mido.MidiFile(type=min(len(tracks) - 1, 1), ticks_per_beat=division, charset="utf-8")
     for track in tracks:
@@ -53,7 +51,7 @@ def write_tracks(tracks: Sequence[OutTrack], division: int, end_tick: int, path:
         file.tracks.append(mido.MidiTrack(_with_deltas([*timed, end])))
     buffer = BytesIO()
     file.save(file=buffer)
-    write_whole(path, buffer.getvalue())
+    return buffer.getvalue()
 
 
 def _time(message: mido.Message) -> int:

@@ -20,12 +20,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import BadInput
+from station.core.files import write_whole
 from station.core.note_map import GENERAL_MIDI, V_DRUMS, KitMap, general_midi_note, strike_of
 from station.core.pieces import Articulation, Piece, Zone
 from station.core.units import PPQ
 from station.music.formats.smf.contents import DRUM_CHANNEL
 from station.music.formats.smf.drum_channels import KIT_MAP_NAMES, PEDAL_CONTROLLER, SNARE_POSITION_CONTROLLER
-from station.music.formats.smf.track_bytes import MESSAGE_DTYPE, Messages, OutTrack, write_tracks
+from station.music.formats.smf.track_bytes import MESSAGE_DTYPE, Messages, OutTrack, tracks_bytes
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import MeterChange, TempoChange
@@ -53,18 +54,23 @@ _ENDS, _DESCRIBES, _BEGINS = range(3)
 
 
 def write_score(score: Score, path: str | Path) -> None:
-    """Write `score` as a MIDI file of format 1: title, tempo and meter; drums by General MIDI numbers.
+    """Write `score_bytes` at `path`; raises `DeviceError` if the disk refuses."""
+    write_whole(Path(path), score_bytes(score, str(path)))
 
-    Raises `BadInput` for a tempo or meter that MIDI cannot write, `DeviceError` if the disk refuses.
+
+def score_bytes(score: Score, name: str) -> bytes:
+    """`score` as a MIDI file of format 1: title, tempo and meter; drums by General MIDI numbers.
+
+    Raises `BadInput` of `name` for a tempo or meter that MIDI cannot write.
     """
     onsets = np.where(score.is_grace, score.tempo_map.ticks_at_ns(score.onset_ns), score.notes["tick"])
     pickup = _pickup_ticks(score, onsets)
     division = _division(score, onsets)
     step = PPQ // division
     starts = _divided(onsets + pickup, step)
-    conductor = _conductor(score, pickup, step, str(path))
+    conductor = _conductor(score, pickup, step, name)
     drums = OutTrack("Drums", _score_messages(score, starts, step), _instrument(GENERAL_MIDI))
-    write_tracks([conductor, drums], division, int(_divided(score.end_tick + pickup, step)), Path(path))
+    return tracks_bytes([conductor, drums], division, int(_divided(score.end_tick + pickup, step)))
 
 
 def _pickup_ticks(score: Score, onsets: NDArray[np.int64]) -> int:
@@ -158,7 +164,8 @@ def write_performance(performance: Performance, path: str | Path, moves: Sequenc
     ]
     messages = np.concatenate(parts)
     track = OutTrack("Drums", messages, _instrument(kit_map or GENERAL_MIDI), [_PERFORMANCE_TEMPO])
-    write_tracks([track], _PERFORMANCE_DIVISION, int(messages["tick"].max(initial=0)), Path(path))
+    data = tracks_bytes([track], _PERFORMANCE_DIVISION, int(messages["tick"].max(initial=0)))
+    write_whole(Path(path), data)
 
 
 def _kept_map(hits: NDArray[np.void]) -> KitMap | None:

@@ -1,0 +1,40 @@
+"""A drum part as a file has it: its score, and the words beside the notes.
+
+Formats read it and write it; `drills` makes a lesson of it and one of a lesson.
+"""
+
+from dataclasses import dataclass, field
+
+from station.core.units import PPQ
+from station.music.score import Score
+from station.music.swing import Swing
+
+
+@dataclass(frozen=True, slots=True)
+class PartSection:
+    """A part with a name, such as "verse": bars `first_bar` to `last_bar`, from 0, inclusive, as they are played."""
+
+    name: str
+    first_bar: int
+    last_bar: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DrumPart:
+    """One drummer's part.
+
+    `score` has all repeats written out, its title, and of every stroke as much as the file says: dynamic and velocity,
+    ornament with its grace strokes (`grace_strokes`), limb, openness. `beat_ticks` is the beat that is counted (a
+    dotted quarter in 6/8). `swing` is how the whole part swings: its notes lie where they sound, and those that
+    notation writes straight have their `swing_ticks`. `sections` cover no bar twice. `is_played`: its times are as
+    somebody played them, and on no grid. `lost` says, a line each, what the file has and this value has not.
+    """
+
+    score: Score
+    author: str = ""
+    about: str = ""
+    beat_ticks: int = PPQ
+    swing: Swing = field(default_factory=Swing)
+    sections: tuple[PartSection, ...] = ()
+    is_played: bool = False
+    lost: tuple[str, ...] = ()

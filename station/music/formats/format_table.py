@@ -1,0 +1,48 @@
+"""All formats of music that the station reads and writes; `read_part` finds the one that a file is in."""
+
+from pathlib import Path
+
+from station.core.errors import BadInput
+from station.core.files import read_regular
+from station.music.drum_part import DrumPart
+from station.music.formats.music_format import MusicFormat
+from station.music.formats.smf.midi_part import MIDI
+from station.music.formats.text_score import TEXT_SCORE
+
+FORMATS: tuple[MusicFormat, ...] = (MIDI, TEXT_SCORE)
+"""Of several with the same ending, the choosy ones first."""
+
+
+def is_music_file(name: str) -> bool:
+    """Whether `name` ends as a file of one of the formats does."""
+    return any(ending in known.endings for known in FORMATS) if (ending := _ending(name)) else False
+
+
+def read_part(path: Path) -> DrumPart:
+    """The part in the file at `path`, by its ending and its bytes; raises `BadInput`."""
+    known = [each for each in FORMATS if _ending(path.name) in each.endings]
+    if not known:
+        raise BadInput(path, "", f"expected a file that ends in {endings()}")
+    data = read_regular(path, max(each.most_bytes for each in known))
+    found = next((each for each in known if each.recognises(data)), known[-1])
+    if len(data) > found.most_bytes:
+        raise BadInput(path, "", f"is larger than {found.most_bytes >> 20} MiB, which no {found.name} file is")
+    return found.read(data, str(path))
+
+
+def writer_for(path: Path) -> MusicFormat:
+    """The format that a file of this name is written in; raises `BadInput` where there is none."""
+    for each in FORMATS:
+        if each.write is not None and _ending(path.name) in each.endings:
+            return each
+    raise BadInput(path, "", f"expected a name that ends in {endings(written=True)}")
+
+
+def endings(written: bool = False) -> str:
+    """The endings of all formats, or of those that are written, for messages."""
+    found = [ending for each in FORMATS if each.write or not written for ending in each.endings]
+    return ", ".join(dict.fromkeys(found))
+
+
+def _ending(name: str) -> str:
+    return Path(name).suffix.lower()
