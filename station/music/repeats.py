@@ -81,6 +81,11 @@ def folded(score: Score, starts: Collection[int] = ()) -> list[Passage]:
     return [passage for first, last in pairwise(ends) for passage in _best(bars, first, last)]
 
 
+def written_forms(score: Score) -> list[tuple[int, str]]:
+    """What is written in each bar, as numbers with the loudness that is new there: bars with one form look alike."""
+    return [(form.lasting, form.new[2]) for form in _bar_forms(score)]
+
+
 # --- which bars are alike ---------------------------------------------------------------------------------------------
 
 
@@ -172,11 +177,12 @@ class _Loudness:
 def _comes_again(bars: Sequence[_BarForm], first: int, again: int, length: int) -> bool:
     """Whether the bars from `again` on are those from `first` on: a repeat sign leads back from the one to the other.
 
-    What holds anyway may stand at the beginning on paper and be left out when it is played again, never the reverse.
+    What holds anyway may stand at the beginning on paper and be left out when it is played again, never the reverse; a
+    meter may always be told again.
     """
     if any(bars[first + k].lasting != bars[again + k].lasting for k in range(length)):
         return False
-    back = all(b in ("", a) for a, b in zip(bars[first].new, bars[again].new, strict=True))
+    back = all(b in ("", a) for a, b in zip(bars[first].new[1:], bars[again].new[1:], strict=True))
     return back and all(bars[first + k].new == bars[again + k].new for k in range(1, length))
 
 
