@@ -6,7 +6,7 @@ Between columns are springs: at ease each is as long as its time asks (Gould, "B
 duration, yet more slowly; here by so much each time it doubles), and none is shorter than its neighbours allow.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -51,7 +51,7 @@ class BarColumns:
     @property
     def narrowest(self) -> float:
         """The least width of the bar."""
-        return self.inset + float(np.maximum(self.least, 0.0).sum())
+        return self.inset + float(self.least.sum())
 
     def width(self, stretch: float) -> float:
         """The bar's width where its springs are `stretch` times as long as at ease."""
@@ -123,19 +123,17 @@ def _packed(left: Floats, right: Floats, before: float) -> tuple[float, Floats]:
     return inset, np.array(least)
 
 
-def stretch_to(bars: list[BarColumns], width: float) -> float:
+def stretch_to(bars: Sequence[BarColumns], width: float) -> float:
     """How far the springs of a line's bars are drawn out so that the bars together are `width` wide.
 
     Where they cannot be so narrow, 0.
     """
+    least, ease = (np.concatenate(springs) for springs in zip(*((b.least, b.ease) for b in bars), strict=True))
+    left = width - sum(bar.inset for bar in bars)
     low, high = 0.0, 1.0
-    while _width(bars, high) < width:
+    while np.maximum(least, high * ease).sum() < left:
         high *= 2
     for _ in range(_STRETCH_STEPS):
         middle = (low + high) / 2
-        low, high = (middle, high) if _width(bars, middle) < width else (low, middle)
+        low, high = (middle, high) if np.maximum(least, middle * ease).sum() < left else (low, middle)
     return high
-
-
-def _width(bars: list[BarColumns], stretch: float) -> float:
-    return sum(bar.width(stretch) for bar in bars)

@@ -7,6 +7,7 @@ Proportions follow Gould, "Behind Bars" (2011): stems 3½ spaces, beams half a s
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +73,7 @@ class Engraver:
         self._limbs = score.notes["limb"] if limbs is None else limbs
         self.loudness_y = LOUDNESS_Y if np.isin(self._limbs, list(LETTERS)).any() else STICKING_Y
         self._closing = closing_hats(score)
-        self.signs = BarSigns(score, numbers or BarNumbers(), beat_ticks)
+        self._numbers, self._beat_ticks = numbers or BarNumbers(), beat_ticks
         feet = [int(p) for p in FOOT_PIECES]
         self._is_foot = np.isin(score.notes["piece"], feet)
         self.written = score.notes["tick"] - score.notes["swing_ticks"]
@@ -84,6 +85,11 @@ class Engraver:
         `opens_line`: it is the first of its line on paper, where ties from the line before begin anew.
         """
         return _BarEngraver(self, bar, with_line, opens_line).shapes()
+
+    @cached_property
+    def signs(self) -> BarSigns:
+        """What stands at the bar lines."""
+        return BarSigns(self.score, self._numbers, self._beat_ticks)
 
     # --- what a bar asks ------------------------------------------------------------------------------------------
 

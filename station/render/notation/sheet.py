@@ -27,6 +27,8 @@ SPACES = tuple(mm / 25.4 * 72 for mm in (2.5, 2.0, 1.75))
 """Staff spaces: the largest for a loop of few lines, which is read from further off; a staff of 8 mm where all is on
 one page (both our choice); else of 7 mm, in which parts are printed (Gould, "Behind Bars", 2011: 6.5 to 7.5 mm)."""
 _FEW_LINES = 2
+_LEAST_LINE = 8.0
+"""No line of a sheet is less high, in staff spaces: a staff, a stem above it and letters below."""
 MARGIN = 15 / 25.4 * 72
 """What printers leave free, and a thumb."""
 PAPERS = {"a4": (595.28, 841.89), "letter": (612.0, 792.0)}
@@ -69,81 +71,75 @@ class _Page:
 
 def sheet(score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool = True) -> list[Ink]:
     """The pages of `score`, as notation writes it (`Score.as_written`), each of `size` (width, height) points."""
-    written = score.as_written
-    for space in SPACES:
-        setting = _SheetPages(written, words, size, space, with_sticking)
-        if space == SPACES[0] and setting.line_count > _FEW_LINES:
-            continue
-        pages = setting.pages()
-        if len(pages) == 1:
-            break
-    return pages
+    pages = _SheetPages(score.as_written, words, size, with_sticking)
+    for space in SPACES[:-1]:
+        if pages.may_be_one(space) and len(found := pages.pages(space)) == 1:
+            return found
+    return pages.pages(SPACES[-1])
 
 
 class _SheetPages:
-    """The work of one sheet."""
+    """The work of one sheet; `space` is a staff space in points throughout."""
 
-    def __init__(
-        self, score: Score, words: SheetWords, size: tuple[float, float], space: float, with_sticking: bool
-    ) -> None:
-        self._score, self._words, self._size, self._space = score, words, size, space
-        self._with_sticking = with_sticking
+    def __init__(self, score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool) -> None:
+        self._score, self._words, self._size, self._with_sticking = score, words, size, with_sticking
         self._atlas = OutlineAtlas()
         limbs = score.notes["limb"]
         shown = limbs if with_sticking else np.full_like(limbs, Limb.UNKNOWN)
         bars = sheet_bars(score, [bar for bar, _ in words.sections], words.repeat, words.first_bar)
-        engraver = Engraver(score, self._atlas, shown)
-        self._setter = LineSetter(engraver, bars, _line_words(score, words), self._atlas, (MARGIN, space))
+        self._setter = LineSetter(Engraver(score, self._atlas, shown), bars, _line_words(score, words), self._atlas)
         self._bars = self._setter.set_bars()
-        self._lines = lines(self._bars, self._width / self._space)
 
     @property
     def _width(self) -> float:
         return self._size[0] - 2 * MARGIN
 
-    @property
-    def line_count(self) -> int:
-        """How many lines there are."""
-        return len(self._lines)
+    def may_be_one(self, space: float) -> bool:
+        """Whether all may be on one page, and on few lines where they are of the largest size."""
+        count = len(lines(self._bars, self._width / space))
+        return count * _LEAST_LINE * space < self._size[1] and (space < SPACES[0] or count <= _FEW_LINES)
 
-    def pages(self) -> list[Ink]:
+    def pages(self, space: float) -> list[Ink]:
         """Lay out everything."""
-        pages = self._filled([self._setter.line(boxes, self._bars) for boxes in self._lines])
+        found = [
+            self._setter.line(boxes, self._bars, MARGIN, space) for boxes in lines(self._bars, self._width / space)
+        ]
+        pages = self._filled(found, space)
         self._heads(pages)
         for page in pages:
             page.ink += [line.ink.moved(y) for y, line in page.lines]
-        pages[-1].ink.append(self._key())
+        pages[-1].ink.append(self._key(space))
         return [Ink.joined(page.ink) for page in pages]
 
     # --- lines on pages -----------------------------------------------------------------------------------------------
 
-    def _filled(self, found: Sequence[LineInk]) -> list[_Page]:
+    def _filled(self, found: Sequence[LineInk], space: float) -> list[_Page]:
         """The lines from the top of the first page down, on as many pages as they need with the key below the last."""
         pages, bottom = [_Page(MARGIN + self._head_height())], self._size[1] - MARGIN
-        gap = _BETWEEN * self._space
+        gap = _BETWEEN * space
         for k, line in enumerate(found):
-            key = KEY_HEIGHT * self._space if k == len(found) - 1 else 0.0
+            key = KEY_HEIGHT * space if k == len(found) - 1 else 0.0
             if pages[-1].y + line.bottom - line.top + key > bottom:
-                self._spread(pages[-1])
+                self._spread(pages[-1], space)
                 pages.append(_Page(MARGIN + _RUNNING_HEAD))
             page = pages[-1]
             page.lines.append((page.y - line.top, line))
             page.y += line.bottom - line.top + gap
         return pages
 
-    def _spread(self, page: _Page) -> None:
+    def _spread(self, page: _Page, space: float) -> None:
         """Share out over a full page what is left of it."""
         if len(page.lines) < 2:
             return
-        left = self._size[1] - MARGIN - (page.y - _BETWEEN * self._space)
-        more = min(left / (len(page.lines) - 1), (_MOST_BETWEEN - _BETWEEN) * self._space)
+        left = self._size[1] - MARGIN - (page.y - _BETWEEN * space)
+        more = min(left / (len(page.lines) - 1), (_MOST_BETWEEN - _BETWEEN) * space)
         page.lines = [(y + k * more, line) for k, (y, line) in enumerate(page.lines)]
 
-    def _key(self) -> Ink:
+    def _key(self, space: float) -> Ink:
         draw_list = DrawList(self._atlas)
-        draw_key(draw_list, self._score, self._width / self._space, self._with_sticking)
-        top = self._size[1] - MARGIN - KEY_HEIGHT * self._space
-        return filled(draw_list.shapes(), self._atlas, PaperSpot((MARGIN, top), self._space))
+        draw_key(draw_list, self._score, self._width / space, self._with_sticking)
+        top = self._size[1] - MARGIN - KEY_HEIGHT * space
+        return filled(draw_list.shapes(), self._atlas, PaperSpot((MARGIN, top), space))
 
     # --- heads and feet -----------------------------------------------------------------------------------------------
 

@@ -20,7 +20,7 @@ from station.render.notation.sheet_bars import SheetBar
 from station.render.notation.sheet_words import LineWord, draw_number, draw_times, draw_voltas, draw_words
 from station.render.notation.skyline import Skyline
 from station.render.text.draw_list import DrawList
-from station.render.text.paper import Ink, OutlineAtlas, PaperSpot, filled
+from station.render.text.paper import Ink, OutlineAtlas, PaperSpot, filled, placed
 
 Floats = NDArray[np.float64]
 
@@ -42,8 +42,7 @@ class LineInk:
 class LineSetter:
     """Sets the lines of a sheet whose `bars` are those of the score that `engraver` has, as notation writes it.
 
-    `words` stand above the bars of the score, each with the seconds from the bar's start; `spot` is where staves begin
-    and a staff space, in points.
+    `words` stand above the bars of the score, each with the seconds from the bar's start.
     """
 
     def __init__(
@@ -52,10 +51,8 @@ class LineSetter:
         bars: Sequence[SheetBar],
         words: Mapping[int, Sequence[tuple[float, LineWord]]],
         atlas: OutlineAtlas,
-        spot: tuple[float, float],
     ) -> None:
         self._engraver, self._bars, self._words, self._atlas = engraver, bars, words, atlas
-        self._left, self._space = spot
         self._score: Score = engraver.score
         self._letters = DrawList(atlas)
         self._forms = written_forms(self._score)
@@ -110,8 +107,8 @@ class LineSetter:
 
     # --- drawing ------------------------------------------------------------------------------------------------------
 
-    def line(self, boxes: Sequence[BarBox], set_bars: Sequence[SetBar]) -> LineInk:
-        """The line that `boxes` share."""
+    def line(self, boxes: Sequence[BarBox], set_bars: Sequence[SetBar], left: float, space: float) -> LineInk:
+        """The line that `boxes` share, its staff beginning at `left`, with staff spaces of `space` points."""
         first, after = boxes[0].index, boxes[-1].index + 1
         lead = set_bars[first].lead
         courtesy = self._bars[after].meter if after < len(self._bars) else None
@@ -125,19 +122,16 @@ class LineSetter:
         if courtesy:
             note_shapes.time_signature(staff, courtesy, end + note_shapes.SIGNATURE_GAP)
         self._bar_lines(staff, boxes, lead)
-        bars = [self._bar(box, lead, skyline, opens_line=box is boxes[0]) for box in boxes]
+        bars = [self._bar(box, lead, opens_line=box is boxes[0]) for box in boxes]
+        for shapes in bars:
+            skyline.add_shapes(shapes)
         self._above(staff, skyline, boxes, lead)
-        origin = (self._left, 0.0)
-        ink = Ink.joined([filled(staff.shapes(), self._atlas, PaperSpot(origin, self._space)), *bars])
-        return LineInk(ink, skyline.top * self._space, skyline.bottom * self._space)
+        shapes = np.concatenate([staff.shapes(), *bars])
+        ink = filled(shapes, self._atlas, PaperSpot((left, 0.0), space))
+        return LineInk(ink, skyline.top * space, skyline.bottom * space)
 
-    def _bar(self, box: BarBox, lead: float, skyline: Skyline, opens_line: bool) -> Ink:
-        bar = self._bars[box.index]
-        shapes, place = self._shapes(bar.bar, opens_line), self._ruler(box, lead)
-        begin_s, span_s = shapes["time_s"].astype(np.float64).T
-        starts = place(begin_s)
-        skyline.add_shapes(shapes, starts, place(begin_s + span_s) - starts)
-        return filled(shapes, self._atlas, PaperSpot((self._left, 0.0), self._space, place))
+    def _bar(self, box: BarBox, lead: float, opens_line: bool) -> NDArray[np.void]:
+        return placed(self._shapes(self._bars[box.index].bar, opens_line), self._ruler(box, lead))
 
     def _ruler(self, box: BarBox, lead: float) -> "Ruler":
         bar = self._bars[box.index]

@@ -40,14 +40,14 @@ class Skyline:
         self._top[steps] = np.minimum(self._top[steps], top)
         self._bottom[steps] = np.maximum(self._bottom[steps], bottom)
 
-    def add_shapes(self, shapes: NDArray[np.void], starts: Floats, more: Floats) -> None:
-        """Engraved shapes (n,): their times stand at `starts` (n,), and their spans are `more` (n,) long."""
+    def add_shapes(self, shapes: NDArray[np.void]) -> None:
+        """Shapes (n,) of `draw_list.SHAPE_DTYPE` in their places."""
         axis, half, edge = np.abs(shapes["axis"]), shapes["half"], shapes["style"][:, 1] / 2
         x, y = shapes["centre"].T
         across = axis[:, 0] * half[:, 0] + axis[:, 1] * half[:, 1] + edge
         upright = axis[:, 1] * half[:, 0] + axis[:, 0] * half[:, 1] + edge
-        first = np.clip(np.floor((starts + x - across) / _STEP), 0, len(self._top) - 1).astype(int)
-        after = np.clip(np.ceil((starts + x + across + more) / _STEP), first + 1, len(self._top)).astype(int)
+        first = np.clip(np.floor((x - across) / _STEP), 0, len(self._top) - 1).astype(int)
+        after = np.clip(np.ceil((x + across) / _STEP), first + 1, len(self._top)).astype(int)
         counts = after - first
         row = np.repeat(np.arange(len(shapes)), counts)
         step = first[row] + np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)

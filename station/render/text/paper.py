@@ -136,13 +136,23 @@ class PaperSpot:
     ruler: Callable[[Floats], Floats] = np.zeros_like
 
 
-def filled(shapes: NDArray[np.void], atlas: OutlineAtlas, spot: PaperSpot) -> Ink:
-    """The areas of `shapes`, in order."""
+def placed(shapes: NDArray[np.void], ruler: Callable[[Floats], Floats]) -> NDArray[np.void]:
+    """The shapes where a ruler puts their times, as wide as it makes them; time moves them no more."""
     begin_s, span_s = shapes["time_s"].astype(np.float64).T
-    more = (spot.ruler(begin_s + span_s) - spot.ruler(begin_s)) / 2 * (span_s != 0)
+    starts, more = ruler(begin_s), np.zeros(len(shapes))
+    wide = span_s != 0
+    more[wide] = (ruler(begin_s[wide] + span_s[wide]) - starts[wide]) / 2
+    found = shapes.copy()
+    found["centre"][:, 0] += starts + more
+    found["half"][:, 0] += more
+    found["time_s"] = 0.0
+    return found
+
+
+def filled(shapes: NDArray[np.void], atlas: OutlineAtlas, spot: PaperSpot) -> Ink:
+    """The areas of `shapes`, in order, their times where the spot's ruler puts them."""
+    shapes = placed(shapes, spot.ruler) if shapes["time_s"].any() else shapes
     centre, half, axis = (shapes[name].astype(np.float64) for name in ("centre", "half", "axis"))
-    half[:, 0] += more
-    centre[:, 0] += spot.ruler(begin_s) + more
     numbers, scale = _outlines(shapes, half, atlas)
     cosine, sine = axis.T
     across, upright = scale.T * spot.unit
