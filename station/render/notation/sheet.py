@@ -86,7 +86,7 @@ class _SheetPages:
         self._atlas = OutlineAtlas()
         limbs = score.notes["limb"]
         shown = limbs if with_sticking else np.full_like(limbs, Limb.UNKNOWN)
-        bars = sheet_bars(score, [bar for bar, _ in words.sections], words.repeat, words.first_bar)
+        bars = sheet_bars(score, dict(words.sections), words.repeat, words.first_bar)
         self._setter = LineSetter(Engraver(score, self._atlas, shown), bars, _line_words(score, words), self._atlas)
         self._bars = self._setter.set_bars()
 
