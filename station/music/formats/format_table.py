@@ -5,12 +5,13 @@ from pathlib import Path
 from station.core.errors import BadInput
 from station.core.files import read_regular
 from station.music.drum_part import DrumPart
+from station.music.formats.ascii_tab.tab_writer import ASCII_TAB
 from station.music.formats.dtx.dtx_writer import DTX
 from station.music.formats.music_format import MusicFormat
 from station.music.formats.smf.midi_part import MIDI
 from station.music.formats.text_score import TEXT_SCORE
 
-FORMATS: tuple[MusicFormat, ...] = (MIDI, DTX, TEXT_SCORE)
+FORMATS: tuple[MusicFormat, ...] = (MIDI, DTX, ASCII_TAB, TEXT_SCORE)
 """Of several with the same ending, the choosy ones first."""
 
 
