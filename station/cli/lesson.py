@@ -61,9 +61,10 @@ class ImportOptions:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ExportOptions(LessonOptions):
-    """Where a lesson is written."""
+class ExportOptions:
+    """What is written, and where."""
 
+    score: str = argument("SCORE", "a lesson, a music file or a take (.capture)", str)
     out: Path = required("FILE", "the file to write", Path)
 
 
@@ -153,12 +154,9 @@ def _import(options: ImportOptions) -> int:
 
 
 def _export(options: ExportOptions) -> int:
-    from station.cli.input.find_own_lesson import find_any_lesson
-    from station.drills.writing.lesson_part import part_of
-
     known = writer_for(options.out)
     assert known.write is not None, "writer_for finds those that write"
-    written = known.write(part_of(find_any_lesson(options.lesson)))
+    written = known.write(load_part(options.score))
     write_whole(options.out, written.data)
     for loss in written.lost:
         say(f"lost     {loss.text}")
@@ -182,6 +180,6 @@ COMMAND = Verbs(
         ("new", "a lesson to start from, or a drill of a family", Command(NewOptions, _new)),
         ("schema", "print the JSON Schema of lessons, for editors", Command(NoOptions, _schema)),
         ("import", "write a lesson from a music file or a take", Command(ImportOptions, _import)),
-        ("export", "write a lesson as a music file", Command(ExportOptions, _export)),
+        ("export", "write a lesson, a take or another music file as a music file", Command(ExportOptions, _export)),
     )
 )
