@@ -20,7 +20,7 @@ edit.
 station lesson import song.mid --out song.toml                   # by ending and content
 station lesson import "https://…/groove/?TimeSig=4/4&…" --out groove.toml
 station lesson export funk-1 --out funk-1.musicxml               # the ending says the format
-station practice song.gp5 --headless --virtual-student pro        # any of them is a SCORE
+station sheet song.gp5 --out song.pdf                            # any of them is a SCORE: sheet, animate, limbs, assess
 ```
 
 Whatever a file says that a lesson has no place for is told on import, a line each (`lost …`), and so is on export what
