@@ -61,10 +61,10 @@ def parse_tabs(data: bytes, source: str) -> ParsedTabs:
     parser = _guarded(base)(stream, _ENCODING, version, version_tuple)
     try:
         song = parser.readSong()
-    except BadInput as fault:
-        raise BadInput(source, parser.place, fault.fault) from fault
     except Exception as fault:  # whatever a library raises of strange bytes
-        raise BadInput(source, parser.place, f"not as Guitar Pro writes it: {fault or type(fault).__name__}") from fault
+        bound = next((e for e in (fault, fault.__cause__) if isinstance(e, BadInput)), None)
+        text = bound.fault if bound else f"not as Guitar Pro writes it: {fault or type(fault).__name__}"
+        raise BadInput(source, parser.place, text) from fault
     return ParsedTabs(song, parser.signs, parser.jumps, parser.tempos)
 
 
