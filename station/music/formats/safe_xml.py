@@ -7,6 +7,7 @@ single-byte ones, as the declaration or the byte order mark says.
 """
 
 from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from typing import Any
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers import expat
@@ -53,10 +54,8 @@ def root_name(data: bytes) -> str:
         raise _Found
 
     parser = _parser(begin, _refuse)
-    try:
+    with suppress(_Found, BadInput, expat.ExpatError, ValueError, LookupError):
         parser.Parse(data[:MOST_XML_BYTES], False)
-    except (_Found, BadInput, expat.ExpatError, ValueError, LookupError):
-        pass
     return found[0] if found else ""
 
 
@@ -118,14 +117,19 @@ def _parser(begin: Callable[[str, Any], None], refuse: Callable[[str], None]) ->
     parser.StartElementHandler = begin
     parser.SetParamEntityParsing(expat.XML_PARAM_ENTITY_PARSING_NEVER)
 
-    def doctype(_name: str, _system: str | None, _public: str | None, has_rules: bool) -> None:
+    def doctype(_name: str, _system: str | None, _public: str | None, has_rules: object) -> int:
         if has_rules:
             refuse("a document type with rules of its own, which music needs none of")
+        return 0
+
+    def external(*_: object) -> int:
+        refuse("refers to another file")
+        return 0
 
     parser.StartDoctypeDeclHandler = doctype
     parser.EntityDeclHandler = lambda *_: refuse("declares an entity, which music needs none of")
     parser.SkippedEntityHandler = lambda name, _: refuse(f"the entity &{name[:40]}; is not XML's own")
-    parser.ExternalEntityRefHandler = lambda *_: refuse("refers to another file")
+    parser.ExternalEntityRefHandler = external
     return parser
 
 
