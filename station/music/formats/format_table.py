@@ -7,11 +7,21 @@ from station.core.files import read_regular
 from station.music.drum_part import DrumPart
 from station.music.formats.ascii_tab.tab_writer import ASCII_TAB
 from station.music.formats.dtx.dtx_writer import DTX
+from station.music.formats.clone_hero.clone_hero_format import CHART, NOTES_MIDI
+from station.music.formats.guitar_pro.guitar_pro_format import OLD_GUITAR_PRO
 from station.music.formats.music_format import MusicFormat
 from station.music.formats.smf.midi_part import MIDI
 from station.music.formats.text_score import TEXT_SCORE
 
-FORMATS: tuple[MusicFormat, ...] = (MIDI, DTX, ASCII_TAB, TEXT_SCORE)
+FORMATS: tuple[MusicFormat, ...] = (
+    NOTES_MIDI,
+    MIDI,
+    CHART,
+    OLD_GUITAR_PRO,
+    DTX,
+    ASCII_TAB,
+    TEXT_SCORE,
+)
 """Of several with the same ending, the choosy ones first."""
 
 
