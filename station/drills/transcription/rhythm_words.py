@@ -171,7 +171,7 @@ def _cut(kind: _Kind, division: Division) -> _Option:
     word = (division.cells << _CELL_BITS) + (inner << np.arange(1, division.cells)).sum(axis=1)
     error = strokes.sums(strokes.error_cost(division.places[cell])) + collision_cost(strokes, cell)
     cut = np.full(len(kind.spans), division.cost)
-    return _Option(error[kind.spans], cut, inner @ division.costs[1:-1], word, division.places[cell])
+    return _Option(error[kind.spans] + division.fine, cut, inner @ division.costs[1:-1], word, division.places[cell])
 
 
 def _commonest(said: Ints, most: int) -> list[int]:
@@ -194,7 +194,7 @@ def _spoken(kind: _Kind, word: int) -> _Option:
     silent = (~struck[kind.spans, 1:-1]).sum(axis=1) * SILENT_CELL
     error = strokes.sums(strokes.error_cost(places[cell])) + collision_cost(strokes, cell)
     cut, struck_cells, words = (np.full(len(kind.spans), x) for x in (division.cost, division.costs[inner].sum(), word))
-    return _Option(error[kind.spans] + silent, cut, struck_cells, words, places[cell])
+    return _Option(error[kind.spans] + silent + division.fine, cut, struck_cells, words, places[cell])
 
 
 # --- what the piece has said ------------------------------------------------------------------------------------------
