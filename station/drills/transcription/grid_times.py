@@ -9,7 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import PPQ
-from station.drills.quantise_time import at_bar_starts, on_cells
+from station.drills.quantise_time import at_bar_starts
+from station.drills.transcription.beat_spans import spans_of
+from station.drills.transcription.rhythm_words import MAX_WORDS, cells_of
+from station.drills.transcription.take_feel import feel_of, take_of
+from station.drills.transcription.triplet_swing import triplet_swing
 from station.music.score import Score
 from station.music.swing import Swing
 
@@ -51,7 +55,34 @@ def quantised_times(score: Score, is_played: bool) -> GridTimes:
     no meter can name.
     """
     tempo_map = at_bar_starts(score)
-    moved = on_cells(list(score), tempo_map, score.end_tick)
-    found = Score.from_notes(moved, tempo_map, score.end_tick, score.title)
-    order = np.lexsort(([n.piece for n in moved], [-n.lead_ms for n in moved], [n.tick for n in moved]))
-    return GridTimes(found, order.astype(np.int64), Swing(), PPQ, ())
+    spans = spans_of(tempo_map, score.end_tick)
+    rows = score.notes[np.argsort(score.notes["tick"], kind="stable")]
+    take = take_of(tempo_map.ns_at(rows["tick"]), rows["piece"], spans)
+    is_main = rows["lead_ms"] == 0
+    mains = take_of(tempo_map.ns_at(rows["tick"][is_main]), rows["piece"][is_main], spans)
+    feel = feel_of(mains)
+    reading = mains.read(feel, MAX_WORDS)
+    swing = feel.swing
+    span, _ = spans.places(mains.times_s - feel.lean_s)
+    if swing.ratio in (1.0, 2.0):
+        swing = triplet_swing(spans, span, reading.place, mains.piece)
+    ticks = spans.starts[span] + np.rint(reading.place * spans.lengths[span]).astype(np.int64)
+    new = rows.copy()
+    new["tick"][is_main] = ticks
+    cell = cells_of(spans, span, reading, feel.swing)
+    straight = spans.starts[span] + np.rint(cell * spans.lengths[span] / reading.cells[span]).astype(np.int64)
+    if feel.swing.stands_in_words:
+        new["swing_ticks"][is_main] = ticks - straight
+    follow_mains(rows, new)
+    end = score.end_tick
+    if len(ticks) and ticks.max() >= end:
+        end = tempo_map.bar_start(int(tempo_map.bars_at(ticks.max()))+1)
+    found = Score.from_array(new, tempo_map, end, score.title)
+    return GridTimes(found, np.arange(len(rows)), swing, PPQ, tuple(BeatCells(int(a),int(b),int(c)) for a,b,c in zip(spans.starts,spans.lengths,reading.cells)), feel.lean_s*1e3, feel.spread_s*1e3)
+
+def follow_mains(rows, new):
+    m = {(int(r["tick"]), int(r["piece"])): n for r, n in zip(rows, new) if r["lead_ms"] == 0}
+    for r, n in zip(rows, new):
+        if r["lead_ms"] > 0 and (int(r["tick"]), int(r["piece"])) in m:
+            q = m[int(r["tick"]), int(r["piece"])]
+            n["tick"], n["swing_ticks"] = q["tick"], q["swing_ticks"]
