@@ -76,9 +76,18 @@ def quantised_times(score: Score, is_played: bool) -> GridTimes:
     follow_mains(rows, new)
     end = score.end_tick
     if len(ticks) and ticks.max() >= end:
-        end = tempo_map.bar_start(int(tempo_map.bars_at(ticks.max()))+1)
+        end = tempo_map.bar_start(int(tempo_map.bars_at(ticks.max())) + 1)
     found = Score.from_array(new, tempo_map, end, score.title)
-    return GridTimes(found, np.arange(len(rows)), swing, PPQ, tuple(BeatCells(int(a),int(b),int(c)) for a,b,c in zip(spans.starts,spans.lengths,reading.cells)), feel.lean_s*1e3, feel.spread_s*1e3)
+    return GridTimes(
+        found,
+        np.arange(len(rows)),
+        swing,
+        PPQ,
+        tuple(BeatCells(int(a), int(b), int(c)) for a, b, c in zip(spans.starts, spans.lengths, reading.cells)),
+        feel.lean_s * 1e3,
+        feel.spread_s * 1e3,
+    )
+
 
 def follow_mains(rows, new):
     m = {(int(r["tick"]), int(r["piece"])): n for r, n in zip(rows, new) if r["lead_ms"] == 0}
