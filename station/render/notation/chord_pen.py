@@ -13,7 +13,7 @@ from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
 from station.music.score import Score
 from station.render.notation.beams import BEAM_STEP, FLAG_STEP, STEM, STEM_X, Anchor, StaffVoice
 from station.render.notation.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
-from station.render.notation.rhythm import TimedValue, Value
+from station.render.notation.note_values import TimedValue, Value
 from station.render.notation.staff import PLACES, head_of, height, ledger_steps
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import TypeStyle

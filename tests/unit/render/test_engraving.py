@@ -94,7 +94,7 @@ def test_a_rock_bar() -> None:
     shapes = Engraver(rock(), ATLAS).bar(0)
     assert len(of_kind(shapes, ShapeKind.CROSS)) == 8
     assert len(of_kind(shapes, ShapeKind.ELLIPSE)) == 4, "two snares and two kicks, no dots"
-    assert beams(shapes) == pytest.approx([0.25] * 4), "each beat's two eighths, a quarter of a second apart"
+    assert beams(shapes) == pytest.approx([0.75] * 2), "each half bar's four eighths, a quarter of a second apart"
     assert letters(shapes, "R") == 8
     assert letters(shapes, "L") == 2
 
