@@ -11,7 +11,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Dynamic
 from station.core.units import PPQ
 from station.music.score import Score
 from station.music.tempo_words import TempoWord, tempo_words
@@ -24,11 +23,21 @@ from station.render.notation.beams import (
     draw_tuplet,
 )
 from station.render.notation.beat_note import draw_beat_note
-from station.render.notation.chord_pen import LETTERS, OPEN_FROM, STICKING_Y, Chord, ChordPen, closing_hats
+from station.render.notation.chord_pen import Chord, ChordPen
 from station.render.notation.held_rolls import draw_tie, held_until, long_groups, spelled, tie_way
-from station.render.notation.loudness_row import LOUDNESS_Y, ROW_BOTTOM, draw_loudness
-from station.render.notation.rhythm import BeatGroup, beat_groups
+from station.render.notation.loudness_row import draw_loudness
+from station.render.notation.rests import draw_rest
+from station.render.notation.rhythm import BeatGroup, Value, beat_groups
 from station.render.notation.staff import FOOT_PIECES, height
+from station.render.notation.staff_rows import (
+    DOWN_BEAM_Y,
+    OVER_HEADS,
+    UNDER_HEADS,
+    UP_BEAM_Y,
+    closing_hats,
+    shown_limbs,
+    staff_rows,
+)
 from station.render.notation.swing_words import swing_words
 from station.render.palette import BRAND, INK_SOFT
 from station.render.snapshot import BarNumbers
@@ -37,31 +46,18 @@ from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 
 STAFF_TOP, STAFF_BOTTOM = -2.0, 2.0
-BAR_NUMBER_Y = -7.4
 _NUMBER_X = 0.35
 """A bar's number begins so far left of its line: clear of what stands over the first beat."""
-TOP_Y, BOTTOM_Y = -8.3, 7.5
-"""What a staff takes with everything above and below it, but for how loud it is."""
 
-_WORDS_Y = BAR_NUMBER_Y + 0.3
 _WORD, _WORD_GAP = TypeStyle(1.5, BRAND, Face.BOLD), 0.9
 """Meters and tempi stand above the staff beside the bar's number, so far apart: time leaves no room between notes."""
 _RAMPS = {1: "accel. to", -1: "rit. to"}
 
-_UP_BEAM_Y, _DOWN_BEAM_Y = -5.4, 4.35
-"""Stems of a voice reach at least here, so that beams stand level along the line."""
-_TUPLET_OFF = {-1: 1.0, 1: 0.75}
-"""How far a tuplet's number stands from the stems' ends: below there are the sticking's letters."""
-_TUPLET_FAR = 2.0
-"""And where an accent stands between: no farther, for there the staff's room ends (`TOP_Y`)."""
+_TUPLET_OFF = {-1: 0.4, 1: 1.4}
+"""How far a tuplet's number has its baseline from what its chords reach to."""
 _INCOMING, _OVER_LINE = 1.7, 0.9
 """A tie from the line before begins so far left of its head, one over a bar line on paper ends so far right of it."""
 _HANDS, _FEET = StaffVoice(-1, 0.0), StaffVoice(1, 2.5)
-
-
-def bottom_of(score: Score) -> float:
-    """How far down the staff of `score` reaches with all that stands below it."""
-    return ROW_BOTTOM if score.loudness else BOTTOM_Y
 
 
 class Engraver:
@@ -84,8 +80,8 @@ class Engraver:
         self.numbers = numbers or BarNumbers()
         self.beat_ticks = beat_ticks
         self._atlas = atlas
-        self._limbs = score.notes["limb"] if limbs is None else limbs
-        self.loudness_y = LOUDNESS_Y if np.isin(self._limbs, list(LETTERS)).any() else STICKING_Y
+        self._limbs = shown_limbs(score, score.notes["limb"] if limbs is None else limbs)
+        self.rows_y = staff_rows(score, self._limbs)
         self._closing = closing_hats(score)
         self._tempo_words = tempo_words(score.tempo_map)
         self._new_meters = {meter.tick for meter in score.tempo_map.meters if meter_words and meter.tick > 0}
@@ -129,7 +125,7 @@ class Engraver:
 
     def pen(self, anchor: Anchor) -> ChordPen:
         """What draws the score's chords at `anchor`."""
-        return ChordPen(self.score, self._limbs, self._closing, anchor)
+        return ChordPen(self.score, self._limbs, self._closing, anchor, self.rows_y)
 
     def tempo_words(self, start: int, end: int) -> list[TempoWord]:
         """What is written of the tempo in [start, end) ticks."""
@@ -173,7 +169,7 @@ class _BarEngraver:
             self._voice(hands, _HANDS, beside=bool(feet))
             if feet:
                 self._voice(feet, _FEET, beside=True)
-        draw_loudness(self._anchor, self._e.score, (self._start, self._end), self._e.loudness_y)
+        draw_loudness(self._anchor, self._e.score, (self._start, self._end), self._e.rows_y.loudness)
         return self._draw_list.shapes()
 
     # --- bars ---------------------------------------------------------------------------------------------------------
@@ -186,26 +182,28 @@ class _BarEngraver:
         if self._start >= self._e.score.end_tick:
             return
         number = str(self._e.numbers.of(self._bar))
-        x += _NUMBER_X + self._draw_list.text(number, (x - _NUMBER_X, _WORDS_Y), TypeStyle(1.25, INK_SOFT, Face.BOLD))
+        words_y = self._e.rows_y.words
+        x += _NUMBER_X + self._draw_list.text(number, (x - _NUMBER_X, words_y), TypeStyle(1.25, INK_SOFT, Face.BOLD))
         for word in filter(None, (self._e.meter_word(self._start), self._e.swing_word(self._bar))):
-            x += _WORD_GAP + self._draw_list.text(word, (x, _WORDS_Y), _WORD)
+            x += _WORD_GAP + self._draw_list.text(word, (x, words_y), _WORD)
         self._tempo_words(x)
 
     def _tempo_words(self, x: float) -> None:
         """New tempi, and where it grows faster or slower; what comes with the bar stands at `x`, beside its number."""
+        words_y = self._e.rows_y.words
         for word in self._e.tempo_words(self._start, self._end):
             self._anchor.at(word.tick)
             left = x if word.tick == self._start else -0.6
             if word.way:
-                left += _WORD_GAP / 2 + self._draw_list.text(_RAMPS[word.way], (left, _WORDS_Y), _WORD)
-            left = draw_beat_note(self._draw_list, (left, _WORDS_Y), 1.0, self._e.beat_ticks, BRAND)
+                left += _WORD_GAP / 2 + self._draw_list.text(_RAMPS[word.way], (left, words_y), _WORD)
+            left = draw_beat_note(self._draw_list, (left, words_y), 1.0, self._e.beat_ticks, BRAND)
             beats = word.tempo_bpm * PPQ / self._e.beat_ticks
-            self._draw_list.text(f"= {beats:.0f}", (left, _WORDS_Y), _WORD)
+            self._draw_list.text(f"= {beats:.0f}", (left, words_y), _WORD)
 
     def _silent_bar(self) -> None:
         if self._start < self._e.score.end_tick:
             self._anchor.at((self._start + self._end) // 2)
-            self._draw_list.box((-0.6, -1.0), (1.2, 0.5), INK_SOFT)
+            draw_rest(self._draw_list, Value(1), True, None)
 
     # --- a voice ------------------------------------------------------------------------------------------------------
 
@@ -263,11 +261,12 @@ class _BarEngraver:
     def _rests(self, group: BeatGroup, voice: StaffVoice, beside: bool) -> None:
         for rest in group.rests:
             self._anchor.at(self._start + rest.tick)
-            y = voice.rest_y - (1.0 if beside and voice is _HANDS else 0.0)
-            name = f"rest_{min(rest.value.base, 32)}"
-            self._draw_list.sign(name, (0.0, y), INK_SOFT)
-            if rest.value.dots:
-                self._draw_list.ellipse((0.95, y - 0.5), (0.2, 0.2), INK_SOFT)
+            draw_rest(
+                self._draw_list,
+                rest.value,
+                voice.is_up,
+                self._pen.heads_at(self._start + rest.tick, voice) if beside else None,
+            )
 
     def _group(self, group: BeatGroup, chords: Sequence[Chord], voice: StaffVoice) -> None:
         if not chords:
@@ -293,23 +292,16 @@ class _BarEngraver:
         """Where the stems of a group end: level, clear of every head."""
         heights = [height(self._pen.step(i)) for c in chords for i in c.mains]
         if voice is _HANDS:
-            return min(_UP_BEAM_Y, min(heights) - 1.8)
-        return max(_DOWN_BEAM_Y, max(heights) + 2.0)
+            return min(UP_BEAM_Y, min(heights) - OVER_HEADS)
+        return max(DOWN_BEAM_Y, max(heights) + UNDER_HEADS)
 
     # --- tuplets ------------------------------------------------------------------------------------------------------
 
     def _tuplet(
         self, group: BeatGroup, chords: Sequence[Chord], voice: StaffVoice, beam_y: float, beamed: bool
     ) -> None:
-        off = voice.way * (_TUPLET_FAR if self._crowded(chords) else _TUPLET_OFF[voice.way])
-        y = beam_y + off + (0.3 if voice.is_up else 0.45)
+        reaches = [self._pen.reach(c, s.value, voice, beam_y) for c, s in zip(chords, group.strokes, strict=True)]
+        y = (min(reaches) if voice.is_up else max(reaches)) + voice.way * _TUPLET_OFF[voice.way]
         start = self._start + group.start if not beamed else chords[0].tick
         end = max(chords[-1].tick, self._start + group.start + (group.end - group.start) * 2 // 3)
         draw_tuplet(self._anchor, group.tuplet, (start, end), voice, y, with_bracket=not beamed)
-
-    def _crowded(self, chords: Sequence[Chord]) -> bool:
-        """Whether signs stand where the tuplet's number would."""
-        notes = self._e.score.notes
-        return any(
-            notes["dynamic"][i] == Dynamic.ACCENT or notes["openness"][i] >= OPEN_FROM for c in chords for i in c.mains
-        )
