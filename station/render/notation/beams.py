@@ -12,9 +12,10 @@ from station.render.notation.beaming import BeamSpan
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
+from station.render.text.sign_outlines import STEM, sign_box
 
-STEM, STEM_X = 0.13, 0.56
-"""A stem's thickness, and how far from its head's middle it stands."""
+STEM_X = sign_box("head_round").right - STEM / 2
+"""How far from its head's middle a stem stands."""
 _BEAM = 0.50
 BEAM_STEP = 0.78
 FLAG_STEP = 0.85
@@ -67,9 +68,8 @@ class Anchor:
 def draw_flags(anchor: Anchor, tick: int, count: int, voice: StaffVoice, beam_y: float) -> None:
     """So many flags at the end of the stem at `tick`, which is at `beam_y`."""
     anchor.at(tick)
-    for k in range(count):
-        y = beam_y - voice.way * k * FLAG_STEP
-        anchor.draw_list.sign("flag", (voice.stem_x, y), INK, 0.95, mirrored=not voice.is_up)
+    name = f"flag_{4 << count}" if voice.is_up else f"flag_{4 << count}_down"
+    anchor.draw_list.sign(name, (voice.stem_x - STEM / 2, beam_y), INK)
 
 
 def draw_beams(

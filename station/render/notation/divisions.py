@@ -104,7 +104,7 @@ def _compound(beat: Fraction) -> Iterator[Division]:
         yield _whole(2, int(third), 2, 3)
         yield _whole(4, int(third), 4, 3)
     yield from _plain((6, 12), third / 3)
-    yield from _mixed(3, (1, 2), (3,), third)
+    yield from _mixed(3, (1, 2, 4), (3, 6), third)
     for count in _COMPOUND_TUPLETS:
         of = 3 << ((count // 3).bit_length() - 1)
         base = third * of / 3

@@ -15,9 +15,12 @@ from station.music.score import Score
 from station.music.tempo_words import TempoWord, tempo_words
 from station.render.notation.beams import FEET, HANDS, Anchor
 from station.render.notation.beat_note import draw_beat_note
-from station.render.notation.chord_pen import LETTERS, STICKING_Y, Chord, ChordPen, closing_hats
-from station.render.notation.loudness_row import LOUDNESS_Y, ROW_BOTTOM, draw_loudness
+from station.render.notation.chord_pen import Chord, ChordPen
+from station.render.notation.loudness_row import draw_loudness
+from station.render.notation.note_values import Value
+from station.render.notation.rests import draw_rest
 from station.render.notation.staff import FOOT_PIECES
+from station.render.notation.staff_rows import closing_hats, shown_limbs, staff_rows
 from station.render.notation.swing_words import swing_words
 from station.render.notation.voice_pen import BarSpan, VoicePen
 from station.render.notation.written_strokes import written_strokes
@@ -28,24 +31,12 @@ from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 
 STAFF_TOP, STAFF_BOTTOM = -2.0, 2.0
-BAR_NUMBER_Y = -7.4
 _NUMBER_X = 0.35
 """A bar's number begins so far left of its line: clear of what stands over the first beat."""
-TOP_Y, BOTTOM_Y = -8.3, 7.5
-"""What a staff takes with everything above and below it, but for how loud it is."""
 
-_WORDS_Y = BAR_NUMBER_Y + 0.3
 _WORD, _WORD_GAP = TypeStyle(1.5, BRAND, Face.BOLD), 0.9
 """Meters and tempi stand above the staff beside the bar's number, so far apart: time leaves no room between notes."""
 _RAMPS = {1: "accel. to", -1: "rit. to"}
-
-_ASIDE = 1.0
-"""So much higher stand the rests of the hands where the feet are written too."""
-
-
-def bottom_of(score: Score) -> float:
-    """How far down the staff of `score` reaches with all that stands below it."""
-    return ROW_BOTTOM if score.loudness else BOTTOM_Y
 
 
 class Engraver:
@@ -68,8 +59,8 @@ class Engraver:
         self.numbers = numbers or BarNumbers()
         self.beat_ticks = beat_ticks
         self._atlas = atlas
-        self._limbs = score.notes["limb"] if limbs is None else limbs
-        self.loudness_y = LOUDNESS_Y if np.isin(self._limbs, list(LETTERS)).any() else STICKING_Y
+        self._limbs = shown_limbs(score, score.notes["limb"] if limbs is None else limbs)
+        self.rows_y = staff_rows(score, self._limbs)
         self._closing = closing_hats(score)
         self._tempo_words = tempo_words(score.tempo_map)
         self._new_meters = {meter.tick for meter in score.tempo_map.meters if meter_words and meter.tick > 0}
@@ -108,7 +99,7 @@ class Engraver:
 
     def pen(self, anchor: Anchor) -> ChordPen:
         """What draws the score's chords at `anchor`."""
-        return ChordPen(self.score, self._limbs, self._closing, anchor)
+        return ChordPen(self.score, self._limbs, self._closing, anchor, self.rows_y)
 
     def tempo_words(self, start: int, end: int) -> list[TempoWord]:
         """What is written of the tempo in [start, end) ticks."""
@@ -148,14 +139,13 @@ class _BarEngraver:
         bar = BarSpan(self._start, self._end, meter, self._with_line, self._opens_line)
         voices = VoicePen(self._e.strokes, bar, self._anchor, self._pen)
         has_feet = not voices.is_silent(feet, FEET)
-        hands_y = HANDS.rest_y - (_ASIDE if has_feet else 0.0)
         if voices.is_silent(hands, HANDS):
-            self._bar_rest(hands_y)
+            self._bar_rest(beside=has_feet)
         else:
-            voices.draw(hands, HANDS, hands_y)
+            voices.draw(hands, HANDS, beside=has_feet)
         if has_feet:
-            voices.draw(feet, FEET, FEET.rest_y)
-        draw_loudness(self._anchor, self._e.score, (self._start, self._end), self._e.loudness_y)
+            voices.draw(feet, FEET, beside=True)
+        draw_loudness(self._anchor, self._e.score, (self._start, self._end), self._e.rows_y.loudness)
         return self._draw_list.shapes()
 
     # --- bars ---------------------------------------------------------------------------------------------------------
@@ -168,24 +158,26 @@ class _BarEngraver:
         if self._start >= self._e.score.end_tick:
             return
         number = str(self._e.numbers.of(self._bar))
-        x += _NUMBER_X + self._draw_list.text(number, (x - _NUMBER_X, _WORDS_Y), TypeStyle(1.25, INK_SOFT, Face.BOLD))
+        words_y = self._e.rows_y.words
+        x += _NUMBER_X + self._draw_list.text(number, (x - _NUMBER_X, words_y), TypeStyle(1.25, INK_SOFT, Face.BOLD))
         for word in filter(None, (self._e.meter_word(self._start), self._e.swing_word(self._bar))):
-            x += _WORD_GAP + self._draw_list.text(word, (x, _WORDS_Y), _WORD)
+            x += _WORD_GAP + self._draw_list.text(word, (x, words_y), _WORD)
         self._tempo_words(x)
 
     def _tempo_words(self, x: float) -> None:
         """New tempi, and where it grows faster or slower; what comes with the bar stands at `x`, beside its number."""
+        words_y = self._e.rows_y.words
         for word in self._e.tempo_words(self._start, self._end):
             self._anchor.at(word.tick)
             left = x if word.tick == self._start else -0.6
             if word.way:
-                left += _WORD_GAP / 2 + self._draw_list.text(_RAMPS[word.way], (left, _WORDS_Y), _WORD)
-            left = draw_beat_note(self._draw_list, (left, _WORDS_Y), 1.0, self._e.beat_ticks, BRAND)
+                left += _WORD_GAP / 2 + self._draw_list.text(_RAMPS[word.way], (left, words_y), _WORD)
+            left = draw_beat_note(self._draw_list, (left, words_y), 1.0, self._e.beat_ticks, BRAND)
             beats = word.tempo_bpm * PPQ / self._e.beat_ticks
-            self._draw_list.text(f"= {beats:.0f}", (left, _WORDS_Y), _WORD)
+            self._draw_list.text(f"= {beats:.0f}", (left, words_y), _WORD)
 
-    def _bar_rest(self, y: float) -> None:
+    def _bar_rest(self, beside: bool) -> None:
         """The rest of a bar in which the hands are silent; silent feet are left out."""
         if self._start < self._e.score.end_tick:
             self._anchor.at((self._start + self._end) // 2)
-            self._draw_list.box((-0.6, y - 1.0), (1.2, 0.5), INK_SOFT)
+            draw_rest(self._draw_list, Value(1), True, [] if beside else None)

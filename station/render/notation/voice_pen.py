@@ -19,20 +19,17 @@ from station.render.notation.beams import (
     draw_flags,
     draw_tuplet,
 )
-from station.render.notation.chord_pen import OPEN_FROM, Chord, ChordPen
+from station.render.notation.chord_pen import Chord, ChordPen
 from station.render.notation.held_rolls import draw_tie, tie_way
 from station.render.notation.note_values import BeatGroup, Stroke, TimedValue, Tuplet
+from station.render.notation.rests import draw_rest
 from station.render.notation.staff import height
+from station.render.notation.staff_rows import DOWN_BEAM_Y, OVER_HEADS, UNDER_HEADS, UP_BEAM_Y
 from station.render.notation.tremolo import draw_slashes
 from station.render.notation.written_strokes import WrittenStrokes
-from station.render.palette import INK_SOFT
 
-_UP_BEAM_Y, _DOWN_BEAM_Y = -5.4, 4.35
-"""Stems of a voice reach at least here, so that beams stand level along the line."""
-_TUPLET_OFF = {-1: 1.0, 1: 0.75}
-"""How far a tuplet's number stands from the stems' ends: below there are the sticking's letters."""
-_TUPLET_FAR = 2.0
-"""And where an accent stands between: no farther, for there the staff's room ends (`TOP_Y`)."""
+_TUPLET_OFF = {-1: 0.4, 1: 1.4}
+"""How far a tuplet's number has its baseline from what its chords reach to."""
 _INCOMING, _OVER_LINE = 1.7, 0.9
 """A tie from the line before begins so far left of its head, one over a bar line on paper ends so far right of it."""
 
@@ -56,13 +53,13 @@ class VoicePen:
         self._last: int | None = None
         """Where the voice in work has its last note."""
 
-    def draw(self, chords: Sequence[Chord], voice: StaffVoice, rest_y: float) -> None:
-        """One voice: `chords` struck in the bar, rising; its rests stand at `rest_y`."""
+    def draw(self, chords: Sequence[Chord], voice: StaffVoice, beside: bool) -> None:
+        """One voice: `chords` struck in the bar, rising; `beside`: the other voice is written too."""
         self._last = None
         mains = [*self._held_at(self._bar.start, voice), *(c for c in chords if c.mains)]
         for group in spell_bar([self._stroke(c) for c in mains], self._bar.meter, self._bar.end - self._bar.start):
             for rest in group.rests:
-                self._rest(rest, rest_y)
+                self._rest(rest, voice, beside)
             self._group(group, [self._chord(mains, value) for value in group.strokes], voice)
         if tied := self._strokes.held_into(self._bar.end, voice is FEET):
             over = 0.0 if self._bar.with_line else _OVER_LINE
@@ -113,11 +110,11 @@ class VoicePen:
 
     # --- groups ---------------------------------------------------------------------------------------------------
 
-    def _rest(self, rest: TimedValue, y: float) -> None:
-        self._anchor.at(self._bar.start + rest.tick)
-        self._anchor.draw_list.sign(f"rest_{min(rest.value.base, 32)}", (0.0, y), INK_SOFT)
-        if rest.value.dots:
-            self._anchor.draw_list.ellipse((0.95, y - 0.5), (0.2, 0.2), INK_SOFT)
+    def _rest(self, rest: TimedValue, voice: StaffVoice, beside: bool) -> None:
+        tick = self._bar.start + rest.tick
+        self._anchor.at(tick)
+        others = self._pen.heads_at(tick, voice) if beside else None
+        draw_rest(self._anchor.draw_list, rest.value, voice.is_up, others)
 
     def _group(self, group: BeatGroup, chords: Sequence[Chord], voice: StaffVoice) -> None:
         if not chords:
@@ -145,8 +142,8 @@ class VoicePen:
         """Where the stems of a group end: level, clear of every head."""
         heights = [height(self._pen.step(i)) for c in chords for i in c.mains]
         if voice.is_up:
-            return min(_UP_BEAM_Y, min(heights) - 1.8)
-        return max(_DOWN_BEAM_Y, max(heights) + 2.0)
+            return min(UP_BEAM_Y, min(heights) - OVER_HEADS)
+        return max(DOWN_BEAM_Y, max(heights) + UNDER_HEADS)
 
     # --- tuplets --------------------------------------------------------------------------------------------------
 
@@ -158,12 +155,8 @@ class VoicePen:
         start, end = min(played + rests), max(played + rests)
         is_beamed = bool(inside) and (inside[0], inside[-1]) in beam_runs(group) and len(inside) > 1
         is_alone = is_beamed and (start, end) == (played[0], played[-1])
-        off = voice.way * (_TUPLET_FAR if self._crowded([chords[k] for k in inside]) else _TUPLET_OFF[voice.way])
-        y = self._beam_y(chords, voice) + off + (0.3 if voice.is_up else 0.45)
+        beam_y = self._beam_y(chords, voice)
+        reaches = [self._pen.reach(chords[k], group.strokes[k].value, voice, beam_y) for k in inside] or [beam_y]
+        y = (min(reaches) if voice.is_up else max(reaches)) + voice.way * _TUPLET_OFF[voice.way]
         ends = (self._bar.start + start, self._bar.start + end)
         draw_tuplet(self._anchor, tuplet.number, ends, voice, y, with_bracket=not is_alone)
-
-    def _crowded(self, chords: Sequence[Chord]) -> bool:
-        """Whether signs stand where the tuplet's number would."""
-        notes, rows = self._strokes.score.notes, [i for c in chords for i in c.mains]
-        return bool((notes["dynamic"][rows] == Dynamic.ACCENT).any() or (notes["openness"][rows] >= OPEN_FROM).any())

@@ -18,7 +18,7 @@ def words(groups: list[BeatGroup]) -> str:
     found = []
     for group in groups:
         values = [
-            f"{'' if v.source >= 0 else 'r'}{'~' if v.is_tied else ''}{v.value.base}{'.' * v.value.dots}{'/' * v.slashes}"
+            "r" * (v.source < 0) + "~" * v.is_tied + str(v.value.base) + "." * v.value.dots + "/" * v.slashes
             for v in group.values
         ]
         found.append(f"[{' '.join(values)}]" + ",".join(f"{t.number}:{t.of}" for t in group.tuplets))
@@ -192,7 +192,8 @@ METERS += ["3/8", "7/16", "5/16", "6/16", "9/16", "11/8", "1/4", "15/16"]
 def test_notes_and_rests_add_up_to_the_bar(text: str, steps: int, data: st.DataObject) -> None:
     """Of every meter, whatever is struck on the steps of its beats: no gap, no overlap, no stroke lost or moved."""
     meter = meter_of(text)
-    places = {start + round(k * (end - start) / steps) for start, end in meter.pulses for k in range(steps)}
+    beats = beat_groups(meter, meter.bar_ticks)
+    places = {start + round(k * (end - start) / steps) for start, end in beats for k in range(steps)}
     ticks = sorted(data.draw(st.sets(st.sampled_from(sorted(places)), min_size=1)))
     groups = spell_bar([Stroke(tick) for tick in ticks], meter, meter.bar_ticks)
     assert gaps(groups, meter.bar_ticks) == []
