@@ -31,8 +31,10 @@ def differences(before: DrumPart, after: DrumPart, features: Collection[Feature]
     ours, theirs = _main(before.score.notes), _main(after.score.notes)
     if not {Feature.FLAMS, Feature.DRAGS} & set(features):
         theirs = _without_graces_of(before, after, theirs)
-    if len(ours) != len(theirs):
-        return [*found, f"{Feature.TIMES.value}: {len(ours)} strokes became {len(theirs)}"]
+    if len(ours) != len(theirs):  # strokes that the writer left out are told as lost times
+        return [*found, f"{Feature.TIMES.value}: {len(ours)} strokes became {len(theirs)}"] * (
+            Feature.TIMES in features
+        )
     for feature, same in _OF_STROKES.items():
         if feature in features and not (equal := same(ours, theirs)).all():
             found.append(f"{feature.value}: {_first(before, ours, theirs, ~equal)}")
