@@ -71,7 +71,8 @@ class _Page:
 
 def sheet(score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool = True) -> list[Ink]:
     """The pages of `score`, as notation writes it (`Score.as_written`), each of `size` (width, height) points."""
-    pages = _SheetPages(score.as_written, words, size, with_sticking)
+    limbs = score.notes["limb"] if with_sticking else np.full_like(score.notes["limb"], Limb.UNKNOWN)
+    pages = _SheetPages(score.with_limbs(limbs).as_written, words, size, with_sticking)
     for space in SPACES[:-1]:
         if pages.may_be_one(space) and len(found := pages.pages(space)) == 1:
             return found
@@ -84,10 +85,10 @@ class _SheetPages:
     def __init__(self, score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool) -> None:
         self._score, self._words, self._size, self._with_sticking = score, words, size, with_sticking
         self._atlas = OutlineAtlas()
-        limbs = score.notes["limb"]
-        shown = limbs if with_sticking else np.full_like(limbs, Limb.UNKNOWN)
         bars = sheet_bars(score, dict(words.sections), words.repeat, words.first_bar)
-        self._setter = LineSetter(Engraver(score, self._atlas, shown), bars, _line_words(score, words), self._atlas)
+        self._setter = LineSetter(
+            Engraver(score, self._atlas, as_written=True), bars, _line_words(score, words), self._atlas
+        )
         self._bars = self._setter.set_bars()
 
     @property
