@@ -44,20 +44,26 @@ _BETWEEN, _MOST_BETWEEN = 2.2, 5.0
 class SheetWords:
     """What stands on a sheet beside its notes.
 
-    `beats_a_minute` of beats `beat_ticks` long; `feel` such as "swing 2 : 1"; `sections` the names of parts by the bar
-    (from 0) where they begin; `repeat` the first and last bar (from 0) of what is to be repeated; `first_bar` what the
-    first bar is called.
+    `beats_a_minute` of beats `beat_ticks` long; `sections` the names of parts and `feels` such as "swing 2 : 1" by the
+    bar (from 0) where they begin; `repeat` the first and last bar (from 0) of what is to be repeated; `first_bar` what
+    the first bar is called.
     """
 
     title: str
     author: str = ""
     beats_a_minute: float | None = None
     beat_ticks: int = PPQ
-    feel: str = ""
     about: str = ""
     sections: tuple[tuple[int, str], ...] = ()
+    feels: tuple[tuple[int, str], ...] = ()
     repeat: tuple[int, int] | None = None
     first_bar: int = 1
+
+    @property
+    def names(self) -> dict[int, str]:
+        """What begins with each bar where something does: sections and feels."""
+        sections, feels = dict(self.sections), dict(self.feels)
+        return {bar: f"{sections.get(bar, '')} {feels.get(bar, '')}" for bar in sorted({*sections, *feels})}
 
 
 @dataclass(slots=True)
@@ -85,7 +91,7 @@ class _SheetPages:
     def __init__(self, score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool) -> None:
         self._score, self._words, self._size, self._with_sticking = score, words, size, with_sticking
         self._atlas = OutlineAtlas()
-        bars = sheet_bars(score, dict(words.sections), words.repeat, words.first_bar)
+        bars = sheet_bars(score, words.names, words.repeat, words.first_bar)
         self._setter = LineSetter(
             Engraver(score, self._atlas, as_written=True), bars, _line_words(score, words), self._atlas
         )
@@ -195,9 +201,10 @@ def _words_in_order(score: Score, words: SheetWords) -> Iterator[tuple[int, floa
     """Bar, seconds from its start, and word, by time."""
     tempo, found = score.tempo_map, list[tuple[int, float, LineWord]]()
     first = None if words.beats_a_minute is None else TempoSign(words.beats_a_minute, words.beat_ticks)
-    if first or words.feel:
-        found.append((0, 0.0, LineWord(0.0, tempo=first, feel=words.feel)))
+    if first:
+        found.append((0, 0.0, LineWord(0.0, tempo=first)))
     found += [(bar, 0.0, LineWord(0.0, section=name)) for bar, name in words.sections]
+    found += [(bar, 0.0, LineWord(0.0, feel=feel)) for bar, feel in words.feels]
     for change in tempo_words(tempo):
         if change.tick < score.end_tick:
             bar = int(tempo.bars_at(change.tick))

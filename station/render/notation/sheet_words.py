@@ -51,8 +51,10 @@ class LineWord:
 
 
 def draw_number(draw_list: DrawList, skyline: Skyline, x: float, number: str) -> None:
-    """A bar's number above its left bar line."""
-    _low(draw_list, skyline, (x, x + draw_list.width(number, _NUMBER)), number, _NUMBER)
+    """A bar's number over the middle of its left bar line."""
+    width = draw_list.width(number, _NUMBER)
+    left = max(x - width / 2, 0.0)
+    _low(draw_list, skyline, (left, left + width), number, _NUMBER)
 
 
 def draw_times(draw_list: DrawList, skyline: Skyline, x: float, times: int) -> None:

@@ -221,4 +221,5 @@ def test_a_section_called_after_its_feel_says_it_once() -> None:
     text = 'title = "T"\n[[grid]]\nname = "a"\nsnare = "oo -- -- --"\n[[grid]]\nname = "swing"\nswing_ratio = 1.5\n'
     lesson = parse_lesson(f'{text}snare = "oo -- -- --"', "t", "t").lesson
     assert lesson
-    assert lesson_labels(lesson, (0, 1)).sections == ((0, "a"), (1, "swing 1.5 : 1"))
+    words = lesson_labels(lesson, (0, 1))
+    assert (words.sections, words.feels) == (((0, "a"),), ((1, "swing 1.5 : 1"),))
