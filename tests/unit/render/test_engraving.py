@@ -326,7 +326,7 @@ def test_a_hairpin_opens_evenly_over_its_bars() -> None:
     engraver = Engraver(swell((0, "p"), (2, "<"), (6, "f")), ATLAS)
     first, second = (hairpin_openings(engraver.bar(bar)) for bar in (0, 1))
     assert first[0][0] == pytest.approx(1.0), "it begins on beat 3"
-    assert second[0][0] == pytest.approx(2.0)
+    assert second[0][0] == pytest.approx(2.0, abs=0.01), "at the bar line, or what no eye tells from it"
     assert first[0][1] < 0.05, "closed at first"
     assert first[-1][1] == pytest.approx(0.6, abs=0.05), "half way at the bar line: 1.2 spaces at the end"
     assert second[0][1] == pytest.approx(first[-1][1], abs=0.05)
