@@ -6,10 +6,11 @@ from station.core.errors import BadInput
 from station.core.files import read_regular
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import MusicFormat
+from station.music.formats.music_xml.music_xml_format import MUSIC_XML
 from station.music.formats.smf.midi_part import MIDI
 from station.music.formats.text_score import TEXT_SCORE
 
-FORMATS: tuple[MusicFormat, ...] = (MIDI, TEXT_SCORE)
+FORMATS: tuple[MusicFormat, ...] = (MIDI, MUSIC_XML, TEXT_SCORE)
 """Of several with the same ending, the choosy ones first."""
 
 

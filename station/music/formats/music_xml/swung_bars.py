@@ -1,0 +1,153 @@
+"""Which bars of a part are written straight under its swing, and where its strokes stand on paper then.
+
+A reader plays every note that is in no tuplet by the swing in force. Where that would not give back what the part
+plays, the bar is written as it is played, under the word straight.
+"""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from station.music.formats.music_xml.bar_spelling import SpelledBar, spelled_bar
+from station.music.formats.music_xml.direction_writing import SWING_TYPES
+from station.music.formats.music_xml.stroke_cells import StrokeCell, cells_of
+from station.music.formats.music_xml.strokes_reading import PlayedBar
+from station.music.score import Note, Score
+from station.music.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
+from station.music.tempo import MeterChange
+
+_MOST_TRIES = 4
+"""Bars turned straight may cut what is held into them; more rounds than this change nothing (our choice)."""
+
+
+@dataclass(frozen=True, slots=True)
+class BarFrame:
+    """A bar of the score: ticks [start, end), its meter."""
+
+    start: int
+    end: int
+    meter: MeterChange
+
+    @property
+    def length(self) -> int:
+        """In ticks; less than the meter's where the next meter cuts it short."""
+        return self.end - self.start
+
+
+@dataclass(frozen=True, slots=True)
+class WrittenVoices:
+    """All bars of the hands and of the feet as they are written; `swings` says of each bar whether it swings."""
+
+    frames: tuple[BarFrame, ...]
+    voices: tuple[tuple[SpelledBar, ...], ...]
+    cells: tuple[tuple[StrokeCell, ...], ...]
+    swings: tuple[bool, ...]
+
+
+def bar_frames(score: Score) -> tuple[BarFrame, ...]:
+    """The bars from tick 0 to the end of `score`."""
+    tempo_map = score.tempo_map
+    starts = [tempo_map.bar_start(bar) for bar in range(score.bar_count)]
+    ends = [*starts[1:], max(score.end_tick, starts[-1] + 1)]
+    return tuple(BarFrame(start, end, tempo_map.meter_at(start)) for start, end in zip(starts, ends, strict=True))
+
+
+def can_be_said(swing: Swing) -> bool:
+    """Whether MusicXML has this swing: of eighths or sixteenths."""
+    return swing.ratio != STRAIGHT and swing.unit_ticks in SWING_TYPES and MIN_RATIO <= swing.ratio <= MAX_RATIO
+
+
+def written_voices(score: Score, swing: Swing, voices: Sequence[frozenset[int]]) -> WrittenVoices:
+    """The bars of each voice, a set of pieces, under `swing` where that says what is played."""
+    frames = bar_frames(score)
+    swings = [can_be_said(swing)] * len(frames)
+    for _ in range(_MOST_TRIES):
+        found = _written(score, swing, voices, frames, swings)
+        wrong = [i for i, is_swung in enumerate(swings) if is_swung and not _plays_back(found, i, swing, score)]
+        if not wrong:
+            break
+        for i in wrong:
+            swings[i] = False
+    return found
+
+
+def _written(
+    score: Score,
+    swing: Swing,
+    voices: Sequence[frozenset[int]],
+    frames: Sequence[BarFrame],
+    swings: Sequence[bool],
+) -> WrittenVoices:
+    bars = score.tempo_map.bars_at(score.notes["tick"]).tolist()
+    notes = [_on_paper(note, bar, swing, frames, swings) for note, bar in zip(score, bars, strict=True)]
+    cells = tuple(
+        tuple(cells_of([note for note in notes if note.piece in pieces], score.end_tick)) for pieces in voices
+    )
+    spelled = tuple(_spelled(voice, frames) for voice in cells)
+    return WrittenVoices(tuple(frames), spelled, cells, tuple(swings))
+
+
+def _spelled(cells: Sequence[StrokeCell], frames: Sequence[BarFrame]) -> tuple[SpelledBar, ...]:
+    found: list[SpelledBar] = []
+    at, held = 0, []
+    for frame in frames:
+        inside = [cell for cell in held if (cell.end or 0) > frame.start]
+        while at < len(cells) and cells[at].start < frame.end:
+            inside.append(cells[at])
+            at += 1
+        found.append(spelled_bar(inside, frame.start, frame.length, frame.meter))
+        held = [cell for cell in inside if cell.end is not None and cell.end > frame.end and cell.second is None]
+    return tuple(found)
+
+
+def _on_paper(note: Note, bar: int, swing: Swing, frames: Sequence[BarFrame], swings: Sequence[bool]) -> Note:
+    """The note where it is written, its length with it; `swing_ticks` 0 where its bar is written as it is played."""
+    bar = min(bar, len(frames) - 1)
+    if not swings[bar] or not swing.stands_in_words:
+        return replace(note, swing_ticks=0)
+    start = note.tick - note.swing_ticks
+    ends = {
+        name: straight_place(note.tick + lasts, swing, frames[bar:], swings[bar:]) - start
+        for name in ("duration_ticks", "choke_ticks")
+        if (lasts := getattr(note, name))
+    }
+    return replace(note, tick=start, **ends)
+
+
+def straight_place(tick: int, swing: Swing, frames: Iterable[BarFrame], swings: Iterable[bool]) -> int:
+    """Where what is played at `tick` is written, in the bars from one before it on."""
+    for frame, is_swung in zip(frames, swings, strict=True):
+        if tick <= frame.end:
+            return frame.start + _straight(tick - frame.start, swing, frame.meter) if is_swung else tick
+    return tick
+
+
+def _straight(played: int, swing: Swing, meter: MeterChange) -> int:
+    """The inverse of `Swing.swung`, found by halving: it rises."""
+    low, high = 0, meter.bar_ticks
+    while low < high:
+        middle = (low + high) // 2
+        if swing.swung(middle, meter) < played:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+def _plays_back(found: WrittenVoices, bar: int, swing: Swing, score: Score) -> bool:
+    """Whether a reader that swings this bar plays its strokes where the part has them, and ends them there."""
+    frame = found.frames[bar]
+    reader = PlayedBar(frame.meter, frame.start, ((0, swing),))
+    for voice in found.voices:
+        for chord in voice[bar].chords:
+            in_tuplet = chord.value.span.actual > 1
+            for cell in chord.struck:
+                half = (Fraction(cell.end or 0) - cell.start) / 2 if cell.second is not None else Fraction(0)
+                for note, after in ((cell.note, Fraction(0)), (cell.second, half)):
+                    if note is None:
+                        continue
+                    place = round(chord.value.start + after)
+                    played = reader.place(place, not in_tuplet)[0]
+                    if abs(played - (note.tick + note.swing_ticks)) > 2:
+                        return False
+    return True
