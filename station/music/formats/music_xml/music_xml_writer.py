@@ -105,7 +105,7 @@ def _add_part_list(root: Element, ids: dict[XmlInstrument, str]) -> None:
 
 def _add_measures(element: Element, part: DrumPart, written: WrittenVoices, ids: dict[XmlInstrument, str]) -> None:
     divisions = _divisions(written)
-    used = [i for i, cells in enumerate(written.cells) if cells] or [0]
+    used = [i for i, heads in enumerate(written.heads) if heads] or [0]
     settings = [VoiceSetting(n + 1, _STEMS[i], divisions, ids) for n, i in enumerate(used)]
     directions = directions_of(part, _swings(part, written))
     last_bars = {section.last_bar for section in part.sections}

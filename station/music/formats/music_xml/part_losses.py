@@ -8,7 +8,7 @@ from station.music.formats.music_format import Feature, Loss
 from station.music.formats.music_xml.bar_reading import VELOCITY_OF_MARK
 from station.music.formats.music_xml.direction_writing import has_beat
 from station.music.formats.music_xml.element_writing import strike_of_note
-from station.music.formats.music_xml.stroke_cells import DOUBLES, StrokeCell, is_roll
+from station.music.formats.music_xml.stroke_cells import DOUBLES, StrokeCell, is_roll, second_strokes
 from station.music.formats.music_xml.swung_bars import WrittenVoices, can_be_said
 from station.music.formats.music_xml.xml_instruments import instrument_of, nearest_openness
 from station.music.grace_strokes import OTHER_HAND, Graces
@@ -29,8 +29,9 @@ def losses_of(part: DrumPart, written: WrittenVoices) -> tuple[Loss, ...]:
         ticks = [note.tick for note in part.score if is_lost(note)]
         if ticks:
             found.append(_at(part, feature, min(ticks), text))
-    for cells in written.cells:
+    for cells in written.heads:
         found += _of_cells(part, cells)
+    found += _of_seconds(part, [cell for cells in written.heads for cell in cells])
     spread = [cell for voice in written.voices for bar in voice for cell in bar.spread]
     if spread:
         text = "a diddle that no slash through one note says is two strokes"
@@ -167,6 +168,17 @@ def _of_cells(part: DrumPart, cells: Sequence[StrokeCell]) -> Iterator[Loss]:
         lost = next((cell for i, cell in enumerate(cells) if is_lost(i, cell)), None)
         if lost is not None:
             yield _at(part, feature, lost.start, text)
+
+
+def _of_seconds(part: DrumPart, cells: Sequence[StrokeCell]) -> Iterator[Loss]:
+    seconds = second_strokes(cells)
+    for cell in cells:
+        first, second = cell.note, cell.second
+        if second and second.velocity != seconds.velocity(first.piece, first.dynamic, first.velocity):
+            yield _at(
+                part, Feature.VELOCITIES, cell.start, "the second stroke of a diddle is louder or softer than usual"
+            )
+            return
 
 
 def _wants_graces(cell: StrokeCell, ornament: Ornament, count: int) -> bool:

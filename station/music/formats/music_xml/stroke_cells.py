@@ -4,13 +4,13 @@ Two strokes of a diddle are one cell, where a reader of the slash finds the same
 cymbal last to where they end.
 """
 
-from collections import Counter, defaultdict
+from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 from station.core.pieces import Articulation, Dynamic, Ornament, Piece
-from station.music.formats.music_xml.strokes_reading import second_velocity, usual_velocity
+from station.music.formats.music_xml.second_strokes import SecondStrokes
 from station.music.score import Note
 
 DOUBLES = (Ornament.DIDDLE, Ornament.ROLL)
@@ -52,29 +52,24 @@ def cells_of(notes: Iterable[Note], end_tick: int) -> list[StrokeCell]:
     for row in rows:
         if row.note.ornament in (Ornament.FLAM, Ornament.DRAG):
             row.graces = graces.pop((row.note.tick, row.note.piece), [])
-    normal = normal_velocities(row.note for row in rows)
     by_piece: dict[Piece, list[_Row]] = defaultdict(list)
     for row in rows:
         by_piece[row.note.piece].append(row)
-    found = [cell for piece_rows in by_piece.values() for cell in _cells(piece_rows, normal, end_tick)]
+    found = [cell for piece_rows in by_piece.values() for cell in _cells(piece_rows, end_tick)]
     return sorted(found, key=lambda cell: (cell.start, cell.note.piece))
 
 
-def normal_velocities(notes: Iterable[Note]) -> dict[Piece, int]:
-    """What most strokes of each piece that are neither ghost nor accent are struck with, as readers count them."""
-    counts: dict[Piece, Counter[int]] = defaultdict(Counter)
-    for note in notes:
-        if note.dynamic is Dynamic.NORMAL:
-            counts[note.piece][note.velocity] += 1
-    return {piece: usual_velocity(count) for piece, count in counts.items()}
+def second_strokes(cells: Iterable[StrokeCell]) -> SecondStrokes:
+    """How loud a reader of `cells`, all of a part, takes the second strokes of diddles to be."""
+    return SecondStrokes((c.note.piece, c.note.dynamic, c.note.velocity) for c in cells if c.second is None)
 
 
-def _cells(rows: Sequence[_Row], normal: dict[Piece, int], end_tick: int) -> list[StrokeCell]:
+def _cells(rows: Sequence[_Row], end_tick: int) -> list[StrokeCell]:
     found: list[StrokeCell] = []
     i = 0
     while i < len(rows):
         here, after = rows[i], rows[i + 1] if i + 1 < len(rows) else None
-        is_pair = after is not None and not here.graces and _is_double(here.note, after.note, normal)
+        is_pair = after is not None and not here.graces and _is_double(here.note, after.note)
         limit = rows[i + 2].note.tick if i + 2 < len(rows) else end_tick
         if is_pair and after is not None and 2 * after.note.tick - here.note.tick <= limit:
             found.append(
@@ -88,8 +83,8 @@ def _cells(rows: Sequence[_Row], normal: dict[Piece, int], end_tick: int) -> lis
     return found
 
 
-def _is_double(first: Note, second: Note, normal: dict[Piece, int]) -> bool:
-    """Whether a slash through the stem of `first` says `second` as it is."""
+def _is_double(first: Note, second: Note) -> bool:
+    """Whether a slash through the stem of `first` says `second` too, but for how loud it is."""
     if first.ornament not in DOUBLES or second.ornament is not first.ornament or first.tick == second.tick:
         return False
     if first.articulation is Articulation.BUZZ or first.choke_ticks or second.choke_ticks:
@@ -98,9 +93,7 @@ def _is_double(first: Note, second: Note, normal: dict[Piece, int]) -> bool:
         second, tick=first.tick, velocity=first.velocity, dynamic=first.dynamic, swing_ticks=first.swing_ticks,
         midi_note=first.midi_note,
     )  # fmt: skip
-    velocity = second_velocity(first.piece, first.dynamic, first.velocity, normal)
-    is_as_loud = second.velocity == velocity and second.dynamic is min(first.dynamic, Dynamic.NORMAL)
-    return as_first == first and is_as_loud
+    return as_first == first and second.dynamic is min(first.dynamic, Dynamic.NORMAL)
 
 
 def _end(note: Note, until: int) -> int | None:

@@ -1,12 +1,12 @@
 """From written notes to the strokes that a score holds: ties, rolls, grace strokes, chokes and swing."""
 
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
+from station.music.formats.music_xml.second_strokes import SecondStrokes
 from station.music.formats.music_xml.written_bars import WrittenNote
 from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY, OTHER_HAND, Graces
 from station.music.score import Note
@@ -62,9 +62,10 @@ class _Stroke:
 def strokes_of(bars: Iterable[tuple[PlayedBar, Sequence[WrittenNote]]]) -> list[Note]:
     """The strokes of the bars in their order, each with its notes."""
     strokes = _joined(bars)
-    normal = _normal_velocities(strokes)
+    plain = [(s.note.strike.piece, s.note.dynamic, _velocity(s.note)) for s in strokes if not _count(s)]
+    seconds = SecondStrokes(plain)
     rolls = _touching(strokes)
-    return [note for i, stroke in enumerate(strokes) for note in _notes(stroke, i in rolls, normal)]
+    return [note for i, stroke in enumerate(strokes) for note in _notes(stroke, i in rolls, seconds)]
 
 
 def _joined(bars: Iterable[tuple[PlayedBar, Sequence[WrittenNote]]]) -> list[_Stroke]:
@@ -116,26 +117,7 @@ def _velocity(note: WrittenNote) -> int:
     return note.usual_velocity if note.velocity is None else note.velocity
 
 
-def _normal_velocities(strokes: Iterable[_Stroke]) -> dict[Piece, int]:
-    """What most strokes of each piece that are neither ghost nor accent are struck with."""
-    counts: dict[Piece, Counter[int]] = {}
-    for stroke in strokes:
-        if stroke.note.dynamic is Dynamic.NORMAL:
-            counts.setdefault(stroke.note.strike.piece, Counter())[_velocity(stroke.note)] += 1
-    return {piece: usual_velocity(count) for piece, count in counts.items()}
-
-
-def usual_velocity(counts: Counter[int]) -> int:
-    """The commonest velocity, of two the louder."""
-    return max(counts, key=lambda velocity: (counts[velocity], velocity))
-
-
-def second_velocity(piece: Piece, dynamic: Dynamic, velocity: int, normal: dict[Piece, int]) -> int:
-    """How loud the other strokes of a tremolo are: an accent is the first stroke's alone, and those are as others."""
-    return min(normal.get(piece, velocity), velocity) if dynamic is Dynamic.ACCENT else velocity
-
-
-def _notes(stroke: _Stroke, is_roll: bool, normal: dict[Piece, int]) -> Iterator[Note]:
+def _notes(stroke: _Stroke, is_roll: bool, seconds: SecondStrokes) -> Iterator[Note]:
     note, strike = stroke.note, stroke.note.strike
     tick, swing_ticks = stroke.place()
     count, graces = _count(stroke), len(note.graces)
@@ -162,7 +144,7 @@ def _notes(stroke: _Stroke, is_roll: bool, normal: dict[Piece, int]) -> Iterator
         return
     ornament = Ornament.ROLL if is_roll else Ornament.DIDDLE
     yield main if graces else replace(main, ornament=ornament)
-    velocity = second_velocity(strike.piece, note.dynamic, main.velocity, normal)
+    velocity = seconds.velocity(strike.piece, note.dynamic, main.velocity)
     for k in range(1, count):
         tick, swing_ticks = stroke.place(k * note.stroke_ticks)
         limb = main.limb if k // 2 % 2 == 0 else OTHER_HAND.get(main.limb, main.limb)

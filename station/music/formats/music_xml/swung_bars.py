@@ -40,8 +40,12 @@ class WrittenVoices:
 
     frames: tuple[BarFrame, ...]
     voices: tuple[tuple[SpelledBar, ...], ...]
-    cells: tuple[tuple[StrokeCell, ...], ...]
     swings: tuple[bool, ...]
+
+    @property
+    def heads(self) -> list[list[StrokeCell]]:
+        """The note heads of each voice in order."""
+        return [[cell for bar in voice for chord in bar.chords for cell in chord.struck] for voice in self.voices]
 
 
 def bar_frames(score: Score) -> tuple[BarFrame, ...]:
@@ -80,11 +84,11 @@ def _written(
 ) -> WrittenVoices:
     bars = score.tempo_map.bars_at(score.notes["tick"]).tolist()
     notes = [_on_paper(note, bar, swing, frames, swings) for note, bar in zip(score, bars, strict=True)]
-    cells = tuple(
-        tuple(cells_of([note for note in notes if note.piece in pieces], score.end_tick)) for pieces in voices
+    spelled = tuple(
+        _spelled(cells_of([note for note in notes if note.piece in pieces], score.end_tick), frames)
+        for pieces in voices
     )
-    spelled = tuple(_spelled(voice, frames) for voice in cells)
-    return WrittenVoices(tuple(frames), spelled, cells, tuple(swings))
+    return WrittenVoices(tuple(frames), spelled, tuple(swings))
 
 
 def _spelled(cells: Sequence[StrokeCell], frames: Sequence[BarFrame]) -> tuple[SpelledBar, ...]:
