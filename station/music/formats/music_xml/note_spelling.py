@@ -5,9 +5,10 @@ triplet, sextuplet, quintuplet or septuplet, else the same for each half of it, 
 the next place or the group's end, as drum parts are written. All lengths are exact fractions of ticks.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain
 
 from station.core.units import PPQ
 from station.music.tempo import MeterChange
@@ -83,15 +84,15 @@ def spans_of(start: Fraction, end: Fraction, places: Sequence[int]) -> list[Span
 
 
 def _fitting(start: Fraction, end: Fraction, places: Sequence[int]) -> list[Span]:
-    if simple := _first((*_plain(start, end, _COARSE), *_tuplets(start, end, _USUAL_TUPLETS)), places):
+    if simple := _first(chain(_plain(start, end, _COARSE), _tuplets(start, end, _USUAL_TUPLETS)), places):
         return [simple]
     if parts := _split(start, end, places):
         return parts
-    rest = _first((*_tuplets(start, end, _RARE_TUPLETS), *_plain(start, end, _FINE)), places)
+    rest = _first(chain(_tuplets(start, end, _RARE_TUPLETS), _plain(start, end, _FINE)), places)
     return [rest] if rest else []
 
 
-def _first(spans: Sequence[Span], places: Sequence[int]) -> Span | None:
+def _first(spans: Iterable[Span], places: Sequence[int]) -> Span | None:
     return next((span for span in spans if span.holds(places)), None)
 
 

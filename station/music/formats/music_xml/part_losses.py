@@ -1,6 +1,7 @@
 """What a part has and MusicXML cannot say of it, each with the bar of its first case."""
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 
 from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
 from station.music.drum_part import DrumPart
@@ -10,7 +11,7 @@ from station.music.formats.music_xml.direction_writing import has_beat
 from station.music.formats.music_xml.element_writing import strike_of_note
 from station.music.formats.music_xml.stroke_cells import DOUBLES, StrokeCell, is_roll, second_strokes
 from station.music.formats.music_xml.swung_bars import WrittenVoices, can_be_said
-from station.music.formats.music_xml.xml_instruments import instrument_of, nearest_openness
+from station.music.formats.music_xml.xml_instruments import XmlInstrument, instrument_of, nearest_openness
 from station.music.grace_strokes import OTHER_HAND, Graces
 from station.music.loudness_marks import FADE, GROW
 from station.music.score import Note
@@ -25,8 +26,9 @@ LONGEST_TITLE, LONGEST_ABOUT, LONGEST_NAME = 500, 5000, 100
 def losses_of(part: DrumPart, written: WrittenVoices) -> tuple[Loss, ...]:
     """All that is lost, a feature at most once for each reason."""
     found = [*_of_words(part), *_of_bars(part, written)]
+    notes = list(part.score)
     for feature, text, is_lost in _OF_NOTES:
-        ticks = [note.tick for note in part.score if is_lost(note)]
+        ticks = [note.tick for note in notes if is_lost(note)]
         if ticks:
             found.append(_at(part, feature, min(ticks), text))
     for cells in written.heads:
@@ -96,7 +98,13 @@ def _of_bars(part: DrumPart, written: WrittenVoices) -> Iterator[Loss]:
 
 
 def _read_back(note: Note) -> tuple[Zone, Articulation] | None:
-    strike = instrument_of(strike_of_note(note)).meaning()
+    """Zone and articulation as a reader finds them by the instrument that the note is written with."""
+    return _of_instrument(instrument_of(strike_of_note(note)))
+
+
+@cache
+def _of_instrument(instrument: XmlInstrument) -> tuple[Zone, Articulation] | None:
+    strike = instrument.meaning()
     return None if strike is None else (strike.zone, strike.articulation)
 
 

@@ -148,9 +148,8 @@ def _notes(stroke: _Stroke, is_roll: bool, seconds: SecondStrokes) -> Iterator[N
     for k in range(1, count):
         tick, swing_ticks = stroke.place(k * note.stroke_ticks)
         limb = main.limb if k // 2 % 2 == 0 else OTHER_HAND.get(main.limb, main.limb)
-        dynamic = min(note.dynamic, Dynamic.NORMAL)
-        changed = {"tick": tick, "swing_ticks": swing_ticks, "velocity": velocity, "limb": limb}
-        yield replace(main, **changed, dynamic=dynamic, ornament=ornament)
+        again = replace(main, tick=tick, swing_ticks=swing_ticks, velocity=velocity, limb=limb)
+        yield replace(again, dynamic=min(note.dynamic, Dynamic.NORMAL), ornament=ornament)
 
 
 def _grace_notes(note: WrittenNote, main: Note) -> Iterator[Note]:

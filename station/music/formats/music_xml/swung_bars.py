@@ -93,7 +93,8 @@ def _written(
 
 def _spelled(cells: Sequence[StrokeCell], frames: Sequence[BarFrame]) -> tuple[SpelledBar, ...]:
     found: list[SpelledBar] = []
-    at, held = 0, []
+    held: list[StrokeCell] = []
+    at = 0
     for frame in frames:
         inside = [cell for cell in held if (cell.end or 0) > frame.start]
         while at < len(cells) and cells[at].start < frame.end:
@@ -110,12 +111,11 @@ def _on_paper(note: Note, bar: int, swing: Swing, frames: Sequence[BarFrame], sw
     if not swings[bar] or not swing.stands_in_words:
         return replace(note, swing_ticks=0)
     start = note.tick - note.swing_ticks
-    ends = {
-        name: straight_place(note.tick + lasts, swing, frames[bar:], swings[bar:]) - start
-        for name in ("duration_ticks", "choke_ticks")
-        if (lasts := getattr(note, name))
-    }
-    return replace(note, tick=start, **ends)
+
+    def lasts(ticks: int) -> int:
+        return straight_place(note.tick + ticks, swing, frames[bar:], swings[bar:]) - start if ticks else 0
+
+    return replace(note, tick=start, duration_ticks=lasts(note.duration_ticks), choke_ticks=lasts(note.choke_ticks))
 
 
 def straight_place(tick: int, swing: Swing, frames: Iterable[BarFrame], swings: Iterable[bool]) -> int:

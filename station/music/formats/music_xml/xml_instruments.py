@@ -8,6 +8,7 @@ the name says the piece, then the sound, then where the note stands on the staff
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 from types import MappingProxyType
 
 from station.core.note_map import GENERAL_MIDI, NoteMeaning, general_midi_note
@@ -166,6 +167,7 @@ def placed_strike(step: str, octave: str, head: str) -> NoteMeaning | None:
     return replace(strike, openness=OPEN) if piece is Piece.HIHAT and head == "circle-x" else strike
 
 
+@cache
 def instrument_of(strike: NoteMeaning) -> XmlInstrument:
     """The instrument that `strike` is written with."""
     number = general_midi_note(strike.piece, strike.zone, strike.articulation, strike.openness)
