@@ -264,7 +264,7 @@ def test_notes_without_instruments_are_known_by_their_line() -> None:
         (_score(_note("kick", 48)).replace(b"<beats>4", b"<beats>0"), "bar 1", "beats"),
         (_score(_note("kick", 48)).replace(b"<duration>48", b"<duration>999999999"), "bar 1", "longer"),
         (_score(), "", "no part"),
-        (_score(_rest(48)), "", "no drums"),
+        (_score(_rest(48)).replace(b"percussion", b"G"), "", "no drums"),
         (b"<score-partwise><part id='P'><measure><note><pitch><step>C</step></pitch></note></measure></part></score-partwise>",
          "", "pitched"),
         (b"PK\x03\x04 no zip", "", "zip"),

@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
-from station.music.formats.music_xml.element_writing import child, number_text
+from station.music.formats.music_xml.element_writing import child, number_text, xml_text
 from station.music.loudness_marks import GROW
 from station.music.swing import STRAIGHT, Swing
 from station.music.tempo import TempoChange
@@ -176,7 +176,7 @@ def _sections(part: DrumPart) -> Iterator[Direction]:
 def _rehearsal(tick: int, name: str) -> Direction:
     def add(measure: Element, offset: str) -> None:
         direction, close = _added(measure, offset, "above")
-        child(child(direction, "direction-type"), "rehearsal", name)
+        child(child(direction, "direction-type"), "rehearsal", xml_text(name))
         close()
 
     return Direction(tick, add)

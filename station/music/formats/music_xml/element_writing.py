@@ -53,6 +53,13 @@ def number_text(value: Fraction) -> str:
     return f"{float(value):.6f}".rstrip("0").rstrip(".") if value.denominator > 1 else str(value.numerator)
 
 
+def xml_text(text: str) -> str:
+    """`text` without the characters that XML 1.0 does not allow."""
+    return "".join(
+        c for c in text if c in "\t\n" or "\x20" <= c <= "\ud7ff" or "\ue000" <= c <= "\ufffd" or c > "\uffff"
+    )
+
+
 def strike_of_note(note: Note) -> NoteMeaning:
     """What instruments have to say of a stroke: a buzz is a tremolo, a hi-hat one of three openings."""
     plain = plain_strike(note.piece)

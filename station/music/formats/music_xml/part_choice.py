@@ -35,6 +35,11 @@ class FilePart:
         notes = [note for measure in self.measures for note in measure.iter("note")]
         return [note for note in notes if note.find("unpitched") is not None or self._is_drum(note)]
 
+    @property
+    def has_percussion_clef(self) -> bool:
+        """Whether it is a part for drums even where it rests."""
+        return any((sign.text or "").strip() == "percussion" for bar in self.measures for sign in bar.iter("sign"))
+
     def _is_drum(self, note: Element) -> bool:
         return self.is_on_drum_channel and note.find("pitch") is not None
 
@@ -82,10 +87,8 @@ def _described(score_part: Element) -> FilePart:
 
 def drum_parts(parts: Sequence[FilePart], source: str) -> list[FilePart]:
     """The parts to be read as one drummer's; raises `BadInput` where no part has drums."""
-    drums = [part for part in parts if part.drum_notes]
+    drums = [part for part in parts if part.drum_notes] or [part for part in parts if part.has_percussion_clef]
     if not drums:
-        if not any(measure.find("note") is not None for part in parts for measure in part.measures):
-            raise BadInput(source, "", "has no notes")
         raise BadInput(source, "", "has no drums: all notes are pitched, and no part plays on MIDI channel 10")
     best = max(drums, key=lambda part: (len(_pieces(part)), len(part.drum_notes)))
     return [best] if len(_pieces(best)) > 1 else drums

@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 
-from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
+from station.core.pieces import CHOKEABLE, Articulation, Limb, Ornament, Piece, Zone
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import Feature, Loss
 from station.music.formats.music_xml.bar_reading import VELOCITY_OF_MARK
 from station.music.formats.music_xml.direction_writing import has_beat
-from station.music.formats.music_xml.element_writing import strike_of_note
+from station.music.formats.music_xml.element_writing import strike_of_note, xml_text
 from station.music.formats.music_xml.stroke_cells import DOUBLES, StrokeCell, is_roll, second_strokes
 from station.music.formats.music_xml.swung_bars import WrittenVoices, can_be_said
 from station.music.formats.music_xml.xml_instruments import XmlInstrument, instrument_of, nearest_openness
@@ -18,6 +18,7 @@ from station.music.score import Note
 from station.music.swing import STRAIGHT
 
 _USUAL = Graces()
+_MOVED_WITH_TIMES = (Feature.TIMES, Feature.SWING, Feature.DIDDLES, Feature.BUZZES, Feature.CHOKES)
 _CLOSE_MS = 0.01
 LONGEST_TITLE, LONGEST_ABOUT, LONGEST_NAME = 500, 5000, 100
 """Characters that are read of a title, of what a part says of itself, and of a section's name (our choice)."""
@@ -67,13 +68,6 @@ def _of_words(part: DrumPart) -> Iterator[Loss]:
         yield Loss(Feature.LOUDNESS, "a mark beyond ppp to fff")
 
 
-def xml_text(text: str) -> str:
-    """`text` without the characters that XML 1.0 does not allow."""
-    return "".join(
-        c for c in text if c in "\t\n" or "\x20" <= c <= "\ud7ff" or "\ue000" <= c <= "\ufffd" or c > "\uffff"
-    )
-
-
 def _of_bars(part: DrumPart, written: WrittenVoices) -> Iterator[Loss]:
     for frame in written.frames:
         if frame.length != frame.meter.bar_ticks:
@@ -82,7 +76,8 @@ def _of_bars(part: DrumPart, written: WrittenVoices) -> Iterator[Loss]:
             break
     for frame, *bars in zip(written.frames, *written.voices, strict=True):
         if not all(bar.is_exact for bar in bars):
-            yield _at(part, Feature.TIMES, frame.start, "strokes that no note value writes, moved to sixty-fourths")
+            for feature in _MOVED_WITH_TIMES:
+                yield _at(part, feature, frame.start, "strokes that no note value writes are moved to sixty-fourths")
             break
     straight = {frame.start for frame, is_swung in zip(written.frames, written.swings, strict=True) if not is_swung}
     tempo_map = part.score.tempo_map
@@ -152,6 +147,11 @@ _OF_NOTES: tuple[tuple[Feature, str, Callable[[Note], bool]], ...] = (
     (Feature.FOOT_SPLASHES, "a splash of what is no hi-hat foot", _loses_splash),
     (Feature.STICKING, "a foot that plays what hands play", _loses_hand),
     (Feature.FEET, "a hand that plays a pedal", _loses_foot),
+    (
+        Feature.CHOKES,
+        "a choke of what does not ring",
+        lambda note: note.choke_ticks > 0 and note.piece not in CHOKEABLE,
+    ),
     (Feature.GRACE_SPACING, "grace strokes farther apart or closer than usual", _loses_lead),
 )
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
-from station.core.pieces import Articulation, Dynamic, Ornament, Piece
+from station.core.pieces import CHOKEABLE, Articulation, Dynamic, Ornament, Piece
 from station.music.formats.music_xml.second_strokes import SecondStrokes
 from station.music.score import Note
 
@@ -97,8 +97,12 @@ def _is_double(first: Note, second: Note) -> bool:
 
 
 def _end(note: Note, until: int) -> int | None:
-    lasts = note.duration_ticks if note.articulation is Articulation.BUZZ else note.choke_ticks
+    lasts = note.duration_ticks if note.articulation is Articulation.BUZZ else _choke(note)
     return min(note.tick + lasts, until) if lasts and until > note.tick else None
+
+
+def _choke(note: Note) -> int:
+    return note.choke_ticks if note.piece in CHOKEABLE else 0
 
 
 def apart(cell: StrokeCell) -> list[StrokeCell]:

@@ -4,6 +4,7 @@ A reader plays every note that is in no tuplet by the swing in force. Where that
 plays, the bar is written as it is played, under the word straight.
 """
 
+from bisect import bisect_left
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -16,8 +17,10 @@ from station.music.score import Note, Score
 from station.music.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
 from station.music.tempo import MeterChange
 
-_MOST_TRIES = 4
-"""Bars turned straight may cut what is held into them; more rounds than this change nothing (our choice)."""
+_MOST_TRIES = 8
+"""Rounds of turning bars straight, for one may change what is held into the next; then all are (our choice)."""
+_CLOSE = 2
+"""Ticks that a place may lie beside what is played."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,12 +70,11 @@ def written_voices(score: Score, swing: Swing, voices: Sequence[frozenset[int]])
     swings = [can_be_said(swing)] * len(frames)
     for _ in range(_MOST_TRIES):
         found = _written(score, swing, voices, frames, swings)
-        wrong = [i for i, is_swung in enumerate(swings) if is_swung and not _plays_back(found, i, swing, score)]
+        wrong = _played_otherwise(found, swing) if any(swings) else set()
         if not wrong:
-            break
-        for i in wrong:
-            swings[i] = False
-    return found
+            return found
+        swings = [is_swung and i not in wrong for i, is_swung in enumerate(swings)]
+    return _written(score, swing, voices, frames, [False] * len(frames))
 
 
 def _written(
@@ -108,14 +110,20 @@ def _spelled(cells: Sequence[StrokeCell], frames: Sequence[BarFrame]) -> tuple[S
 def _on_paper(note: Note, bar: int, swing: Swing, frames: Sequence[BarFrame], swings: Sequence[bool]) -> Note:
     """The note where it is written, its length with it; `swing_ticks` 0 where its bar is written as it is played."""
     bar = min(bar, len(frames) - 1)
-    if not swings[bar] or not swing.stands_in_words:
-        return replace(note, swing_ticks=0)
-    start = note.tick - note.swing_ticks
+    if not swing.stands_in_words:
+        return note
+    start = note.tick - (note.swing_ticks if swings[bar] else 0)
 
     def lasts(ticks: int) -> int:
         return straight_place(note.tick + ticks, swing, frames[bar:], swings[bar:]) - start if ticks else 0
 
-    return replace(note, tick=start, duration_ticks=lasts(note.duration_ticks), choke_ticks=lasts(note.choke_ticks))
+    return replace(
+        note,
+        tick=start,
+        swing_ticks=note.tick - start,
+        duration_ticks=lasts(note.duration_ticks),
+        choke_ticks=lasts(note.choke_ticks),
+    )
 
 
 def straight_place(tick: int, swing: Swing, frames: Iterable[BarFrame], swings: Iterable[bool]) -> int:
@@ -138,20 +146,39 @@ def _straight(played: int, swing: Swing, meter: MeterChange) -> int:
     return low
 
 
-def _plays_back(found: WrittenVoices, bar: int, swing: Swing, score: Score) -> bool:
-    """Whether a reader that swings this bar plays its strokes where the part has them, and ends them there."""
-    frame = found.frames[bar]
-    reader = PlayedBar(frame.meter, frame.start, ((0, swing),))
+def _played_otherwise(found: WrittenVoices, swing: Swing) -> set[int]:
+    """The swung bars in which a reader would play a stroke, or its end, elsewhere than the part does."""
+    wrong: set[int] = set()
+    starts = [frame.start for frame in found.frames]
     for voice in found.voices:
-        for chord in voice[bar].chords:
-            in_tuplet = chord.value.span.actual > 1
-            for cell in chord.struck:
-                half = (Fraction(cell.end or 0) - cell.start) / 2 if cell.second is not None else Fraction(0)
-                for note, after in ((cell.note, Fraction(0)), (cell.second, half)):
-                    if note is None:
-                        continue
-                    place = round(chord.value.start + after)
-                    played = reader.place(place, not in_tuplet)[0]
-                    if abs(played - (note.tick + note.swing_ticks)) > 2:
-                        return False
-    return True
+        for i, bar in enumerate(voice):
+            for chord in bar.chords:
+                for cell in chord.struck:
+                    in_tuplet = chord.value.span.actual > 1
+                    if found.swings[i] and not _starts_right(
+                        found.frames[i], chord.value.start, cell, in_tuplet, swing
+                    ):
+                        wrong.add(i)
+                    if cell.end is not None and cell.second is None:
+                        last = bisect_left(starts, cell.end) - 1
+                        if found.swings[last] and not _ends_right(found.frames[last], cell.end, in_tuplet, swing):
+                            wrong.add(last)
+    return wrong
+
+
+def _starts_right(frame: BarFrame, start: Fraction, cell: StrokeCell, in_tuplet: bool, swing: Swing) -> bool:
+    reader = PlayedBar(frame.meter, frame.start, ((0, swing),))
+    strokes = [(cell.note, Fraction(0))]
+    if cell.second is not None:
+        strokes.append((cell.second, Fraction((cell.end or 0) - cell.start, 2)))
+    return all(
+        abs(reader.place(round(start + after), not in_tuplet)[0] - (note.tick + note.swing_ticks)) <= _CLOSE
+        for note, after in strokes
+    )
+
+
+def _ends_right(frame: BarFrame, end: int, in_tuplet: bool, swing: Swing) -> bool:
+    """Ends are written where a swing that stands in words moves them, and else where they are played."""
+    straight = min(end - frame.start, frame.meter.bar_ticks)
+    is_moved = abs(swing.swung(straight, frame.meter) - straight) > _CLOSE
+    return not is_moved or in_tuplet is not swing.stands_in_words

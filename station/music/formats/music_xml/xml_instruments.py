@@ -64,8 +64,10 @@ _USUAL_ZONE: Mapping[Piece, Zone] = MappingProxyType(
     }
 )
 _ZONE_WORDS = ((Zone.RIM, r"rim"), (Zone.BELL, r"bell|cup"), (Zone.EDGE, r"edge"), (Zone.BOW, r"bow|tip"))
-_ZONE_NAMES = {Zone.HEAD: "head", Zone.RIM: "rim", Zone.BELL: "bell", Zone.EDGE: "edge", Zone.BOW: "bow"}
+_ZONE_NAMES = {Zone.RIM: "rim", Zone.BELL: "bell", Zone.EDGE: "edge", Zone.BOW: "bow"}
 _OPENNESS_NAMES = {CLOSED: "closed", HALF_OPEN: "half-open", OPEN: "open"}
+_OF_DRUMS, _OF_CYMBALS = frozenset({Zone.RIM}), frozenset({Zone.BELL, Zone.EDGE, Zone.BOW})
+_ARTICULATION_PIECES = {Articulation.CROSS_STICK: frozenset({Piece.SNARE}), Articulation.RIM_SHOT: _DRUMS}
 _ARTICULATION_NAMES = {Articulation.CROSS_STICK: "cross-stick", Articulation.RIM_SHOT: "rim shot"}
 
 _PIECE_WORDS: tuple[tuple[str, Piece], ...] = (
@@ -176,9 +178,9 @@ def instrument_of(strike: NoteMeaning) -> XmlInstrument:
 
 def _name(strike: NoteMeaning) -> str:
     words = [PIECES[strike.piece].name]
-    if strike.articulation in _ARTICULATION_NAMES:
+    if strike.piece in _ARTICULATION_PIECES.get(strike.articulation, ()):
         words.append(_ARTICULATION_NAMES[strike.articulation])
-    elif strike.zone is not _USUAL_ZONE[strike.piece] and strike.zone in _ZONE_NAMES:
+    elif strike.zone is not _USUAL_ZONE[strike.piece] and strike.zone in _named_zones(strike.piece):
         words.append(_ZONE_NAMES[strike.zone])
     if strike.piece is Piece.HIHAT and strike.openness is not None:
         words.append(_OPENNESS_NAMES[nearest_openness(strike.openness)])
@@ -208,11 +210,15 @@ def _refined(strike: NoteMeaning, words: str) -> NoteMeaning:
         return replace(strike, zone=Zone.RIM, articulation=Articulation.RIM_SHOT)
     if piece is Piece.HIHAT:
         strike = replace(strike, openness=_worded_openness(words, strike.openness))
-    known = {Zone.RIM} if piece in _DRUMS else {Zone.BELL, Zone.EDGE, Zone.BOW} if piece in _CYMBALS else set()
     for zone, pattern in _ZONE_WORDS:
-        if zone in known and re.search(rf"\b({pattern})\b", words):
+        if zone in _named_zones(piece) and re.search(rf"\b({pattern})\b", words):
             return replace(strike, zone=zone)
     return strike
+
+
+def _named_zones(piece: Piece) -> frozenset[Zone]:
+    """The zones of `piece` that a name may say."""
+    return _OF_DRUMS if piece in _DRUMS else _OF_CYMBALS if piece in _CYMBALS else frozenset()
 
 
 def _worded_openness(words: str, usual: float | None) -> float | None:
