@@ -76,6 +76,18 @@ def _notes(draw: st.DrawFn, ticks: int) -> list[Note]:
     return with_graces(note)
 
 
+def _apart(groups: list[list[Note]], end: int) -> list[Note]:
+    """The notes of those groups that strike no piece when another does: no hand strikes twice at once."""
+    taken: set[tuple[int, Piece]] = set()
+    found: list[Note] = []
+    for group in groups:
+        places = {(note.tick, note.piece) for note in group}
+        if not places & taken and all(note.tick < end for note in group):
+            taken |= places
+            found += group
+    return found
+
+
 @st.composite
 def _parts(draw: st.DrawFn) -> DrumPart:
     beats, unit, groups = draw(_METERS)
@@ -89,7 +101,7 @@ def _parts(draw: st.DrawFn) -> DrumPart:
     tempos = [
         TempoChange(draw(st.integers(0, end - 1)) if i else 0, draw(st.integers(60_000, 3_000_000))) for i in range(3)
     ]
-    notes = [note for group in draw(st.lists(_notes(end), max_size=12)) for note in group if note.tick < end]
+    notes = _apart(draw(st.lists(_notes(end), max_size=12)), end)
     score = Score.from_notes(notes, TempoMap.build(tempos, meters), end, draw(_NAMES))
     marks = sorted(draw(st.sets(st.integers(0, 16), max_size=4)))
     loudness = tuple(
@@ -104,12 +116,13 @@ def _parts(draw: st.DrawFn) -> DrumPart:
     )  # fmt: skip
 
 
-@settings(max_examples=150)
+@settings(max_examples=60)
 @given(_parts())
 def test_what_is_not_said_to_be_lost_comes_back(part: DrumPart) -> None:
     assert kept_differences(MUSIC_XML, part) == []
 
 
+@settings(max_examples=30)
 @given(_parts())
 def test_what_was_read_once_comes_back_whole(part: DrumPart) -> None:
     """A second time nothing is lost but what MusicXML has no word for."""

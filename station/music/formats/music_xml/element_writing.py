@@ -81,7 +81,7 @@ def add_chord(measure: Element, chord: Chord, setting: VoiceSetting) -> None:
     for cell in chord.struck:
         for grace in cell.graces:
             _add_grace(measure, grace, cell, setting)
-    cells = sorted((*chord.struck, *chord.held), key=lambda cell: -_height(cell.note.piece))
+    cells = sorted((*chord.struck, *chord.held), key=lambda cell: (-_height(cell.note.piece), not cell.graces))
     for i, cell in enumerate(cells):
         _add_note(measure, chord, cell, setting, is_first=i == 0)
 
