@@ -11,6 +11,7 @@ from station.music.formats.dtx.dtx_writer import DTX
 from station.music.formats.groovescribe.groove_formats import GROOVE_TEXT, GROOVESCRIBE, GROOVESCRIBE_MIDI
 from station.music.formats.guitar_pro.guitar_pro_format import OLD_GUITAR_PRO
 from station.music.formats.music_format import MusicFormat
+from station.music.formats.music_xml.music_xml_format import MUSIC_XML
 from station.music.formats.smf.midi_part import MIDI
 from station.music.formats.text_score import TEXT_SCORE
 
@@ -18,9 +19,10 @@ FORMATS: tuple[MusicFormat, ...] = (
     NOTES_MIDI,
     GROOVESCRIBE_MIDI,
     MIDI,
-    GROOVESCRIBE,
-    CHART,
+    MUSIC_XML,
     OLD_GUITAR_PRO,
+    CHART,
+    GROOVESCRIBE,
     DTX,
     GROOVE_TEXT,
     ASCII_TAB,
