@@ -6,12 +6,12 @@ from station.core.errors import BadInput
 from station.core.files import read_regular
 from station.music.drum_part import DrumPart
 from station.music.formats.clone_hero.clone_hero_format import CHART, NOTES_MIDI
-from station.music.formats.guitar_pro.guitar_pro_format import OLD_GUITAR_PRO
+from station.music.formats.guitar_pro.guitar_pro_format import GUITAR_PRO, OLD_GUITAR_PRO
 from station.music.formats.music_format import MusicFormat
 from station.music.formats.smf.midi_part import MIDI
 from station.music.formats.text_score import TEXT_SCORE
 
-FORMATS: tuple[MusicFormat, ...] = (NOTES_MIDI, MIDI, CHART, OLD_GUITAR_PRO, TEXT_SCORE)
+FORMATS: tuple[MusicFormat, ...] = (NOTES_MIDI, MIDI, CHART, OLD_GUITAR_PRO, GUITAR_PRO, TEXT_SCORE)
 """Of several with the same ending, the choosy ones first."""
 
 

@@ -14,8 +14,8 @@ from station.music.drum_part import DrumPart, PartSection
 from station.music.formats.clone_hero.clone_hero_format import read_notes_part
 from station.music.formats.format_table import read_part
 
-_Notes = Sequence[tuple[int, int] | tuple[int, int, int] | tuple[int, int, int, int]]
-"""Tick, number, length and velocity of notes, 480 ticks a quarter."""
+_Notes = Sequence[tuple[int, ...]]
+"""Tick, number, and perhaps length and velocity of notes, 480 ticks a quarter."""
 
 
 def _track(name: str, notes: _Notes = (), texts: Sequence[tuple[int, str]] = ()) -> mido.MidiTrack:
