@@ -276,7 +276,7 @@ def test_a_voice_that_many_bars_share_is_counted_each_time() -> None:
         gpif.bar()
     gpif.beat(_note("kick"))
     gpif.voices = [[0] * 100] * 3000
-    with pytest.raises(BadInput, match=r"bar \d+: more than 60000 drum beats and notes"):
+    with pytest.raises(BadInput, match=r"bar \d+: more than 50000 drum beats and notes"):
         gpif.read()
 
 

@@ -23,8 +23,9 @@ from station.music.formats.clone_hero.drum_chart import (
 )
 from station.music.formats.clone_hero.mix_events import flips_of
 
-MOST_CHART_BYTES = 16 << 20
-"""Our choice: a long song with all instruments in all difficulties has half a megabyte."""
+MOST_CHART_BYTES = 8 << 20
+_MOST_LINES = 300_000
+"""Our choice: YARG's check of all instruments in all difficulties has half a megabyte and 37,000 lines."""
 _MOST_DIGITS = 12
 _DEFAULT_RESOLUTION = 192
 """What Feedback's charts had before the entry (Moonscraper's default)."""
@@ -64,6 +65,8 @@ def is_chart(data: bytes) -> bool:
 
 def read_chart(data: bytes, source: str) -> DrumChart:
     """The drums of a `.chart` file; raises `BadInput` with the line of a fault."""
+    if data.count(b"\n") + data.count(b"\r") > 2 * _MOST_LINES:
+        raise BadInput(source, "", f"more than {_MOST_LINES} lines")
     sections = _sections(_text(data))
     if not any(name in sections for name in ("Song", "SyncTrack")):
         raise BadInput(source, "line 1", "not a .chart file: it has neither [Song] nor [SyncTrack]")
@@ -133,9 +136,10 @@ def _entry(line: str) -> tuple[str, str]:
 
 def _events(lines: list[tuple[int, str]]) -> Iterator[_Line]:
     for number, line in lines:
-        key, _, value = line.partition("=")
+        place, _, value = line.partition("=")
+        key = place.strip()
         kind, _, rest = value.strip().partition(" ")
-        if _is_number(key.strip()) and kind:
+        if _is_number(key) and kind:
             yield _Line(int(key), kind, rest.strip(), number)
 
 

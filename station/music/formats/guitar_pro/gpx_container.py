@@ -9,8 +9,10 @@ from collections.abc import Iterator
 
 from station.core.errors import BadInput
 
-MOST_GPX_BYTES = 1 << 20
+MOST_GPX_BYTES = 512 << 10
 """Our choice: each bit costs; songs have some hundred kilobytes."""
+_MOST_EMPTY = 1000
+"""Steps that add nothing, which no program writes (our choice)."""
 _SECTOR = 0x1000
 _FILE = 2
 _NAME_AT, _NAME_BYTES, _SIZE_AT, _SECTORS_AT = 0x04, 127, 0x8C, 0x94
@@ -24,7 +26,7 @@ def is_gpx(data: bytes) -> bool:
 def gpx_member(data: bytes, source: str, name: str, most_bytes: int) -> bytes:
     """What the file `name` of a container holds; raises `BadInput` where there is none, or larger than `most_bytes`."""
     if len(data) > MOST_GPX_BYTES:
-        raise BadInput(source, "", f"is larger than {MOST_GPX_BYTES >> 20} MiB, which no .gpx file is")
+        raise BadInput(source, "", f"is larger than {MOST_GPX_BYTES >> 10} KiB, which no .gpx file is")
     sectors = data if data[:4] == b"BCFS" else _unpacked(data, source, most_bytes)
     for found, content in _files(sectors[4:], most_bytes):
         if found == name:
@@ -38,7 +40,9 @@ def _unpacked(data: bytes, source: str, most_bytes: int) -> bytes:
         raise BadInput(source, "byte 4", f"{size} bytes when unpacked; expected at most {most_bytes >> 20} MiB")
     bits = _Bits(data, 8)
     out = bytearray()
-    while len(out) < size and bits.are_left:
+    empty = 0
+    while len(out) < size and bits.are_left and empty < _MOST_EMPTY:
+        before = len(out)
         if bits.read(1):
             width = bits.read(4)
             back, count = bits.read_reversed(width), bits.read_reversed(width)
@@ -47,6 +51,7 @@ def _unpacked(data: bytes, source: str, most_bytes: int) -> bytes:
             out += out[len(out) - back : len(out) - back + min(back, count)]
         else:
             out += bytes(bits.read(8) for _ in range(bits.read_reversed(2)))
+        empty += len(out) == before
     if not out.startswith(b"BCFS"):
         raise BadInput(source, "byte 8", "is no container of files when unpacked")
     return bytes(out[:size])

@@ -44,8 +44,8 @@ _MOST_NUMBER = 127
 _MOST_DIGITS = 6
 _MOST_DOTS = 3
 _MOST_PASSES = 32
-_MOST_DRUM_BEATS = 60_000
-"""Beats and notes of the drum tracks as they are written (our choice: an hour of sixteenths)."""
+_MOST_DRUM_BEATS = 50_000
+"""Beats and notes of the drum tracks as they are written (our choice: 1,000 bars of sixteenths, two notes each)."""
 _MOST_NOTES = 32
 """Notes of one beat that are read; more than a kit has."""
 _MOST_IN_TUPLET = 64
@@ -110,6 +110,7 @@ class _Song:
         self.masters = root.findall("MasterBars/MasterBar")
         self.beat_count = 0
         self.known_beats: dict[tuple[int, str], _Beat] = {}
+        self.known_rhythms: dict[str, tuple[Fraction, bool]] = {}
 
     def read(self) -> TabSong:
         if len(self.masters) > MOST_TAB_BARS:
@@ -238,7 +239,12 @@ class _Song:
     def _rhythm(self, beat: Element, i: int) -> tuple[Fraction, bool]:
         """How many quarter notes a beat lasts, and whether it stands in a tuplet."""
         reference = beat.find("Rhythm")
-        rhythm = self._find(self.rhythms, "" if reference is None else reference.get("ref", ""), "rhythm", i)
+        key = "" if reference is None else reference.get("ref", "")
+        if key not in self.known_rhythms:
+            self.known_rhythms[key] = self._length(self._find(self.rhythms, key, "rhythm", i), i)
+        return self.known_rhythms[key]
+
+    def _length(self, rhythm: Element, i: int) -> tuple[Fraction, bool]:
         name = text_of(rhythm, "NoteValue", "Quarter")
         if name not in _QUARTERS:
             raise BadInput(self.source, f"bar {i + 1}", f"a note value of {name[:20]!r}")
