@@ -13,15 +13,25 @@ from station.music.formats.clone_hero.clone_hero_format import CHART
 from station.music.formats.music_format import Feature
 from tests.parts_alike import kept_differences
 
-_KIT = {Piece.KICK, Piece.SNARE, Piece.HIHAT, Piece.RIDE, Piece.CRASH_1, Piece.TOM_1, Piece.TOM_2, Piece.FLOOR_TOM_1}
-"""What pro drums has lanes for."""
+_COLOURS = {
+    Piece.KICK: "kick",
+    Piece.SNARE: "red",
+    Piece.HIHAT: "yellow",
+    Piece.TOM_1: "yellow",
+    Piece.RIDE: "blue",
+    Piece.TOM_2: "blue",
+    Piece.CRASH_1: "green",
+    Piece.FLOOR_TOM_1: "green",
+}
+"""What pro drums has lanes for, by the documentation: no cymbal and tom of one colour at once."""
 
 
 def _fits(part: DrumPart) -> bool:
-    """Whether the part stays on the games' kit and strikes no drum with both hands at once."""
+    """Whether the part stays on the games' kit and strikes no colour twice at once."""
     main = part.score.notes[~part.score.is_grace]
-    strokes = list(zip(main["tick"].tolist(), main["piece"].tolist(), strict=True))
-    return {piece for _, piece in strokes} <= _KIT and len(set(strokes)) == len(strokes)
+    pieces = [Piece(number) for number in main["piece"].tolist()]
+    strokes = list(zip(main["tick"].tolist(), map(_COLOURS.get, pieces), strict=True))
+    return set(pieces) <= set(_COLOURS) and len(set(strokes)) == len(strokes)
 
 
 def _parts() -> Iterator[tuple[str, DrumPart]]:
