@@ -1,9 +1,9 @@
 """PyGuitarPro's parsers for `.gp3`, `.gp4` and `.gp5` with bounds around them.
 
 The library trusts the counts that a file states, searches a bar's beats from the end for every new one and compares
-whole beats where a note is tied: a megabyte of hostile bytes takes it many minutes. Here counts are bounded, searches are look-ups, and of all
-tracks but those of drums only tempo changes stay in memory. It also raises on some legal files (a brush of speed 0);
-what only guitars have is not interpreted.
+whole beats where a note is tied: a megabyte of hostile bytes takes it many minutes. Here counts are bounded, searches
+are look-ups, and of all tracks but those of drums only tempo changes stay in memory. It also raises on some legal files
+(a brush of speed 0); what only guitars have is not interpreted.
 
 This module imports PyGuitarPro (LGPL-3.0, unchanged, from the registry): import it where such a file is read.
 """
