@@ -198,6 +198,25 @@ def test_feels(feel: str, swing: Swing, second: int) -> None:
     assert bool(part.lost) == (feel == "Scottish8th")
 
 
+@pytest.mark.parametrize(
+    ("track", "is_drums"),
+    [
+        ("<InstrumentSet><Type>drumKit</Type>", True),
+        ("<MidiConnection><PrimaryChannel>9</PrimaryChannel></MidiConnection><InstrumentSet>", True),
+        ("<MidiConnection><PrimaryChannel>0</PrimaryChannel></MidiConnection><InstrumentSet>", False),
+        ("<InstrumentSet><Type>electricGuitar</Type>", False),
+    ],
+)
+def test_a_drum_track_is_known_by_its_instrument_or_its_channel(track: str, is_drums: bool) -> None:
+    gpif = _groove()
+    gpif.track_type = track
+    if is_drums:
+        assert len(gpif.read().score) == 4
+    else:
+        with pytest.raises(BadInput, match="no drum track"):
+            gpif.read()
+
+
 def test_an_upbeat_is_as_long_as_its_notes() -> None:
     gpif = _Gpif().bar().beat(_note("snare"), value="Eighth").bar().beat(_note("kick"))
     gpif.anacrusis = "<Anacrusis/>"

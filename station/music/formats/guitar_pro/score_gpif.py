@@ -280,7 +280,7 @@ def _is_for_drums(track: Element) -> bool:
     table = "" if general_midi is None else general_midi.get("table", "")
     channels = {text_of(track, f"{kind}/PrimaryChannel") for kind in ("MidiConnection", "GeneralMidi")}
     kind = text_of(track, "InstrumentSet/Type")
-    return kind == "drumKit" or table == "Percussion" or (not kind and str(_DRUM_CHANNEL) in channels)
+    return kind == "drumKit" or table == "Percussion" or str(_DRUM_CHANNEL) in channels
 
 
 def _number_of(articulation: Element) -> int:
