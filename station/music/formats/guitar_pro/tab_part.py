@@ -114,7 +114,7 @@ def _partly(swung: Sequence[int]) -> str:
 
 
 def _swung(bar: TabBar, beat: TabBeat, swing: Swing) -> tuple[int, int]:
-    """Where the beat is played, in ticks of the bar, and how much of that notation leaves to the `swing` of the part."""
+    """Where the beat is played, in ticks of the bar, and how much of that notation leaves to the part's `swing`."""
     feel = bar.feel
     is_offbeat = beat.tick % (2 * feel.unit_ticks) == feel.unit_ticks
     if feel.ratio == STRAIGHT or beat.is_tuplet or not is_offbeat or beat.length_ticks < feel.unit_ticks:
