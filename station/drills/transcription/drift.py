@@ -15,8 +15,8 @@ import numpy as np
 from station.drills.transcription.beat_spans import Floats
 from station.drills.transcription.take_feel import Feel, Take, clipped_errors, cost_of, settled
 
-STROKES = 20
-"""As many make a point of the drift: their mean is known to a quarter of their spread."""
+STROKES = 10
+"""As many make a point of the drift: their mean is known to a third of their spread."""
 FIRST_STROKES = 40
 """As many decide where the beat begins, and how fast."""
 _LEANS_S = tuple(ms / 1000 for ms in range(-40, 41, 10))
@@ -25,9 +25,9 @@ _SLOPES = (-0.02, -0.015, -0.01, -0.005, 0.0, 0.005, 0.01, 0.015, 0.02)
 ALPHA, BETA = 0.7, 0.25
 """Gains of the filter: Benedict & Bordner's beta is alpha squared by 2 minus alpha, 0.38; less, as errors of meaning
 must not run away with the tempo."""
-_COST_OF_A_POINT = 3.0
+_COST_OF_A_POINT = 2.0
 """What each point of the drift must gain: it is a number fitted to the strokes (our choice, above Akaike's 1)."""
-_SMOOTHED_OVER = 5
+_SMOOTHED_OVER = 7
 """Points on a local line."""
 
 
