@@ -19,7 +19,8 @@ from station.core.units import NS_PER_MS, PPQ
 from station.drills.grid.stroke_settings import Velocities
 from station.drills.grid.tab_symbols import FOOT_OF, SYMBOLS, TabFamily, TabSymbol, family_of
 from station.drills.lesson import Lesson, Section
-from station.drills.quantise_time import at_bar_starts, on_cells
+from station.drills.quantise_time import on_cells
+from station.drills.transcription.whole_bars import at_bar_starts
 from station.drills.writing.lesson_writer import write_lesson
 from station.motion.feasibility.playable import MAX_HANDS, unplayable_rows
 from station.music.grace_strokes import Graces, with_graces
