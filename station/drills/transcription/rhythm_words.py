@@ -9,6 +9,7 @@ beats share it, a new one what its division and its cells cost. Choices and coun
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from math import lgamma, log
 
 import numpy as np
 
@@ -47,11 +48,12 @@ class Reading:
 class _Option:
     """One way to read the spans of one kind: what each then costs (s,), its word (s,), and the strokes' places (n,).
 
-    `error` is the cost of the strokes' errors, `new` that of a word which the piece has not said before.
+    `error` is the cost of the strokes' errors, `cut` that of the word's division, `cells` that of its struck cells.
     """
 
     error: Floats
-    new: Floats
+    cut: Floats
+    cells: Floats
     word: Ints
     place: Floats
 
@@ -123,21 +125,38 @@ def _kinds(strokes: Strokes, swing: Swing) -> Iterator[_Kind]:
 
 def _read_kind(kind: _Kind, max_words: int) -> tuple[Ints, Floats, float]:
     """Of the spans of a kind the cells (s,), of their strokes the places (n,), and what both cost."""
-    options = kind.by_division
-    chosen = np.argmin(np.stack([o.error + o.new for o in options]), axis=0)
+    table = _Table.of(kind.by_division)
+    chosen = np.argmin(table.error + table.cut + table.cells, axis=0)
     in_bar = kind.strokes.spans.in_bar[kind.spans]
-    rows = np.arange(len(kind.spans))
     for _ in range(ROUNDS):
-        said = np.stack([o.word for o in options])[chosen, rows]
-        options = [*kind.by_division, *(_spoken(kind, word) for word in _commonest(said, max_words))]
-        cost = np.stack([o.error + _word_cost(o, said, in_bar) for o in options])
-        before, chosen = said, np.argmin(cost, axis=0)
-        if np.array_equal(before, np.stack([o.word for o in options])[chosen, rows]):
+        said = table.said(chosen)
+        spoken = [_spoken(kind, word) for word in _commonest(said, max_words)]
+        table = _Table.of([*kind.by_division, *spoken])
+        chosen = np.argmin(table.error + table.word_cost(said, in_bar), axis=0)
+        if np.array_equal(said, table.said(chosen)):
             break
-    said = np.stack([o.word for o in options])[chosen, rows]
+    chosen = _fewer_words(table, chosen)
     of_stroke = np.searchsorted(kind.spans, kind.strokes.span)
-    place = np.stack([o.place for o in options])[chosen[of_stroke], np.arange(len(of_stroke))]
-    return said >> _CELL_BITS, place, float(cost[chosen, rows].sum())
+    place = table.place[chosen[of_stroke], np.arange(len(of_stroke))]
+    return table.said(chosen) >> _CELL_BITS, place, table.joint_cost(chosen)
+
+
+def _fewer_words(table: "_Table", chosen: Ints) -> Ints:
+    """The choice without the words that the piece does better without, the rarest first.
+
+    Beats that share a slip of the hand make a word of it in choosing by turns, each on the others' account.
+    """
+    cost = table.joint_cost(chosen)
+    words, counts = np.unique(table.said(chosen), return_counts=True)
+    for word in words[np.argsort(counts, kind="stable")].tolist():
+        said = table.said(chosen)
+        concerned = said == word
+        others = table.error + _word_cost(table, said[~concerned])
+        others[table.word == word] = np.inf
+        tried = np.where(concerned, np.argmin(others, axis=0), chosen)
+        if (then := table.joint_cost(tried)) < cost:
+            chosen, cost = tried, then
+    return chosen
 
 
 # --- options ----------------------------------------------------------------------------------------------------------
@@ -151,7 +170,8 @@ def _cut(kind: _Kind, division: Division) -> _Option:
     inner = struck[kind.spans, 1:-1]
     word = (division.cells << _CELL_BITS) + (inner << np.arange(1, division.cells)).sum(axis=1)
     error = strokes.sums(strokes.error_cost(division.places[cell])) + collision_cost(strokes, cell)
-    return _Option(error[kind.spans], division.cost + inner @ division.costs[1:-1], word, division.places[cell])
+    cut = np.full(len(kind.spans), division.cost)
+    return _Option(error[kind.spans] + division.fine, cut, inner @ division.costs[1:-1], word, division.places[cell])
 
 
 def _commonest(said: Ints, most: int) -> list[int]:
@@ -173,28 +193,79 @@ def _spoken(kind: _Kind, word: int) -> _Option:
     struck[strokes.span, cell] = True
     silent = (~struck[kind.spans, 1:-1]).sum(axis=1) * SILENT_CELL
     error = strokes.sums(strokes.error_cost(places[cell])) + collision_cost(strokes, cell)
-    new = np.full(len(kind.spans), division.cost + division.costs[inner].sum())
-    return _Option(error[kind.spans] + silent, new, np.full(len(kind.spans), word), places[cell])
+    cut, struck_cells, words = (np.full(len(kind.spans), x) for x in (division.cost, division.costs[inner].sum(), word))
+    return _Option(error[kind.spans] + silent + division.fine, cut, struck_cells, words, places[cell])
 
 
 # --- what the piece has said ------------------------------------------------------------------------------------------
 
 
-def _word_cost(option: _Option, said: Ints, in_bar: Ints) -> Floats:
-    """What each span's word costs after all that the other spans have said, first of all those at its bar's place."""
-    own = (option.word == said).astype(np.float64)
-    everywhere = _count(option.word, said) - own
-    total = len(said) - 1
-    likely = (everywhere + NEW_WORDS * np.exp(-option.new)) / (total + NEW_WORDS)
-    base = 1 << (2 * _CELL_BITS)
-    here = _count(option.word + in_bar * base, said + in_bar * base) - own
-    at_place = np.bincount(in_bar)[in_bar] - 1
-    cost: Floats = -np.log((here + AT_THIS_PLACE * likely) / (at_place + AT_THIS_PLACE))
+@dataclass(frozen=True, eq=False)
+class _Table:
+    """Options (o) of the spans of a kind: `error`, `cut`, `cells` and `word` (o, s), `place` (o, n); see `_Option`."""
+
+    error: Floats
+    cut: Floats
+    cells: Floats
+    word: Ints
+    place: Floats
+
+    @classmethod
+    def of(cls, options: list[_Option]) -> "_Table":
+        """The options side by side."""
+        return cls(
+            *(np.stack([getattr(o, name) for o in options]) for name in ("error", "cut", "cells", "word", "place"))
+        )
+
+    def said(self, chosen: Ints) -> Ints:
+        """The word of each span under the option `chosen` for it (s,)."""
+        words: Ints = self.word[chosen, np.arange(len(chosen))]
+        return words
+
+    def word_cost(self, said: Ints, in_bar: Ints) -> Floats:
+        """What each word (o, s) costs after all that the other spans have said, first of all those at its place."""
+        own = (self.word == said).astype(np.float64)
+        likely = np.exp(-_word_cost(self, said, own))
+        base = 1 << (2 * _CELL_BITS)
+        here = _count(self.word + in_bar * base, said + in_bar * base) - own
+        at_place = np.bincount(in_bar)[in_bar] - 1
+        cost: Floats = -np.log((here + AT_THIS_PLACE * likely) / (at_place + AT_THIS_PLACE))
+        return cost
+
+    def joint_cost(self, chosen: Ints) -> float:
+        """What errors and words cost together: every word once as a new one, then as one that is known."""
+        rows = np.arange(len(chosen))
+        words, first, counts = np.unique(self.said(chosen), return_index=True, return_counts=True)
+        _, first_cut, words_of_cut = np.unique(words >> _CELL_BITS, return_index=True, return_counts=True)
+        new = self.cut[chosen, rows][first][first_cut].sum() + self.cells[chosen, rows][first].sum()
+        return float(self.error[chosen, rows].sum() + new + _seating(counts) + _seating(words_of_cut))
+
+
+def _seating(counts: Ints) -> float:
+    """What it costs in the Chinese restaurant process that guests sit so at tables, one for each word."""
+    seats = sum(map(lgamma, counts.tolist())) + len(counts) * log(NEW_WORDS)
+    return lgamma(counts.sum() + NEW_WORDS) - lgamma(NEW_WORDS) - seats
+
+
+def _word_cost(table: _Table, said: Ints, own: Floats | float = 0.0) -> Floats:
+    """What each word of the table costs after `said`, of which `own` are not to count."""
+    total = len(said) - np.max(own, initial=0.0)
+    known = np.unique(said)
+    cut = _odds(table.cut, _count(table.word >> _CELL_BITS, known >> _CELL_BITS), len(known))
+    cost: Floats = -np.log(_odds(-np.log(cut) + table.cells, _count(table.word, said) - own, total))
     return cost
+
+
+def _odds(new: Floats, count: Floats, total: float) -> Floats:
+    """The probability of what was said `count` times of `total`, and costs `new` before it is said."""
+    odds: Floats = (count + NEW_WORDS * np.exp(-new)) / (total + NEW_WORDS)
+    return odds
 
 
 def _count(words: Ints, said: Ints) -> Floats:
     """How often each of `words` was said."""
+    if not len(said):
+        return np.zeros(words.shape)
     known, counts = np.unique(said, return_counts=True)
     at = np.minimum(np.searchsorted(known, words), len(known) - 1)
     return np.where(known[at] == words, counts[at], 0).astype(np.float64)

@@ -5,8 +5,9 @@ errors that are left; a swing must explain what straight notes and triplets do n
 less than one that they do not.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from math import log
 from types import MappingProxyType
 
 import numpy as np
@@ -27,15 +28,15 @@ LEAN_SD_S = 0.015
 """How far takes lean as a rule (HUMANS, Timing: 11 ms, and 16 for another)."""
 FIRST_STROKES = 300
 """A lean shows in so many strokes."""
-_ROUNDS = 3
 
 NAMED_RATIOS: Mapping[float, float] = MappingProxyType({1.5: 5.0, 2.0: 3.0, 3.0: 6.0})
 """What a swing costs that a teacher would name: light swing, triplets, dotted; our choice."""
 _OTHER_RATIO_COST = 7.0
 _RATIO_STEP = 0.1
-_COARSE_RATIOS = (1.3, 1.5, 1.75, 2.0, 2.5, 3.0)
-_UNITS = (PPQ // 2, PPQ // 4)
-"""Eighths swing, or sixteenths."""
+_FIRST_SWINGS = (Swing(), Swing(1.5), Swing(2.0), Swing(1.5, PPQ // 4))
+_SWINGS = tuple(Swing(ratio, unit) for ratio in (1.3, 1.5, 1.75, 2.0, 2.5, 3.0) for unit in (PPQ // 2, PPQ // 4))
+"""Eighths swing, or sixteenths; finer ratios are found about the best of these."""
+_FINALISTS = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,12 +45,12 @@ class Feel:
 
     lean_s: float = 0.0
     spread_s: float = USUAL_SPREAD_S
-    swing: Swing = Swing()
+    swing: Swing = field(default_factory=Swing)
 
 
 @dataclass(frozen=True, eq=False)
 class Take:
-    """The strokes of a take in order of time (shape (n,)): when, and on what piece; and the beats that they lie over."""
+    """The strokes of a take in order of time (shape (n,)): when, and on what piece, over the beats of `spans`."""
 
     times_s: Floats
     piece: Ints
@@ -73,16 +74,42 @@ class Take:
 
 def feel_of(take: Take) -> Feel:
     """How the take was played."""
-    starts = [Feel(lean) for lean in LEANS_S]
-    swings = [Swing(), Swing(1.5), Swing(2.0), Swing(1.5, PPQ // 4)]
-    feel = _cheapest(take.first, [replace(f, swing=s) for f in starts for s in swings])
-    for _ in range(_ROUNDS):
-        feel = _settled(take, feel)
-        feel = _cheapest(take, _swings(feel, _COARSE_RATIOS))
+    feel = _cheapest(take.first, [Feel(lean, swing=swing) for lean in LEANS_S for swing in _FIRST_SWINGS])
     feel = _settled(take, feel)
-    if feel.swing.ratio != STRAIGHT:
-        feel = _refined(take, feel)
-    return _settled(take, feel)
+    rivals = [replace(feel, swing=s) for s in {Swing(), feel.swing, *_SWINGS}]
+    rivals = sorted(rivals, key=lambda f: _cost(take, f))[:_FINALISTS]
+    rivals = [_settled(take, rival) for rival in rivals]
+    return _cheapest(take, [_refined(take, r) if r.swing.ratio != STRAIGHT else _settled(take, r) for r in rivals])
+
+
+def _cheapest(take: Take, feels: Iterable[Feel]) -> Feel:
+    return min(feels, key=lambda f: _cost(take, f))
+
+
+def _cost(take: Take, feel: Feel) -> float:
+    """What the take costs with that feel, itself included."""
+    return take.read(feel).cost + len(take.piece) * log(feel.spread_s) + prior_cost(feel)
+
+
+def prior_cost(feel: Feel) -> float:
+    """What lean and swing cost before a stroke is heard."""
+    ratio = feel.swing.ratio
+    swing = 0.0 if ratio == STRAIGHT else NAMED_RATIOS.get(ratio, _OTHER_RATIO_COST)
+    return swing + (feel.lean_s / LEAN_SD_S) ** 2 / 2
+
+
+def _settled(take: Take, feel: Feel) -> Feel:
+    """The feel with the lean and the spread that its errors have."""
+    errors = take.errors_s(feel, take.read(feel))
+    lean = mean_error(errors, feel.spread_s)
+    return replace(feel, lean_s=lean, spread_s=_spread(errors - lean))
+
+
+def _spread(errors: Floats) -> float:
+    """The standard deviation of errors about 0, of which the furthest count as slips."""
+    middle = 1.4826 * float(np.median(np.abs(errors)))
+    clipped = np.clip(errors, -SLIP * middle, SLIP * middle)
+    return min(max(float(np.sqrt(np.mean(clipped**2))), MIN_SPREAD_S), MAX_SPREAD_S)
 
 
 def _refined(take: Take, feel: Feel) -> Feel:
@@ -96,38 +123,19 @@ def _refined(take: Take, feel: Feel) -> Feel:
         swing = replace(feel.swing, ratio=ratio)
         places = played_places(take.spans, span, cells, reading.cells[span], swing)
         errors = (place - places) * length_s
-        lean = float(np.median(errors))
+        lean = mean_error(errors, feel.spread_s)
         z = np.minimum(np.abs(errors - lean) / feel.spread_s, SLIP)
-        found = replace(feel, swing=swing, lean_s=feel.lean_s + lean)
+        found = replace(feel, swing=swing, lean_s=feel.lean_s + lean, spread_s=_spread(errors - lean))
         return float(z @ z) / 2 + prior_cost(found), found
 
     steps = [round(MIN_RATIO + k * _RATIO_STEP, 1) for k in range(1, round((MAX_RATIO - MIN_RATIO) / _RATIO_STEP) + 1)]
     return min((at(ratio) for ratio in steps), key=lambda pair: pair[0])[1]
 
 
-def _swings(feel: Feel, ratios: Sequence[float]) -> list[Feel]:
-    """The feel with every swing that may be asked for, and straight."""
-    swings = [Swing(ratio, unit) for ratio in ratios for unit in _UNITS if 1 < ratio <= 3.5]
-    return [replace(feel, swing=s) for s in (Swing(), feel.swing, *swings)]
-
-
-def _cheapest(take: Take, feels: Iterable[Feel]) -> Feel:
-    return min(feels, key=lambda f: take.read(f).cost + prior_cost(f))
-
-
-def prior_cost(feel: Feel) -> float:
-    """What lean and swing cost before a stroke is heard."""
-    ratio = feel.swing.ratio
-    swing = 0.0 if ratio == STRAIGHT else NAMED_RATIOS.get(ratio, _OTHER_RATIO_COST)
-    return swing + (feel.lean_s / LEAN_SD_S) ** 2 / 2
-
-
-def _settled(take: Take, feel: Feel) -> Feel:
-    """The feel with the lean and the spread that its errors have."""
-    errors = take.errors_s(feel, take.read(feel))
-    lean = float(np.median(errors))
-    spread = float(np.median(np.abs(errors - lean))) * 1.4826
-    return replace(feel, lean_s=lean, spread_s=min(max(spread, MIN_SPREAD_S), MAX_SPREAD_S))
+def mean_error(errors: Floats, spread_s: float) -> float:
+    """The mean of the errors that are no slips."""
+    middle = float(np.median(errors))
+    return float(errors[np.abs(errors - middle) <= SLIP * spread_s].mean()) if len(errors) else 0.0
 
 
 def take_of(ns: Ints, piece: Ints, spans: BeatSpans) -> Take:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.drills.transcription.beat_spans import BeatSpans, Floats, Ints
 
@@ -50,13 +49,14 @@ class Strokes:
         z = np.abs(self.place - places) * self.length_s / self.spread_s
         return np.where(z <= SLIP, z * z / 2, SLIP * (z - SLIP / 2))
 
-    def of(self, chosen: NDArray[np.bool_]) -> "Strokes":
-        """The strokes that are `chosen`."""
+    def of(self, chosen: Ints) -> "Strokes":
+        """The strokes with the indices `chosen`."""
         return Strokes(self.spans, self.span[chosen], self.place[chosen], self.piece[chosen], self.spread_s)
 
     def sums(self, costs: Floats) -> Floats:
         """The sum of the strokes' `costs` in each span."""
-        return np.bincount(self.span, costs, len(self.spans))
+        total: Floats = np.bincount(self.span, costs, len(self.spans)).astype(np.float64)
+        return total
 
 
 def strokes_at(times_s: Floats, piece: Ints, spans: BeatSpans, spread_s: float) -> Strokes:
@@ -108,4 +108,4 @@ def _change(strokes: Strokes, places: Floats, which: Ints, now: Ints, then: Ints
 def collision_cost(strokes: Strokes, cell: Ints) -> Floats:
     """What strokes that share a piece and a cell cost each span."""
     meet = strokes.by_piece[colliding(strokes, cell)]
-    return np.bincount(strokes.span[meet], minlength=len(strokes.spans)) * COLLISION
+    return np.bincount(strokes.span[meet], minlength=len(strokes.spans)).astype(np.float64) * COLLISION
