@@ -129,8 +129,7 @@ def _check_free(out: Path, overwrite: bool) -> None:
 
 
 def _import(options: ImportOptions) -> int:
-    from station.drills.quantise import lesson_of, quantise_score
-    from station.drills.writing.lesson_writer import write_lesson
+    from station.drills.transcription.transcribe import transcribe
 
     if is_lesson(options.source):
         raise BadInput(options.source, "", f"expected a music file ({endings()}) or a take (.capture)")
@@ -138,14 +137,10 @@ def _import(options: ImportOptions) -> int:
     _check_free(out, options.overwrite)
     source = existing(options.source)
     part = load_part(str(source))
-    if not len(part.score):
-        raise BadInput(source, "", "there is no drum note in it")
-    fitted = quantise_score(part.score)
-    lesson = lesson_of(fitted.score, out.stem, part.score.title or source.stem, fitted.velocities)
-    write_whole(out, write_lesson(lesson).encode())
-    if fitted.moved or fitted.left_out:
-        moved = f"{_counted(fitted.moved, 'stroke')} moved onto the grid, by at most {fitted.furthest_ms:.0f} ms"
-        say(f"{moved}; {fitted.left_out} left out that two hands and two feet cannot play")
+    found = transcribe(part, out.stem, str(source))
+    write_whole(out, found.lesson.text.encode())
+    for remark in found.remarks:
+        say(remark)
     for line in part.lost:
         say(f"lost     {line}")
     say(f"lesson   {out}")

@@ -21,12 +21,19 @@ ms); our doubles begin at 77 ms (our choice between them)."""
 _DRUMS = frozenset({Piece.SNARE, *TOMS})
 
 
-def with_diddles(notes: Sequence[Note], tempo_map: TempoMap, velocities: Velocities) -> list[Note]:
-    """The main strokes `notes`, in order of ticks, those of diddles by their ornament, of rolls where they touch."""
+def with_diddles(
+    notes: Sequence[Note], beyond: Sequence[Note], tempo_map: TempoMap, velocities: Velocities
+) -> list[Note]:
+    """The main strokes `notes`, in order of ticks, those of diddles by their ornament, of rolls where they touch.
+
+    `beyond` are the strokes beyond the player, which need cells in the same lines.
+    """
     found = list(notes)
     for piece in _DRUMS & {n.piece for n in notes}:
         rows = [i for i, n in enumerate(notes) if n.piece is piece]
-        pairs = _pairs([notes[i] for i in rows], tempo_map)
+        cells = [n.tick for n in beyond if n.piece is piece]
+        cells += [n.tick + n.duration_ticks for n in notes if n.piece is piece and n.duration_ticks]
+        pairs = _pairs([notes[i] for i in rows], cells, tempo_map)
         spans = {notes[rows[a]].tick: 2 * (notes[rows[b]].tick - notes[rows[a]].tick) for a, b in pairs}
         ends = {start + span for start, span in spans.items()}
         for a, b in pairs:
@@ -40,15 +47,17 @@ def with_diddles(notes: Sequence[Note], tempo_map: TempoMap, velocities: Velocit
     return found
 
 
-def _pairs(line: Sequence[Note], tempo_map: TempoMap) -> list[tuple[int, int]]:
-    """Indices of the strokes of each diddle in one drum's line, beat by beat."""
+def _pairs(line: Sequence[Note], starts: Sequence[int], tempo_map: TempoMap) -> list[tuple[int, int]]:
+    """Indices of the strokes of each diddle in one drum's line, beat by beat; cells begin at `starts` besides."""
     found: list[tuple[int, int]] = []
     for beat, rows in groupby(range(len(line)), key=lambda i: _beat_of(line[i], tempo_map)):
         in_beat = list(rows)
         pairs = [(a, b) for a, b in pairwise(in_beat) if _is_diddle(line[a], line[b], beat, tempo_map)]
         seconds = {b for _, b in pairs}
         cells = {2 * (line[b].tick - line[a].tick) for a, b in pairs}
-        if len(cells) == 1 and all(i in seconds or (line[i].tick - beat[0]) % max(cells) == 0 for i in in_beat):
+        others = [line[i].tick for i in in_beat if i not in seconds]
+        others += [tick for tick in starts if beat[0] <= tick < sum(beat)]
+        if len(cells) == 1 and not any((tick - beat[0]) % max(cells) for tick in others):
             found += pairs
     return found
 
