@@ -1,57 +1,18 @@
-"""Bringing times onto the grid: whole bars, tempo changes at their starts, strokes on the cells of their beat."""
+"""Bringing times onto the grid: strokes on the cells of their beat."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from itertools import groupby, pairwise
+from itertools import groupby
 from types import MappingProxyType
 
-from station.core.errors import BadInput
-from station.core.units import PPQ
-from station.music.score import Note, Score
-from station.music.tempo import MeterChange, TempoChange, TempoMap
+from station.music.score import Note
+from station.music.tempo import MeterChange, TempoMap
 
 _EXACT_CELLS = (1, 2, 3, 4, 6, 8, 5, 7, 12, 16, 10)
 _COST = MappingProxyType({1: 0.0, 2: 0.005, 4: 0.01, 3: 0.03, 6: 0.05, 8: 0.05})
 """Cells a beat for played music, and what each costs, in beats of mean error: our choice. Human spread is 0.03–0.05
 beats (26–28 ms, HUMANS, Timing), so finer cells must earn their place by more than noise."""
 _EXACT_BEATS = 1e-4
-
-
-def at_bar_starts(score: Score) -> TempoMap:
-    """The tempo map with whole bars alone, and tempo changes moved to the start of the nearest bar.
-
-    A bar that a change of meter cuts short gets a meter of its own; of tempo changes that meet the last counts.
-    """
-    old = score.tempo_map
-    meters = list(old.meters)
-    for before, after in pairwise(old.meters):
-        if cut := (after.tick - before.tick) % before.bar_ticks:
-            meters.append(_short_bar(after.tick - cut, cut, score))
-    whole = TempoMap.build(old.tempos, [m for m in meters if m.tick < score.end_tick])
-    tempos: list[TempoChange] = []
-    for change in old.tempos:
-        bar = int(whole.bars_at(change.tick))
-        start, end = whole.bar_start(bar), whole.bar_start(bar + 1)
-        tempos.append(replace(change, tick=start if change.tick - start < end - change.tick else end))
-    return TempoMap.build(_changing(t for t in tempos if t.tick < score.end_tick), whole.meters)
-
-
-def _short_bar(tick: int, length_ticks: int, score: Score) -> MeterChange:
-    """A meter for one bar of `length_ticks`."""
-    for unit in (4, 8, 16, 32):
-        if length_ticks * unit % (4 * PPQ) == 0:
-            return MeterChange(tick, length_ticks * unit // (4 * PPQ), unit)
-    bar = int(score.tempo_map.bars_at(tick)) + 1
-    raise BadInput(score.title or "score", f"bar {bar}", "a change of meter cuts it between the notes of the grid")
-
-
-def _changing(tempos: Iterable[TempoChange]) -> list[TempoChange]:
-    last_of = {t.tick: t for t in tempos}
-    found: list[TempoChange] = []
-    for change in last_of.values():
-        if not found or found[-1].us_per_quarter != change.us_per_quarter:
-            found.append(change)
-    return found
 
 
 def on_cells(notes: Sequence[Note], tempo_map: TempoMap, end_tick: int) -> list[Note]:

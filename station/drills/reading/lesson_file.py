@@ -43,6 +43,8 @@ from station.drills.reading.played_grids import (
     tempos_of,
 )
 from station.drills.reading.unplayable import note_unplayable
+from station.music.formats.format_table import is_music_file
+from station.music.formats.text_score import TEXT_ENDING
 from station.music.loudness_marks import joined_marks
 from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoMap
@@ -72,9 +74,10 @@ def read_lesson(path: Path) -> Lesson:
 def lesson_source(path: Path) -> Source:
     """The lesson file at `path`; raises `BadInput` if it cannot be read or is too long."""
     data = read_regular(path, MAX_FILE_BYTES)
-    if data.startswith(_MIDI):
+    is_music = is_music_file(path.name) and path.suffix.lower() != TEXT_ENDING  # a lesson may be a text
+    if is_music or data.startswith(_MIDI):
         way = f"`station lesson import {path} --out {path.stem}.toml`"
-        raise BadInput(path, "", f"a MIDI file, not a lesson; {way} makes a lesson of it")
+        raise BadInput(path, "", f"a music file, not a lesson; {way} makes a lesson of it")
     return source_of(data, str(path))
 
 

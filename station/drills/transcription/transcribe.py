@@ -6,7 +6,6 @@ what is beyond one player, diddles, and last the page: sections, repeats, level.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from statistics import median
 
 import numpy as np
@@ -59,12 +58,12 @@ def transcribe(part: DrumPart, name: str, source: str = "") -> Transcribed:
     Raises `BadInput` of `source` for a part without strokes, or of more than a lesson may have.
     """
     try:
-        return _transcribed(part, name, Path(source or name).stem)
+        return _transcribed(part, name)
     except BadInput as found:
         raise BadInput(source or name, found.place, found.fault) from None
 
 
-def _transcribed(part: DrumPart, name: str, file_title: str) -> Transcribed:
+def _transcribed(part: DrumPart, name: str) -> Transcribed:
     if not len(part.score):
         raise BadInput(name, "", "there is no drum note in it")
     if part.score.bar_count > MAX_BARS:
@@ -83,7 +82,7 @@ def _transcribed(part: DrumPart, name: str, file_title: str) -> Transcribed:
     beyond = [replace(note, velocity=velocities.of(note.piece, note.dynamic)) for note in reach.beyond]
     lesson = Lesson(
         name,
-        _printable(part.score.title) or _printable(file_title) or name,
+        _printable(part.score.title) or name,
         Score.from_notes(rows, score.tempo_map, score.end_tick),
         author=_printable(part.author),
         about=_printable(part.about),

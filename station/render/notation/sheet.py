@@ -10,7 +10,7 @@ import numpy as np
 from station.core.pieces import Limb
 from station.core.units import PPQ
 from station.music.score import Score
-from station.render.notation import engraving, note_shapes
+from station.render.notation import note_shapes
 from station.render.notation.beat_note import draw_beat_note
 from station.render.notation.engraving import Engraver
 from station.render.notation.line_breaks import REPEAT, BarBox, ruler, systems
@@ -30,8 +30,7 @@ PAPERS = {"a4": (595.28, 841.89), "letter": (612.0, 792.0)}
 LEAD = 6.2
 """What clef and meter take of a line, in staff spaces, at the least."""
 _CLEF_X, _SIGNATURE_X = 0.8, 0.8 + note_shapes.CLEF_WIDTH + note_shapes.SIGNATURE_GAP
-_TOP, _BELOW = engraving.TOP_Y - 0.6, 0.4
-_SECTION_Y = -9.0
+_ABOVE, _BELOW = 0.6, 0.4
 _TITLE, _TEXT, _SMALL = 22.0, 11.0, 9.5
 _BEAT_NOTE = 9.2
 """The unit of the note before the tempo: a little taller than its figures (our choice)."""
@@ -102,7 +101,7 @@ class _SheetPage:
         self._new_meters = {
             int(tempo.bars_at(meter.tick)): meter for meter in tempo.meters if 0 < meter.tick < score.end_tick
         }
-        self._bottom = engraving.bottom_of(score) + _BELOW
+        self._top, self._bottom = self._engraver.rows_y.top - _ABOVE, self._engraver.rows_y.bottom + _BELOW
         widest = note_shapes.signature_width(DrawList(self._atlas), score.tempo_map.meter_at(0))
         self._lead = max(LEAD, _SIGNATURE_X + widest + note_shapes.SIGNATURE_GAP)
 
@@ -111,7 +110,7 @@ class _SheetPage:
         self._head()
         named = {bar for bar, _ in self._words.sections}
         for boxes in systems(self._score, self._width / self._space - self._lead, self._before()):
-            top = _TOP - (2.0 if any(box.bar in named for box in boxes) else 0.0)
+            top = self._top - (2.0 if any(box.bar in named for box in boxes) else 0.0)
             page = self._room((self._bottom - top) * self._space)
             self._system(boxes, page, page.y - top * self._space)
             page.y += (self._bottom - top) * self._space
@@ -201,7 +200,7 @@ class _SheetPage:
         for box in boxes:
             x = self._lead + box.left
             if box.bar in names:
-                draw_list.text(names[box.bar], (x, _SECTION_Y), TypeStyle(1.9, INK, Face.BOLD))
+                draw_list.text(names[box.bar], (x, self._top), TypeStyle(1.9, INK, Face.BOLD))
             if box.bar == first:
                 _repeat(draw_list, x, 1)
             elif box is not boxes[0] and box.bar - 1 != last:

@@ -194,9 +194,9 @@ def test_what_the_file_says_of_itself_stands_in_the_lesson() -> None:
     assert (lesson.title, lesson.author, lesson.about) == ("Song [2J two", "A. Drummer", "Quietly.")
 
 
-def test_without_a_title_it_has_the_files_name() -> None:
+def test_without_a_title_it_has_the_lessons_name() -> None:
     part = DrumPart(Score.from_array(Score.from_notes([snare(0)], TEMPO).notes, TEMPO, title="\x00"))
-    assert transcribe(part, "x", "songs/blue moon.mid").lesson.title == "blue moon"
+    assert transcribe(part, "blue moon", "songs/a.mid").lesson.title == "blue moon"
 
 
 def test_the_files_sections_are_the_lessons() -> None:

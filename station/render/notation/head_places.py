@@ -1,0 +1,114 @@
+"""Where the heads of a chord stand beside its stems, so that none lies on another.
+
+Units are staff spaces, x right from the middle of a plain round head, whose edge the stems touch. Heads a second apart
+or on one step stand on either side of the stem (Gould, "Behind Bars", 2011, "Chords"). The feet's head that would lie
+on a hand's goes to the far side of its own stem.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Articulation, Dynamic, Piece, Zone
+from station.render.notation.staff import FOOT_PIECES, NoteHead, head_of, step_of
+from station.render.text.sign_outlines import STEM, sign_box
+
+HEAD_SIGNS = {
+    NoteHead.ROUND: "head_round",
+    NoteHead.CROSS: "head_cross",
+    NoteHead.DIAMOND: "head_diamond",
+    NoteHead.TRIANGLE: "head_triangle",
+    NoteHead.RINGED_CROSS: "head_ringed_cross",
+    NoteHead.HEAVY_CROSS: "head_heavy_cross",
+    NoteHead.ORNATE_CROSS: "head_ornate_cross",
+    NoteHead.HOLLOW_DIAMOND: "head_hollow_diamond",
+    NoteHead.SLASHED: "head_slashed",
+}
+EDGE_X = sign_box("head_round").right
+"""Where a stem's outer edge stands, right of a head when up, left of it when down."""
+_SECOND = 1
+"""Heads so many steps apart or nearer cover one another."""
+_BRACKET_GAP = 0.03
+"""Between a head or a stem and the bracket beside it (our choice)."""
+_BRACKET_REACH = 2
+"""Brackets are half as high again as heads: they must clear those so many steps away."""
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedHead:
+    """One head: its `step`, its shape, its middle `x`, and the middles of its brackets where it is a ghost stroke."""
+
+    step: int
+    head: NoteHead
+    x: float
+    is_foot: bool
+    brackets_x: tuple[float, float] | None = None
+
+    @property
+    def left(self) -> float:
+        """Its left edge."""
+        return self.x - half_width(self.head)
+
+    @property
+    def right(self) -> float:
+        """Its right edge."""
+        return self.x + half_width(self.head)
+
+
+def half_width(head: NoteHead) -> float:
+    """Half of what a head of that shape takes across."""
+    return sign_box(HEAD_SIGNS[head]).width / 2
+
+
+def _stem_half(head: NoteHead) -> float:
+    """How far from its middle a stem touches it: what slashes a head goes beyond that."""
+    return sign_box(HEAD_SIGNS[head]).advance / 2
+
+
+def placed_heads(mains: NDArray[np.void]) -> list[PlacedHead]:
+    """The heads of the strokes `mains` (rows of one tick, both voices, without grace strokes), in their order."""
+    found = [_plain(row) for row in mains]
+    placed: list[PlacedHead] = []
+    for i in sorted(range(len(found)), key=lambda i: _order(found[i])):
+        if any(abs(o.step - found[i].step) <= _SECOND and not _is_displaced(o) for o in placed):
+            found[i] = replace(found[i], x=_displaced_x(found[i]))
+        placed.append(found[i])
+    return [_bracketed(head, found) if is_ghost(row) else head for head, row in zip(found, mains, strict=True)]
+
+
+def _plain(row: np.void) -> PlacedHead:
+    piece = Piece(int(row["piece"]))
+    head = head_of(piece, Zone(int(row["zone"])), Articulation(int(row["articulation"])))
+    is_foot = piece in FOOT_PIECES
+    beside = EDGE_X - _stem_half(head)
+    return PlacedHead(step_of(piece), head, -beside if is_foot else beside, is_foot)
+
+
+def _order(head: PlacedHead) -> tuple[bool, int, int]:
+    """Which heads are placed first: the hands' from the lowest up, then the feet's from the highest down."""
+    return head.is_foot, -head.step if head.is_foot else head.step, int(head.head)
+
+
+def _is_displaced(head: PlacedHead) -> bool:
+    return abs(head.x) > EDGE_X  # heads wider or narrower than round ones leave the middle by less
+
+
+def _displaced_x(head: PlacedHead) -> float:
+    beyond = EDGE_X - STEM + _stem_half(head.head)
+    return -beyond if head.is_foot else beyond
+
+
+def is_ghost(row: np.void) -> bool:
+    """Whether brackets say that the stroke is soft; grace strokes are so by themselves."""
+    return bool(row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0)
+
+
+def _bracketed(head: PlacedHead, heads: Sequence[PlacedHead]) -> PlacedHead:
+    """The head in brackets, which stand outside of any other head that is as high as they are."""
+    near = [other for other in heads if abs(other.step - head.step) <= _BRACKET_REACH]
+    half = sign_box("bracket_left").width / 2
+    left = min(-EDGE_X if head.is_foot else 0.0, *(o.left for o in [head, *near])) - _BRACKET_GAP - half
+    right = max(0.0 if head.is_foot else EDGE_X, *(o.right for o in [head, *near])) + _BRACKET_GAP + half
+    return replace(head, brackets_x=(left, right))

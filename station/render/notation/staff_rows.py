@@ -1,0 +1,137 @@
+"""The rows above and below a staff: what stands next to the notes, then sticking, bar numbers and words, loudness.
+
+Each row lies beyond everything that a chord of the score stacks on its stem, so that nothing in it can meet a note's
+signs. The hands' letters stand above, at their stems' ends, the feet's below: none can be read as the other's.
+Units are staff spaces, y down, 0 on the staff's middle line.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
+from station.core.units import PPQ
+from station.music.score import Score
+from station.render.notation.staff import FOOT_PIECES, height, step_of
+from station.render.text.sign_outlines import sign_box
+
+UP_BEAM_Y, DOWN_BEAM_Y = -5.4, 4.35
+"""Stems of a voice reach at least here, so that beams stand level along the line."""
+OVER_HEADS, UNDER_HEADS = 1.8, 2.0
+"""And so far beyond their outermost head."""
+OPEN_FROM, WIDE_FROM = 0.25, 0.75
+"""Openness from which a hat is written half open and open (our choice)."""
+STACK_GAP = 0.3
+"""Between two signs on top of each other (Gould, "Behind Bars": at least a quarter of a space)."""
+TUPLET_HEIGHT = sign_box("tuplet_0").height * 0.8 + 2 * STACK_GAP
+"""What a tuplet's number and bracket take."""
+_LETTERS, _WORDS, _LOUDNESS = 1.6, 1.9, 2.9
+"""What rows of letters, of words and of loudness take, with the gap before them."""
+_WEAKEST_FEET = {Piece.KICK: Limb.LEFT_FOOT, Piece.HIHAT_PEDAL: Limb.RIGHT_FOOT}
+"""Whose letters say something: the foot that a piece is not played with as a rule."""
+_PLAIN_GRID = PPQ // 8
+
+
+@dataclass(frozen=True, slots=True)
+class StaffRows:
+    """Baselines of the rows of one score's staff, and how far up and down it reaches with them."""
+
+    top: float
+    words: float
+    hands: float
+    feet: float
+    loudness: float
+    bottom: float
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """From the top to the bottom."""
+        return self.top, self.bottom
+
+
+def closing_hats(score: Score) -> NDArray[np.bool_]:
+    """Which strokes are the first closed ones after an open hi-hat, shape (n,)."""
+    hats = np.flatnonzero(score.notes["piece"] == Piece.HIHAT)
+    opened = score.notes["openness"][hats] >= OPEN_FROM
+    closing = np.zeros(len(score), np.bool_)
+    closing[hats[1:]] = opened[:-1] & (score.notes["openness"][hats[1:]] < OPEN_FROM)
+    return closing
+
+
+def stacked_signs(notes: NDArray[np.void], closing: NDArray[np.bool_]) -> list[str]:
+    """The signs that stand beyond the stem's end of one chord's main strokes `notes`, from there outward."""
+    found = [_hat_sign(row, bool(shut)) for row, shut in zip(notes, closing, strict=True)]
+    found += ["choke"] * bool((notes["choke_ticks"] > 0).any())
+    found += ["accent"] * bool((notes["dynamic"] == Dynamic.ACCENT).any())
+    return [name for name in found if name]
+
+
+def _hat_sign(row: np.void, is_closing: bool) -> str:
+    piece, openness = row["piece"], row["openness"]
+    if piece == Piece.HIHAT and openness >= OPEN_FROM:
+        return "hat_open" if openness >= WIDE_FROM else "hat_half"
+    if piece == Piece.HIHAT and is_closing:
+        return "hat_closed"
+    return "hat_open" if piece == Piece.HIHAT_PEDAL and row["articulation"] == Articulation.SPLASH else ""
+
+
+def stack_height(names: list[str]) -> float:
+    """How far such signs reach beyond the stem's end."""
+    return sum(sign_box(name).height + STACK_GAP for name in names)
+
+
+def shown_limbs(score: Score, limbs: NDArray[np.int8]) -> NDArray[np.int8]:
+    """The limbs whose letters are written: all hands', and the feet's on pieces that both feet play."""
+    shown = limbs.copy()
+    for piece, foot in _WEAKEST_FEET.items():
+        rows = score.notes["piece"] == piece
+        if not (limbs[rows] == foot).any():
+            shown[rows] = Limb.UNKNOWN
+    return shown
+
+
+def staff_rows(score: Score, limbs: NDArray[np.int8] | None = None) -> StaffRows:
+    """The rows of the staff of `score`; `limbs` (n,) write its sticking, None those of the score itself."""
+    shown = shown_limbs(score, score.notes["limb"] if limbs is None else limbs)
+    is_foot = np.isin(score.notes["piece"], [int(piece) for piece in FOOT_PIECES])
+    hands = _reach(score, ~is_foot, UP_BEAM_Y, -1)
+    hands_row = hands - STACK_GAP
+    has_hands = bool(np.isin(shown, (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any())
+    words = hands_row - (_LETTERS if has_hands else 0.0)
+    feet = _reach(score, is_foot, DOWN_BEAM_Y, 1) + _LETTERS
+    has_feet = bool(np.isin(shown, (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)).any())
+    low = feet if has_feet else feet - _LETTERS
+    loudness = low + _LOUDNESS - 0.7
+    bottom = (low + _LOUDNESS if score.loudness else low) + STACK_GAP
+    return StaffRows(words - _WORDS, words, hands_row, feet, loudness, bottom)
+
+
+def _reach(score: Score, rows: NDArray[np.bool_], beam_y: float, way: int) -> float:
+    """How far what is stacked on the chords of one voice reaches at the most."""
+    notes, closing = score.notes[rows], closing_hats(score)[rows]
+    if not len(notes):
+        return beam_y
+    steps = [step_of(Piece(int(piece))) for piece in np.unique(notes["piece"])]
+    beyond = height(max(steps)) - OVER_HEADS if way < 0 else height(min(steps)) + UNDER_HEADS
+    stem = min(beam_y, beyond) if way < 0 else max(beam_y, beyond)
+    return stem + way * (_tallest(notes, closing) + (TUPLET_HEIGHT if _has_tuplets(notes) else 0.0))
+
+
+def _tallest(notes: NDArray[np.void], closing: NDArray[np.bool_]) -> float:
+    """The highest stack of the chords among `notes`."""
+    mains = notes["lead_ms"] <= 0
+    notes, closing = notes[mains], closing[mains]
+    bearing = (
+        closing | (notes["openness"] >= OPEN_FROM) | (notes["choke_ticks"] > 0) | (notes["dynamic"] == Dynamic.ACCENT)
+    )
+    ticks = np.unique(notes["tick"][bearing])
+    firsts, lasts = np.searchsorted(notes["tick"], ticks), np.searchsorted(notes["tick"], ticks, side="right")
+    kinds = {tuple(stacked_signs(notes[a:b], closing[a:b])) for a, b in zip(firsts, lasts, strict=True)}
+    return max((stack_height(list(names)) for names in kinds), default=0.0)
+
+
+def _has_tuplets(notes: NDArray[np.void]) -> bool:
+    """Whether strokes lie beside the grid of thirty-seconds, as those of tuplets and of played music do."""
+    plain = notes["ornament"] != Ornament.ROLL
+    return bool(((notes["tick"] - notes["swing_ticks"])[plain] % _PLAIN_GRID != 0).any())
