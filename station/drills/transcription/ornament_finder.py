@@ -102,7 +102,8 @@ def found_ornaments(score: Score, graces: Graces | None = None) -> FoundOrnament
 
 
 def _is_said(note: Note) -> bool:
-    return note.ornament is not Ornament.NONE or note.lead_ms > 0
+    is_buzz = note.articulation is Articulation.BUZZ
+    return note.lead_ms > 0 or (note.ornament is not Ornament.NONE and not is_buzz)
 
 
 def _without_bounces(line: Sequence[_Stroke]) -> list[_Stroke]:

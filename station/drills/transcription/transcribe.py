@@ -179,5 +179,5 @@ def _side(lean_ms: float) -> str:
 
 
 def _counted(count: int, noun: str) -> str:
-    plural = "es" if noun.endswith("z") else "s"
-    return f"{count} {noun}{'' if count == 1 else ('z' if noun.endswith('z') else '') + plural}"
+    """The count and the noun, "1 flam" or "2 buzzes"."""
+    return f"{count} {noun}{'' if count == 1 else 'es' if noun.endswith('z') else 's'}"
