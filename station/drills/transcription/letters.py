@@ -55,7 +55,7 @@ _SOUND_OF = MappingProxyType({Zone.EDGE: Zone.BOW})
 _VARIANTS: Mapping[Piece, frozenset[tuple[Zone, Articulation]]] = MappingProxyType(
     {
         **dict.fromkeys(
-            (Piece.HIHAT, Piece.RIDE, Piece.RIDE_2),
+            (Piece.RIDE, Piece.RIDE_2),
             frozenset({(Zone.BOW, Articulation.NORMAL), (Zone.EDGE, Articulation.NORMAL)}),
         ),
         **dict.fromkeys(
@@ -69,14 +69,20 @@ _VARIANTS: Mapping[Piece, frozenset[tuple[Zone, Articulation]]] = MappingProxyTy
 def unified(notes: Sequence[Note]) -> list[Note]:
     """Of a take, strokes of one piece and dynamic that `_VARIANTS` tells apart, all as most of them are.
 
-    A player who keeps time on the hi-hat meets its edge now and then; nobody means that, and nobody writes it.
+    A player who keeps time on the ride meets its edge now and then; nobody means that, and nobody writes it. On the
+    hi-hat most players strike the edge, at least for accents, and all write it as they do the bow.
     """
+    notes = [_on_the_bow(n) for n in notes]
     counts: dict[tuple[Piece, Dynamic], Counter[tuple[Zone, Articulation]]] = {}
     for note in notes:
         if _is_variant(note):
             ways = counts.setdefault((note.piece, note.dynamic), Counter())
             ways[note.zone, note.articulation] += 1
     return [_as_most(n, counts[n.piece, n.dynamic]) if _is_variant(n) else n for n in notes]
+
+
+def _on_the_bow(note: Note) -> Note:
+    return replace(note, zone=Zone.BOW) if (note.piece, note.zone) == (Piece.HIHAT, Zone.EDGE) else note
 
 
 def _is_variant(note: Note) -> bool:

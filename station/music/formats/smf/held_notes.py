@@ -25,11 +25,11 @@ def held_notes(
 
     All other strokes are of one length, and a drum that has no such stroke is held each time until its next one.
     """
-    may_buzz = np.isin(pieces, _BUZZING) & (articulations == Articulation.NORMAL)
+    may_buzz: NDArray[np.bool_] = np.isin(pieces, _BUZZING) & (articulations == Articulation.NORMAL)
     others = lasts[~may_buzz] if not may_buzz.all() else lasts[lasts == lasts.min(initial=0)]
     if not len(others) or others.min() != others.max():
         return np.zeros(len(ticks), np.bool_)
-    held = may_buzz & (lasts >= max(_LONGER * int(others[0]), shortest))
+    held: NDArray[np.bool_] = may_buzz & (lasts >= max(_LONGER * int(others[0]), shortest))
     if (lasts[~held] != others[0]).any():
         return np.zeros(len(ticks), np.bool_)
     for piece in np.unique(pieces[held]):
