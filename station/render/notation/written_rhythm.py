@@ -6,7 +6,7 @@ one, hands and feet together, which may be the next beat's or the next bar's sta
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -86,7 +86,7 @@ def _within(ticks: NDArray[np.int64], start: int, end: int) -> tuple[int, ...]:
 
 
 @lru_cache(maxsize=1 << 14)
-def _exact_places(offsets: tuple[int, ...], length: int) -> Mapping[int, int] | None:
+def _exact_places(offsets: tuple[int, ...], length: int) -> dict[int, int] | None:
     """Where a voice's strokes stand that are on a division, roughly on a simple one or well on any; None without."""
     for tried, most in ((guesses(length), _ROUNDED), (divisions(length), _EXACT)):
         for division in tried:
