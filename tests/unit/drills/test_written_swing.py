@@ -27,8 +27,8 @@ def test_swung_cells_are_printed_straight(ratio: float) -> None:
 
 
 def test_a_swing_of_two_is_triplets_only_in_a_bar_that_has_triplets() -> None:
-    lesson = lesson_of('swing_ratio = 2\n[grid]\nsnare = "oo ooo (oo) -- | oo -- -- --"')
-    assert quarters(lesson) == pytest.approx([0, 2 / 3, 1, 4 / 3, 5 / 3, 2, 2.5, 4, 4.5])
+    lesson = lesson_of('swing_ratio = 2\n[grid]\nsnare = "oo (ooo) oo -- | oo -- -- --"')
+    assert quarters(lesson) == pytest.approx([0, 2 / 3, 1, 4 / 3, 5 / 3, 2, 8 / 3, 4, 4.5])
 
 
 def test_triplets_of_another_line_count_too() -> None:
@@ -38,7 +38,7 @@ def test_triplets_of_another_line_count_too() -> None:
 
 def test_another_ratio_is_never_spelled_in_notes() -> None:
     """At 3:1 the late eighth would be a dotted eighth and a sixteenth: it stays straight beside triplets."""
-    lesson = lesson_of('swing_ratio = 3\n[grid]\nsnare = "oo ooo -- --"')
+    lesson = lesson_of('swing_ratio = 3\n[grid]\nsnare = "oo (ooo) -- --"')
     assert quarters(lesson) == pytest.approx([0, 1 / 2, 1, 4 / 3, 5 / 3])
 
 
