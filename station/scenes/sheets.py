@@ -58,4 +58,4 @@ def score_labels(score: Score, bars: Bars, name: str) -> SheetWords:
 def pdf_of(score: Score, bars: Bars, words: SheetWords, paper: str, with_sticking: bool = True) -> bytes:
     """The sheet as a PDF file on `paper`, one of `PAPERS`."""
     size = PAPERS[paper]
-    return pdf(sheet(score.bars(*bars).as_written, words, size, with_sticking), size, words.title, words.author)
+    return pdf(sheet(score.bars(*bars), words, size, with_sticking), size, words.title, words.author)
