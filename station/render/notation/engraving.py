@@ -20,10 +20,9 @@ from station.render.notation.chord_pen import Chord, ChordPen
 from station.render.notation.loudness_row import draw_loudness
 from station.render.notation.note_values import Value
 from station.render.notation.rests import draw_rest
-from station.render.notation.staff import FOOT_PIECES
 from station.render.notation.staff_rows import closing_hats, shown_limbs, staff_rows
 from station.render.notation.voice_pen import BarSpan, VoicePen
-from station.render.notation.written_strokes import written_strokes
+from station.render.notation.written_strokes import feet_of, written_strokes
 from station.render.palette import INK_SOFT
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
@@ -50,8 +49,7 @@ class Engraver:
         self.rows_y = staff_rows(score, self._limbs)
         self._closing = closing_hats(score)
         self._numbers, self._beat_ticks = numbers or BarNumbers(), beat_ticks
-        feet = [int(p) for p in FOOT_PIECES]
-        self.strokes = written_strokes(score, np.isin(score.notes["piece"], feet))
+        self.strokes = written_strokes(score, feet_of(score))
         self._order = np.argsort(self.strokes.tick, kind="stable")
 
     def bar(self, bar: int, with_line: bool = True, opens_line: bool = False) -> NDArray[np.void]:

@@ -3,7 +3,7 @@
 Lengths are points (1/72 inch) where no other unit is named, y down; the staff's are staff spaces, as in `engraving`.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,6 +18,8 @@ from station.render.notation.sheet_bars import sheet_bars
 from station.render.notation.sheet_key import KEY_HEIGHT, draw_key
 from station.render.notation.sheet_line import LineInk, LineSetter
 from station.render.notation.sheet_words import LineWord, TempoSign
+from station.render.notation.swing_words import SwingMark, swing_marks
+from station.render.notation.written_strokes import notated
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -44,16 +46,14 @@ _BETWEEN, _MOST_BETWEEN = 2.2, 5.0
 class SheetWords:
     """What stands on a sheet beside its notes.
 
-    `beats_a_minute` of beats `beat_ticks` long; `feel` such as "swing 2 : 1"; `sections` the names of parts by the bar
-    (from 0) where they begin; `repeat` the first and last bar (from 0) of what is to be repeated; `first_bar` what the
-    first bar is called.
+    `beats_a_minute` of beats `beat_ticks` long; `sections` the names of parts by the bar (from 0) where they begin;
+    `repeat` the first and last bar (from 0) of what is to be repeated; `first_bar` what the first bar is called.
     """
 
     title: str
     author: str = ""
     beats_a_minute: float | None = None
     beat_ticks: int = PPQ
-    feel: str = ""
     about: str = ""
     sections: tuple[tuple[int, str], ...] = ()
     repeat: tuple[int, int] | None = None
@@ -70,8 +70,8 @@ class _Page:
 
 
 def sheet(score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool = True) -> list[Ink]:
-    """The pages of `score`, as notation writes it (`Score.as_written`), each of `size` (width, height) points."""
-    pages = _SheetPages(score.as_written, words, size, with_sticking)
+    """The pages of `score`, each of `size` (width, height) points; it swings under marks, straight as it is written."""
+    pages = _SheetPages(score, words, size, with_sticking)
     for space in SPACES[:-1]:
         if pages.may_be_one(space) and len(found := pages.pages(space)) == 1:
             return found
@@ -82,12 +82,15 @@ class _SheetPages:
     """The work of one sheet; `space` is a staff space in points throughout."""
 
     def __init__(self, score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool) -> None:
+        swing, score = swing_marks(score), notated(score)
         self._score, self._words, self._size, self._with_sticking = score, words, size, with_sticking
         self._atlas = OutlineAtlas()
         limbs = score.notes["limb"]
         shown = limbs if with_sticking else np.full_like(limbs, Limb.UNKNOWN)
-        bars = sheet_bars(score, [bar for bar, _ in words.sections], words.repeat, words.first_bar)
-        self._setter = LineSetter(Engraver(score, self._atlas, shown), bars, _line_words(score, words), self._atlas)
+        begin = sorted({bar for bar, _ in words.sections} | swing.keys() - {0})
+        bars = sheet_bars(score, begin, words.repeat, words.first_bar)
+        above = _line_words(score, words, swing)
+        self._setter = LineSetter(Engraver(score, self._atlas, shown), bars, above, self._atlas)
         self._bars = self._setter.set_bars()
 
     @property
@@ -180,23 +183,28 @@ class _SheetPages:
             draw_list.text(line, (0.0, _HEAD_HEIGHT + 4.0 + 13.0 * k), TypeStyle(_SMALL, INK_SOFT))
 
 
-def _line_words(score: Score, words: SheetWords) -> dict[int, list[tuple[float, LineWord]]]:
+def _line_words(
+    score: Score, words: SheetWords, swing: Mapping[int, SwingMark]
+) -> dict[int, list[tuple[float, LineWord]]]:
     """What stands above the bars, by bar: how many seconds after its start, and the words."""
     found: dict[int, list[tuple[float, LineWord]]] = {}
-    for bar, at_s, word in _words_in_order(score, words):
+    for bar, at_s, word in _words_in_order(score, words, swing):
         before = found.setdefault(bar, [])
         is_beside = bool(before) and before[-1][0] == at_s
         before.append((at_s, _joined(before.pop()[1], word) if is_beside else word))
     return found
 
 
-def _words_in_order(score: Score, words: SheetWords) -> Iterator[tuple[int, float, LineWord]]:
+def _words_in_order(
+    score: Score, words: SheetWords, swing: Mapping[int, SwingMark]
+) -> Iterator[tuple[int, float, LineWord]]:
     """Bar, seconds from its start, and word, by time."""
     tempo, found = score.tempo_map, list[tuple[int, float, LineWord]]()
     first = None if words.beats_a_minute is None else TempoSign(words.beats_a_minute, words.beat_ticks)
-    if first or words.feel:
-        found.append((0, 0.0, LineWord(0.0, tempo=first, feel=words.feel)))
+    if first:
+        found.append((0, 0.0, LineWord(0.0, tempo=first)))
     found += [(bar, 0.0, LineWord(0.0, section=name)) for bar, name in words.sections]
+    found += [(bar, 0.0, LineWord(0.0, swing=mark)) for bar, mark in swing.items()]
     for change in tempo_words(tempo):
         if change.tick < score.end_tick:
             bar = int(tempo.bars_at(change.tick))
@@ -208,4 +216,4 @@ def _words_in_order(score: Score, words: SheetWords) -> Iterator[tuple[int, floa
 
 def _joined(one: LineWord, other: LineWord) -> LineWord:
     """Two words for one place as one."""
-    return LineWord(one.x, one.section or other.section, other.tempo or one.tempo, other.feel or one.feel)
+    return LineWord(one.x, one.section or other.section, other.tempo or one.tempo, other.swing or one.swing)
