@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from station.core.units import PPQ
-from station.render.notation.divisions import COMPOUND, Division, Part, divisions, nearest_slot, slot_ticks
+from station.render.notation.beat_divisions import COMPOUND, Division, Part, divisions, nearest_slot, slot_ticks
 from station.render.notation.nearest_division import nearest_division
 from station.render.notation.note_values import BeatGroup, Stroke, TimedValue, Tuplet, Value
 

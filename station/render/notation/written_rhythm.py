@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from station.core.units import PPQ
 from station.music.score import Score
 from station.render.notation.bar_spelling import beat_groups
-from station.render.notation.divisions import Division, divisions, nearest_slot, slot_ticks
+from station.render.notation.beat_divisions import Division, divisions, nearest_slot, slot_ticks
 from station.render.notation.nearest_division import code_lengths, guesses
 
 _ROUNDED = PPQ // 192
