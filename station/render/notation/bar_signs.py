@@ -15,15 +15,15 @@ from station.render.notation.sheet_words import RAMPS
 from station.render.notation.swing_words import draw_swing_mark, swing_marks
 from station.render.palette import BRAND, INK_SOFT
 from station.render.snapshot import BarNumbers
-from station.render.text.draw_list import DrawList, TypeStyle
+from station.render.text.draw_list import TypeStyle
 from station.render.text.fonts import Face
 
 _LINE_X, _BOTH_X = -1.25, -2.1
 """Where a bar line stands, and the middle of two repeat signs, whose dots keep off the first note."""
 _NUMBER_X = 0.35
 """A bar's number begins so far left of its line: clear of what stands over the first beat."""
-_VOLTA_UP, _VOLTA_END = 1.05, -1.9
-"""The bracket of an ending stands so far above the words, its number among them, and ends before the next bar's."""
+_VOLTA_UP, _VOLTA_END = 1.25, -1.9
+"""The bracket of an ending stands so far above the words' line, its number among them, and ends before the next bar."""
 _NUMBER, _WORD, _ENDING = (
     TypeStyle(1.25, INK_SOFT, Face.BOLD),
     TypeStyle(1.5, BRAND, Face.BOLD),
@@ -34,13 +34,10 @@ _WORD_GAP = 0.9
 
 
 class BarSigns:
-    """What stands at the bar lines of `score`; `numbers` says which bars come again, `beat_ticks` what tempi count.
+    """What stands at the bar lines of `score`; `numbers` says which bars come again, `beat_ticks` what tempi count."""
 
-    Words stand at `words_y`.
-    """
-
-    def __init__(self, score: Score, numbers: BarNumbers, beat_ticks: int, words_y: float) -> None:
-        self._score, self._numbers, self._beat_ticks, self._y = score, numbers, beat_ticks, words_y
+    def __init__(self, score: Score, numbers: BarNumbers, beat_ticks: int) -> None:
+        self._score, self._numbers, self._beat_ticks = score, numbers, beat_ticks
         self._tempo_words = tempo_words(score.tempo_map)
         self._new_meters = {meter.tick for meter in score.tempo_map.meters if meter.tick > 0}
         self._swing = swing_marks(score)
@@ -73,8 +70,8 @@ class BarSigns:
         fitting = self._score.bar_count // loop if loop else 0
         return fitting if passes is None else min(passes, fitting)
 
-    def draw_words(self, anchor: Anchor, bar: int) -> None:
-        """The words above the bar; nothing after the last one."""
+    def draw_words(self, anchor: Anchor, bar: int, y: float) -> None:
+        """The words above the bar, their line at `y`; nothing after the last one."""
         tempo = self._score.tempo_map
         start, end = tempo.bar_start(bar), tempo.bar_start(bar + 1)
         if start >= self._score.end_tick:
@@ -82,40 +79,39 @@ class BarSigns:
         anchor.at(start)
         draw_list, x = anchor.draw_list, _LINE_X
         number = str(self._numbers.of(bar))
-        x += _NUMBER_X + draw_list.text(number, (x - _NUMBER_X, self._y), _NUMBER)
+        x += _NUMBER_X + draw_list.text(number, (x - _NUMBER_X, y), _NUMBER)
         if (volta := self._voltas.get(bar)) is not None:
-            x += _WORD_GAP / 2 + self._draw_volta(anchor, (start, end), x, volta)
+            x += _WORD_GAP / 2 + self._draw_volta(anchor, (start, end), (x, y), volta)
             anchor.at(start)
         if word := self._meter_word(start):
-            x += _WORD_GAP + draw_list.text(word, (x, self._y), _WORD)
+            x += _WORD_GAP + draw_list.text(word, (x, y), _WORD)
         if (mark := self._swing.get(bar)) is not None:
-            x += _WORD_GAP + draw_swing_mark(draw_list, (x, self._y), _WORD.size, mark, BRAND)
+            x += _WORD_GAP + draw_swing_mark(draw_list, (x, y), _WORD.size, mark, BRAND)
         for change in self._tempo_words:
             if start <= change.tick < end:
-                self._draw_tempo(anchor, change, x if change.tick == start else -0.6)
+                self._draw_tempo(anchor, change, (x if change.tick == start else -0.6, y))
 
     def _meter_word(self, start: int) -> str:
         """The new meter of the bar that starts at tick `start`; empty where there is none."""
         return str(self._score.tempo_map.meter_at(start)) if start in self._new_meters else ""
 
-    def _draw_tempo(self, anchor: Anchor, word: TempoWord, left: float) -> None:
+    def _draw_tempo(self, anchor: Anchor, word: TempoWord, at: tuple[float, float]) -> None:
         """A new tempo, or where it grows faster or slower and to which."""
-        draw_list: DrawList = anchor.draw_list
+        draw_list, (left, y) = anchor.draw_list, at
         anchor.at(word.tick)
         if word.way:
-            left += _WORD_GAP / 2 + draw_list.text(RAMPS[word.way], (left, self._y), _WORD)
-        left = draw_beat_note(draw_list, (left, self._y), 1.0, self._beat_ticks, BRAND)
-        draw_list.text(f"= {word.tempo_bpm * PPQ / self._beat_ticks:.0f}", (left, self._y), _WORD)
+            left += _WORD_GAP / 2 + draw_list.text(RAMPS[word.way], (left, y), _WORD)
+        left = draw_beat_note(draw_list, (left, y), 1.0, self._beat_ticks, BRAND)
+        draw_list.text(f"= {word.tempo_bpm * PPQ / self._beat_ticks:.0f}", (left, y), _WORD)
 
-    def _draw_volta(self, anchor: Anchor, ticks: tuple[int, int], x: float, volta: Volta) -> float:
-        """The bracket over a bar of an ending, its number at `x`; returns how long that is."""
+    def _draw_volta(self, anchor: Anchor, ticks: tuple[int, int], at: tuple[float, float], volta: Volta) -> float:
+        """The bracket over a bar of an ending, its number at a place; returns how long that is."""
+        (x, y), bracket = at, Volta("", volta.opens, volta.closes)
         anchor.at(ticks[0])
         anchor.until(ticks[1])
-        draw_volta(
-            anchor.draw_list, (_LINE_X, _VOLTA_END), self._y - _VOLTA_UP, Volta("", volta.opens, volta.closes), BRAND
-        )
+        draw_volta(anchor.draw_list, (_LINE_X, _VOLTA_END), y - _VOLTA_UP, bracket, BRAND)
         anchor.draw_list.span_s = 0.0
-        return anchor.draw_list.text(volta.text, (x + 0.2, self._y), _ENDING) if volta.text else 0.0
+        return anchor.draw_list.text(volta.text, (x + 0.2, y), _ENDING) if volta.text else 0.0
 
 
 def _voltas(score: Score, numbers: BarNumbers) -> dict[int, Volta]:

@@ -28,11 +28,15 @@ from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import DrawList
 
+_DRAWN = ("piece", "zone", "articulation", "dynamic", "ornament", "lead_ms", "choke_ticks", "openness")
+"""What of a stroke's row is drawn besides where it stands."""
+
 
 class Engraver:
     """Engraves the bars of one score; `limbs` (n,) of `Limb` writes the sticking, None that of the score itself.
 
-    Where time rolls, `numbers` tells bars and loops, and tempi count beats of `beat_ticks` (`bar_signs`).
+    Where time rolls, `numbers` tells bars and loops, and tempi count beats of `beat_ticks` (`bar_signs`). Notes hang on
+    the time when they sound, or, `as_written`, on that of the place where they are written, as on paper.
     """
 
     def __init__(
@@ -42,13 +46,15 @@ class Engraver:
         limbs: NDArray[np.int8] | None = None,
         numbers: BarNumbers | None = None,
         beat_ticks: int = PPQ,
+        as_written: bool = False,
     ) -> None:
         self.score = score
+        self._numbers, self._beat_ticks = numbers or BarNumbers(), beat_ticks
+        self._as_written = as_written
         self._atlas = atlas
         self._limbs = shown_limbs(score, score.notes["limb"] if limbs is None else limbs)
         self.rows_y = staff_rows(score, self._limbs)
         self._closing = closing_hats(score)
-        self._numbers, self._beat_ticks = numbers or BarNumbers(), beat_ticks
         self.strokes = written_strokes(score, feet_of(score))
         self._order = np.argsort(self.strokes.tick, kind="stable")
 
@@ -62,7 +68,7 @@ class Engraver:
     @cached_property
     def signs(self) -> BarSigns:
         """What stands at the bar lines."""
-        return BarSigns(self.score, self._numbers, self._beat_ticks, self.rows_y.words)
+        return BarSigns(self.score, self._numbers, self._beat_ticks)
 
     # --- what a bar asks ------------------------------------------------------------------------------------------
 
@@ -81,18 +87,32 @@ class Engraver:
                 mains, graces = places.setdefault(int(self.strokes.tick[i]), ([], []))
                 (graces if notes["lead_ms"][i] > 0 else mains).append(i)
         return [
-            Chord(int(notes["tick"][[*mains, *graces]].min()), written, tuple(mains), tuple(graces))
+            Chord(self._stands(written, [*mains, *graces]), written, tuple(mains), tuple(graces))
             for written, (mains, graces) in sorted(places.items())
         ]
+
+    def _stands(self, written: int, rows: Sequence[int]) -> int:
+        """On which tick a chord hangs."""
+        return written if self._as_written else int(self.score.notes["tick"][rows].min())
 
     def pen(self, anchor: Anchor) -> ChordPen:
         """What draws the score's chords at `anchor`."""
         return ChordPen(self.score, self._limbs, self._closing, anchor, self.rows_y)
 
-    def context(self, rows: Sequence[int], start: int) -> bytes:
-        """What of these strokes is engraved by what stands around their bar, which starts at tick `start`."""
-        held = [i for is_foot in (False, True) for i in self.strokes.held_into(start, is_foot)]
-        return self._closing[rows].tobytes() + (self.strokes.until[[*held, *rows]] - start).tobytes()
+    def context(self, bar: int) -> bytes:
+        """What of a bar's strokes is engraved as it is for where and beside what they stand."""
+        start = self.score.tempo_map.bar_start(bar)
+        rows = self.rows(start, self.score.tempo_map.bar_start(bar + 1))
+        strokes = self.strokes
+        rows += [i for is_foot in (False, True) for i in strokes.held_into(start, is_foot)]
+        notes = self.score.notes[rows]
+        parts = [
+            strokes.tick[rows] - start,
+            strokes.until[rows] - start,
+            strokes.is_measured[rows],
+            self._closing[rows],
+        ]
+        return b"".join(part.tobytes() for part in (*parts, *(notes[name] for name in _DRAWN), self._limbs[rows]))
 
     def draw_list(self) -> DrawList:
         """An empty sheet on the common letters."""
@@ -135,7 +155,7 @@ class _BarEngraver:
         self._anchor.at(self._start)
         if self._with_line:
             draw_bar_line(self._draw_list, *self._e.signs.line(self._bar), INK_SOFT)
-            self._e.signs.draw_words(self._anchor, self._bar)
+            self._e.signs.draw_words(self._anchor, self._bar, self._e.rows_y.words)
 
     def _bar_rest(self, beside: bool) -> None:
         """The rest of a bar in which the hands are silent; silent feet are left out."""

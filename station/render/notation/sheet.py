@@ -19,7 +19,6 @@ from station.render.notation.sheet_key import KEY_HEIGHT, draw_key
 from station.render.notation.sheet_line import LineInk, LineSetter
 from station.render.notation.sheet_words import LineWord, TempoSign
 from station.render.notation.swing_words import SwingMark, swing_marks
-from station.render.notation.written_strokes import notated
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -71,7 +70,8 @@ class _Page:
 
 def sheet(score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool = True) -> list[Ink]:
     """The pages of `score`, each of `size` (width, height) points; it swings under marks, straight as it is written."""
-    pages = _SheetPages(score, words, size, with_sticking)
+    limbs = score.notes["limb"] if with_sticking else np.full_like(score.notes["limb"], Limb.UNKNOWN)
+    pages = _SheetPages(score.with_limbs(limbs), words, size, with_sticking)
     for space in SPACES[:-1]:
         if pages.may_be_one(space) and len(found := pages.pages(space)) == 1:
             return found
@@ -82,15 +82,12 @@ class _SheetPages:
     """The work of one sheet; `space` is a staff space in points throughout."""
 
     def __init__(self, score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool) -> None:
-        swing, score = swing_marks(score), notated(score)
+        swing, score = swing_marks(score), score.as_written
         self._score, self._words, self._size, self._with_sticking = score, words, size, with_sticking
         self._atlas = OutlineAtlas()
-        limbs = score.notes["limb"]
-        shown = limbs if with_sticking else np.full_like(limbs, Limb.UNKNOWN)
-        begin = sorted({bar for bar, _ in words.sections} | swing.keys() - {0})
-        bars = sheet_bars(score, begin, words.repeat, words.first_bar)
+        bars = sheet_bars(score, _starts(words, swing), words.repeat, words.first_bar)
         above = _line_words(score, words, swing)
-        self._setter = LineSetter(Engraver(score, self._atlas, shown), bars, above, self._atlas)
+        self._setter = LineSetter(Engraver(score, self._atlas, as_written=True), bars, above, self._atlas)
         self._bars = self._setter.set_bars()
 
     @property
@@ -181,6 +178,15 @@ class _SheetPages:
         draw_list.text(words.author, (right, 40.0), TypeStyle(_TEXT, INK_SOFT, Face.REGULAR, 1.0))
         for k, line in enumerate(self._about(draw_list)):
             draw_list.text(line, (0.0, _HEAD_HEIGHT + 4.0 + 13.0 * k), TypeStyle(_SMALL, INK_SOFT))
+
+
+def _starts(words: SheetWords, swing: Mapping[int, SwingMark]) -> dict[int, str]:
+    """The bars where something new begins, with what tells it apart: a section's name and how it swings."""
+    names, starts, holds = dict(words.sections), dict[int, str](), swing.get(0)
+    for bar in sorted(names.keys() | swing.keys() - {0}):
+        holds = swing.get(bar, holds)
+        starts[bar] = f"{names.get(bar, '')} {holds}"
+    return starts
 
 
 def _line_words(

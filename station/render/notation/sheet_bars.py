@@ -1,6 +1,6 @@
 """The bars that stand on a sheet: those of the score with what comes again folded, and what stands at their lines."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -33,25 +33,26 @@ class SheetBar:
 
 
 def sheet_bars(
-    score: Score, starts: Collection[int] = (), loop: tuple[int, int] | None = None, first_number: int = 1
+    score: Score, sections: Mapping[int, str], loop: tuple[int, int] | None = None, first_number: int = 1
 ) -> list[SheetBar]:
-    """The bars in order; sections begin at `starts`, and bars `loop`, first and last, are practised again and again.
+    """The bars in order; `sections` are names by the bars where they begin, `loop` the bars that are practised.
 
     The loop stands between repeat signs unless something within it is folded: signs within signs nobody reads.
     """
-    apart = {*starts, *((loop[0], loop[1] + 1) if loop else ())}
+    apart = {loop[0], loop[1] + 1} if loop else set[int]()
+    starts = apart | set(sections)
     bars: list[SheetBar] = []
     played = phrase = 0
     was_repeat = False
-    for passage in folded(score, apart):
-        if passage.times > 1 or was_repeat or passage.first_bar in apart:
+    for passage in folded(score, sections, apart):
+        if passage.times > 1 or was_repeat or passage.first_bar in starts:
             phrase = passage.first_bar
         was_repeat = passage.times > 1
         for bar in _passage(passage, played + first_number):
-            phrase = bar.bar if bar.bar in apart else phrase
+            phrase = bar.bar if bar.bar in starts else phrase
             bars.append(replace(bar, in_phrase=bar.bar - phrase))
         played += passage.times * passage.pass_length
-    return _with_meters(_with_lines(_with_loop(bars, loop), set(starts)), score)
+    return _with_meters(_with_lines(_with_loop(bars, loop), set(sections)), score)
 
 
 def _passage(passage: Passage, number: int) -> Iterator[SheetBar]:

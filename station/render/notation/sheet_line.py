@@ -56,6 +56,7 @@ class LineSetter:
         self._score: Score = engraver.score
         self._letters = DrawList(atlas)
         self._forms = written_forms(self._score)
+        self._contexts = {bar.bar: engraver.context(bar.bar) for bar in bars}
         self._engraved: dict[object, NDArray[np.void]] = {}
         self._columns: dict[object, BarColumns] = {}
 
@@ -91,10 +92,7 @@ class LineSetter:
 
     def _form(self, bar: int) -> object:
         """What tells bars apart that are engraved differently."""
-        tempo = self._score.tempo_map
-        start = tempo.bar_start(bar)
-        rows = self._engraver.rows(start, tempo.bar_start(bar + 1))
-        return self._forms[bar], self._engraver.context(rows, start)
+        return self._forms[bar], self._contexts[bar]
 
     def _shapes(self, bar: int, opens_line: bool) -> NDArray[np.void]:
         """A bar's engraved shapes, their times counted from its start."""

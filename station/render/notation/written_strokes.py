@@ -38,14 +38,6 @@ def feet_of(score: Score) -> NDArray[np.bool_]:
     return np.isin(score.notes["piece"], [int(piece) for piece in FOOT_PIECES])
 
 
-def notated(score: Score) -> Score:
-    """The strokes where notation writes them, on paper: straight where they swing, and on divisions of the beat."""
-    rows = score.notes.copy()
-    rows["tick"] = written_ticks(score, feet_of(score))
-    rows["swing_ticks"] = 0
-    return Score.from_array(rows, score.tempo_map, score.end_tick, score.title, score.loudness)
-
-
 def written_strokes(score: Score, is_foot: NDArray[np.bool_]) -> WrittenStrokes:
     """All strokes of `score`; `is_foot`, shape (n,), tells the two voices."""
     ticks = written_ticks(score, is_foot)

@@ -183,8 +183,6 @@ def test_the_file_is_a_pdf_whose_table_points_at_its_objects() -> None:
 
 
 def test_a_new_meter_stands_before_its_notes_and_at_the_end_of_a_line_before_it() -> None:
-    """Of the figures 0–9 a nine stands in the meter alone: eight bars are numbered."""
-
     def nines(*counts: int) -> int:
         """Bars of so many sixteenths, each another one, then as many in nine."""
         start = len(counts) * 4 * PPQ

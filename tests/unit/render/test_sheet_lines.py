@@ -143,28 +143,28 @@ def song(bars: str) -> Score:
 
 
 def test_bars_that_come_again_stand_once_with_all_their_numbers() -> None:
-    bars = sheet_bars(song("AAAABCDC"), starts=[4])
+    bars = sheet_bars(song("AAAABCDC"), {4: "fill"})
     assert [bar.number for bar in bars] == ["1–4", "5", "6", "7", "8"]
     assert (bars[0].opens_repeat, bars[0].line, bars[0].times) == (True, BarLine.REPEAT_END, 4)
     assert [bar.line for bar in bars[1:]] == [BarLine.PLAIN] * 3 + [BarLine.FINAL]
 
 
 def test_endings_have_brackets_and_numbers() -> None:
-    bars = sheet_bars(song("ABCDABCDABCDABCC"))
+    bars = sheet_bars(song("ABCDABCDABCDABCC"), {})
     assert [bar.number for bar in bars] == ["1, 5 … 13", "2, 6 … 14", "3, 7 … 15", "4, 8, 12", "16"]
     assert [bar.volta for bar in bars] == [None] * 3 + [Volta("1–3.", True, True), Volta("4.", True, False)]
     assert [bar.line for bar in bars] == [*[BarLine.PLAIN] * 3, BarLine.REPEAT_END, BarLine.FINAL]
 
 
 def test_the_loop_has_repeat_signs_and_what_it_lands_on_stands_after_them() -> None:
-    bars = sheet_bars(song("ABCDA"), loop=(0, 3))
+    bars = sheet_bars(song("ABCDA"), {}, loop=(0, 3))
     assert (bars[0].opens_repeat, bars[3].line, bars[4].line) == (True, BarLine.REPEAT_END, BarLine.FINAL)
-    folded_inside = sheet_bars(song("AAAABCDC"), loop=(0, 7))
+    folded_inside = sheet_bars(song("AAAABCDC"), {}, loop=(0, 7))
     assert sum(bar.opens_repeat for bar in folded_inside) == 1, "no signs within signs"
 
 
 def test_a_section_begins_after_a_double_line() -> None:
-    bars = sheet_bars(song("ABCD"), starts=[0, 2])
+    bars = sheet_bars(song("ABCD"), {0: "verse", 2: "chorus"})
     assert [bar.line for bar in bars] == [BarLine.PLAIN, BarLine.DOUBLE, BarLine.PLAIN, BarLine.FINAL]
     assert [bar.in_phrase for bar in bars] == [0, 1, 0, 1]
 
@@ -180,7 +180,7 @@ def test_a_repeat_back_to_another_meter_tells_it_again() -> None:
             start += beats * PPQ
     score = Score.from_notes(notes, TempoMap.build([], meters), start)
     assert folded(score) == [Passage(0, 0), Passage(1, 4, 2)]
-    assert [str(bar.meter) if bar.meter else "" for bar in sheet_bars(score)] == ["4/4", "4/4", "", "", "3/4"]
+    assert [str(bar.meter) if bar.meter else "" for bar in sheet_bars(score, {})] == ["4/4", "4/4", "", "", "3/4"]
 
 
 @pytest.mark.parametrize(
