@@ -156,7 +156,7 @@ class ChordPen:
             for step in {head.step | 1 for head in heads}:
                 self._draw_list.sign("dot", (x, height(step)), INK)
 
-    # --- beyond the stem's end -------------------------------------------------------------------------------------------
+    # --- beyond the stem's end ----------------------------------------------------------------------------------------
 
     def _stacked(self, chord: Chord) -> list[str]:
         rows = list(chord.mains)

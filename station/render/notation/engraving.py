@@ -30,13 +30,10 @@ from station.render.notation.rests import draw_rest
 from station.render.notation.rhythm import BeatGroup, Value, beat_groups
 from station.render.notation.staff import FOOT_PIECES, height
 from station.render.notation.staff_rows import (
-    DOWN_BEAM_Y,
-    OVER_HEADS,
-    UNDER_HEADS,
-    UP_BEAM_Y,
     closing_hats,
     shown_limbs,
     staff_rows,
+    stem_end,
 )
 from station.render.notation.swing_words import swing_words
 from station.render.palette import BRAND, INK_SOFT
@@ -218,7 +215,7 @@ class _BarEngraver:
             until = max((int(self._e.until[i]) - self._start for c in held for i in c.mains), default=None)
             spelling = spelled([c.written - self._start for c in inside], group, until)
             if inside or voice is _HANDS:
-                self._rests(spelling, voice, beside and bool(inside))
+                self._rests(spelling, voice, beside)
             self._group(spelling, self._with_tied(inside, spelling), voice)
         if tied := self._e.held_into(self._end, voice is _FEET):
             over = 0.0 if self._with_line else _OVER_LINE
@@ -271,8 +268,8 @@ class _BarEngraver:
     def _group(self, group: BeatGroup, chords: Sequence[Chord], voice: StaffVoice) -> None:
         if not chords:
             return
-        beam_y = self._beam_y(chords, voice)
         flagged = [(c, s) for c, s in zip(chords, group.strokes, strict=True) if s.value.beams]
+        beam_y = self._beam_y(chords, voice, len(flagged) == 1)
         for chord, stroke in zip(chords, group.strokes, strict=True):
             if chord.is_tied:
                 self._tie(chord.mains, (self._last, chord.tick), (STEM_X, -STEM_X), voice)
@@ -288,12 +285,9 @@ class _BarEngraver:
         if group.tuplet:
             self._tuplet(group, chords, voice, beam_y, len(flagged) == len(chords) > 1 and not group.rests)
 
-    def _beam_y(self, chords: Sequence[Chord], voice: StaffVoice) -> float:
+    def _beam_y(self, chords: Sequence[Chord], voice: StaffVoice, has_flag: bool) -> float:
         """Where the stems of a group end: level, clear of every head."""
-        heights = [height(self._pen.step(i)) for c in chords for i in c.mains]
-        if voice is _HANDS:
-            return min(UP_BEAM_Y, min(heights) - OVER_HEADS)
-        return max(DOWN_BEAM_Y, max(heights) + UNDER_HEADS)
+        return stem_end([height(self._pen.step(i)) for c in chords for i in c.mains], voice.is_up, has_flag)
 
     # --- tuplets ------------------------------------------------------------------------------------------------------
 

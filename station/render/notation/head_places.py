@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Dynamic, Piece, Zone
 from station.render.notation.staff import FOOT_PIECES, NoteHead, head_of, step_of
-from station.render.text.sign_outlines import STEM, sign_box
+from station.render.text.sign_outlines import sign_box
 
 HEAD_SIGNS = {
     NoteHead.ROUND: "head_round",
@@ -96,7 +96,8 @@ def _is_displaced(head: PlacedHead) -> bool:
 
 
 def _displaced_x(head: PlacedHead) -> float:
-    beyond = EDGE_X - STEM + _stem_half(head.head)
+    """On the far side of the stem."""
+    beyond = EDGE_X + half_width(head.head)
     return -beyond if head.is_foot else beyond
 
 

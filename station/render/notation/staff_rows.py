@@ -5,21 +5,24 @@ signs. The hands' letters stand above, at their stems' ends, the feet's below: n
 Units are staff spaces, y down, 0 on the staff's middle line.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
+from station.core.pieces import Articulation, Dynamic, Limb, Piece
 from station.core.units import PPQ
 from station.music.score import Score
 from station.render.notation.staff import FOOT_PIECES, height, step_of
 from station.render.text.sign_outlines import sign_box
 
-UP_BEAM_Y, DOWN_BEAM_Y = -5.4, 4.35
-"""Stems of a voice reach at least here, so that beams stand level along the line."""
-OVER_HEADS, UNDER_HEADS = 1.8, 2.0
-"""And so far beyond their outermost head."""
+_UP_BEAM_Y, _DOWN_BEAM_Y = -5.5, 5.0
+"""Stems of a voice reach at least here, so that beams stand level along the line: 3 spaces beyond the hi-hat's head, 3½
+beyond the kick's."""
+_BEAMED, _FLAGGED = 2.0, 3.75
+"""And so far beyond their outermost head, with a beam and with flags. Those are three and a quarter long; Gould's stems
+of 3½ spaces clear round heads, but not the corners of crosses."""
 OPEN_FROM, WIDE_FROM = 0.25, 0.75
 """Openness from which a hat is written half open and open (our choice)."""
 STACK_GAP = 0.3
@@ -91,15 +94,21 @@ def shown_limbs(score: Score, limbs: NDArray[np.int8]) -> NDArray[np.int8]:
     return shown
 
 
+def stem_end(heights: Sequence[float], is_up: bool, has_flag: bool) -> float:
+    """Where the stems of one group of chords end whose heads stand at `heights`."""
+    beyond = _FLAGGED if has_flag else _BEAMED
+    return min(_UP_BEAM_Y, min(heights) - beyond) if is_up else max(_DOWN_BEAM_Y, max(heights) + beyond)
+
+
 def staff_rows(score: Score, limbs: NDArray[np.int8] | None = None) -> StaffRows:
     """The rows of the staff of `score`; `limbs` (n,) write its sticking, None those of the score itself."""
     shown = shown_limbs(score, score.notes["limb"] if limbs is None else limbs)
     is_foot = np.isin(score.notes["piece"], [int(piece) for piece in FOOT_PIECES])
-    hands = _reach(score, ~is_foot, UP_BEAM_Y, -1)
+    hands = _reach(score, ~is_foot, -1)
     hands_row = hands - STACK_GAP
     has_hands = bool(np.isin(shown, (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any())
     words = hands_row - (_LETTERS if has_hands else 0.0)
-    feet = _reach(score, is_foot, DOWN_BEAM_Y, 1) + _LETTERS
+    feet = _reach(score, is_foot, 1) + _LETTERS
     has_feet = bool(np.isin(shown, (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)).any())
     low = feet if has_feet else feet - _LETTERS
     loudness = low + _LOUDNESS - 0.7
@@ -107,15 +116,15 @@ def staff_rows(score: Score, limbs: NDArray[np.int8] | None = None) -> StaffRows
     return StaffRows(words - _WORDS, words, hands_row, feet, loudness, bottom)
 
 
-def _reach(score: Score, rows: NDArray[np.bool_], beam_y: float, way: int) -> float:
+def _reach(score: Score, rows: NDArray[np.bool_], way: int) -> float:
     """How far what is stacked on the chords of one voice reaches at the most."""
     notes, closing = score.notes[rows], closing_hats(score)[rows]
     if not len(notes):
-        return beam_y
-    steps = [step_of(Piece(int(piece))) for piece in np.unique(notes["piece"])]
-    beyond = height(max(steps)) - OVER_HEADS if way < 0 else height(min(steps)) + UNDER_HEADS
-    stem = min(beam_y, beyond) if way < 0 else max(beam_y, beyond)
-    return stem + way * (_tallest(notes, closing) + (TUPLET_HEIGHT if _has_tuplets(notes) else 0.0))
+        return _UP_BEAM_Y if way < 0 else _DOWN_BEAM_Y
+    heights = [height(step_of(Piece(int(piece)))) for piece in np.unique(notes["piece"])]
+    return stem_end(heights, way < 0, has_flag=True) + way * (
+        _tallest(notes, closing) + (TUPLET_HEIGHT if _has_tuplets(notes) else 0.0)
+    )
 
 
 def _tallest(notes: NDArray[np.void], closing: NDArray[np.bool_]) -> float:
@@ -133,5 +142,4 @@ def _tallest(notes: NDArray[np.void], closing: NDArray[np.bool_]) -> float:
 
 def _has_tuplets(notes: NDArray[np.void]) -> bool:
     """Whether strokes lie beside the grid of thirty-seconds, as those of tuplets and of played music do."""
-    plain = notes["ornament"] != Ornament.ROLL
-    return bool(((notes["tick"] - notes["swing_ticks"])[plain] % _PLAIN_GRID != 0).any())
+    return bool(((notes["tick"] - notes["swing_ticks"]) % _PLAIN_GRID != 0).any())
