@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,14 +58,20 @@ class Inked:
 
 def inked_lines(score: Score, width: float = A_LINE) -> Iterator[list[Inked]]:
     """The signs of each line of the score on paper."""
-    atlas = OutlineAtlas()
+    atlas, names = _letters()
     engraver = Engraver(score, atlas, meter_words=False)
-    names = {atlas.sign(name).uv[0]: name for name in SIGNS}
     for boxes in systems(score, width):
         line = [_bar_line(box.left) for box in boxes[1:]]
         for box in boxes:
             line += _bar_signs(engraver, box, atlas, names, box is boxes[0])
         yield line
+
+
+@cache
+def _letters() -> tuple[OutlineAtlas, dict[float, str]]:
+    """The outlines, and the signs' names by what their shapes bear."""
+    atlas = OutlineAtlas()
+    return atlas, {atlas.sign(name).uv[0]: name for name in SIGNS}
 
 
 def _bar_line(x: float) -> Inked:
