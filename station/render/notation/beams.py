@@ -4,19 +4,19 @@ Units are staff spaces, y down; x counts from a note's time, to which an `Anchor
 Gould, "Behind Bars" (2011): beams half a space, a stem right of its head when up.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from station.music.tempo import TempoMap
+from station.render.notation.beaming import BeamSpan
+from station.render.notation.staff_rows import flag_overhang
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
-from station.render.text.sign_outlines import STEM, sign_box
+from station.render.text.sign_outlines import BEAM, BEAM_STEP, STEM, sign_box
 
 STEM_X = sign_box("head_round").right - STEM / 2
 """How far from its head's middle a stem stands."""
-_BEAM = 0.50
-BEAM_STEP = 0.78
 FLAG_STEP = 0.85
 _STUB = 1.1
 _GAP = 0.7
@@ -41,6 +41,9 @@ class StaffVoice:
         return -self.way * STEM_X
 
 
+HANDS, FEET = StaffVoice(-1, 0.0), StaffVoice(1, 2.5)
+
+
 @dataclass(frozen=True, slots=True)
 class Anchor:
     """Ties what `draw_list` draws to the score's time."""
@@ -62,24 +65,26 @@ class Anchor:
 
 
 def draw_flags(anchor: Anchor, tick: int, count: int, voice: StaffVoice, beam_y: float) -> None:
-    """So many flags at the end of the stem at `tick`, which is at `beam_y`."""
+    """So many flags on the stem at `tick`, none beyond its end at `beam_y`."""
     anchor.at(tick)
     name = f"flag_{4 << count}" if voice.is_up else f"flag_{4 << count}_down"
-    anchor.draw_list.sign(name, (voice.stem_x - STEM / 2, beam_y), INK)
+    y = beam_y - voice.way * flag_overhang(count)
+    anchor.draw_list.sign(name, (voice.stem_x - STEM / 2, y), INK)
 
 
-def draw_beams(anchor: Anchor, stems: Sequence[tuple[int, int]], voice: StaffVoice, beam_y: float) -> None:
-    """Beams over `stems`, the tick and the number of beams of each, the outermost at `beam_y`."""
-    for level in range(max(count for _, count in stems)):
-        y = beam_y - voice.way * level * BEAM_STEP - (0.0 if voice.is_up else _BEAM)
-        for first, last in _runs([count > level for _, count in stems]):
-            anchor.at(stems[first][0])
-            if first == last:  # broken off: towards the stroke before, or after where there is none before
-                anchor.draw_list.box((voice.stem_x - (_STUB if first else 0.0), y), (_STUB, _BEAM), INK)
-            else:
-                anchor.until(stems[last][0])
-                anchor.draw_list.box((voice.stem_x - STEM / 2, y), (STEM, _BEAM), INK)
-                anchor.draw_list.span_s = 0.0
+def draw_beams(
+    anchor: Anchor, spans: Sequence[BeamSpan], ticks: Sequence[int], voice: StaffVoice, beam_y: float
+) -> None:
+    """Beams over stems at `ticks`, the outermost at `beam_y`."""
+    for span in spans:
+        y = beam_y - voice.way * span.level * BEAM_STEP - (0.0 if voice.is_up else BEAM)
+        anchor.at(ticks[span.first])
+        if span.stub:
+            anchor.draw_list.box((voice.stem_x - (_STUB if span.stub < 0 else 0.0), y), (_STUB, BEAM), INK)
+        else:
+            anchor.until(ticks[span.last])
+            anchor.draw_list.box((voice.stem_x - STEM / 2, y), (STEM, BEAM), INK)
+            anchor.draw_list.span_s = 0.0
 
 
 def draw_tuplet(
@@ -104,14 +109,3 @@ def _bracket(draw_list: DrawList, ends_s: tuple[float, float], voice: StaffVoice
     for at_s, x in ((start_s, -0.5), (end_s, right)):
         draw_list.time_s = at_s
         draw_list.line((x, y), (x, y + tip), 0.1, INK_SOFT)
-
-
-def _runs(flags: Sequence[bool]) -> Iterator[tuple[int, int]]:
-    """First and last index of every run of True."""
-    start: int | None = None
-    for i, flag in enumerate([*flags, False]):
-        if flag and start is None:
-            start = i
-        elif not flag and start is not None:
-            yield start, i - 1
-            start = None

@@ -23,7 +23,6 @@ GRACE_GAP, GRACE_STEP = 0.91, 1.0
 """From what stands left of the main note to the middle of the last grace note, and between two of them: their flags
 and ledger lines have room there."""
 DOT_GAP = 0.25
-CHOKE_GAP = 0.2
 
 
 class Extent(NamedTuple):
@@ -52,19 +51,16 @@ def chord_extent(notes: NDArray[np.void], limbs: NDArray[np.int8], dots: int = 0
 
 
 def heads_extent(mains: NDArray[np.void]) -> Extent:
-    """What the heads of main strokes take, with brackets, ledger lines, accents and choke signs."""
+    """What the heads of main strokes take, with brackets, ledger lines and accents."""
     left = right = EDGE_X
-    half = sign_box("bracket_left").width / 2
     heads = placed_heads(mains)
     for row, head in zip(mains, heads, strict=True):
         out = LEDGER_OUT if ledger_steps(head.step) else 0.0
         left, right = max(left, out - head.left), max(right, head.right + out)
-        if head.brackets_x is not None:
-            left, right = max(left, half - head.brackets_x[0]), max(right, half + head.brackets_x[1])
+        if (pair := head.brackets) is not None:
+            left, right = max(left, pair.half_width - pair.left), max(right, pair.half_width + pair.right)
         if row["dynamic"] == Dynamic.ACCENT:
             left, right = max(left, sign_box("accent").right), max(right, sign_box("accent").right)
-    if (mains["choke_ticks"] > 0).any():
-        right += CHOKE_GAP + sign_box("choke").width
     return Extent(left, right)
 
 

@@ -8,7 +8,7 @@ then (Gould, "Behind Bars", 2011, "Rests in double-stemmed parts").
 from collections.abc import Sequence
 from math import ceil, floor
 
-from station.render.notation.rhythm import Value
+from station.render.notation.note_values import Value
 from station.render.notation.staff import height
 from station.render.palette import INK
 from station.render.text.draw_list import DrawList
@@ -35,6 +35,13 @@ def draw_rest(draw_list: DrawList, value: Value, is_up: bool, other_steps: Seque
     for k in range(value.dots):
         x = sign_box(name).right + _DOT_GAP + sign_box("dot").width * 1.5 * k
         draw_list.sign("dot", (x, y - 0.5), INK)
+
+
+def rest_edge(base: int, is_up: bool, other_steps: Sequence[int]) -> float:
+    """How far a rest of 1/`base` of one of two voices reaches towards the ends of that voice's stems."""
+    name = f"rest_{min(base, 128)}"
+    y = _shared_y(name, is_up, [height(step) for step in other_steps])
+    return y - sign_box(name).top if is_up else y - sign_box(name).bottom
 
 
 def _lone_y(name: str) -> float:

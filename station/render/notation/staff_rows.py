@@ -14,15 +14,18 @@ from numpy.typing import NDArray
 from station.core.pieces import Articulation, Dynamic, Limb, Piece
 from station.core.units import PPQ
 from station.music.score import Score
+from station.render.notation.rests import rest_edge
 from station.render.notation.staff import FOOT_PIECES, height, step_of
-from station.render.text.sign_outlines import sign_box
+from station.render.text.sign_outlines import BEAM, BEAM_STEP, sign_box
 
 _UP_BEAM_Y, _DOWN_BEAM_Y = -5.5, 5.0
 """Stems of a voice reach at least here, so that beams stand level along the line: 3 spaces beyond the hi-hat's head, 3½
 beyond the kick's."""
-_BEAMED, _FLAGGED = 2.0, 3.75
-"""And so far beyond their outermost head, with a beam and with flags. Those are three and a quarter long; Gould's stems
-of 3½ spaces clear round heads, but not the corners of crosses."""
+_FLAGGED = 3.75
+"""And so far beyond a head with flags, which are three and a quarter long: Gould's stems of 3½ spaces clear round
+heads, but not the corners of crosses."""
+_BEAMED, _UNDER_BEAM = 2.0, 1.0
+"""And with beams, whose innermost lies so far from the head's middle: clear of brackets, too."""
 OPEN_FROM, WIDE_FROM = 0.25, 0.75
 """Openness from which a hat is written half open and open (our choice)."""
 STACK_GAP = 0.3
@@ -34,6 +37,8 @@ _LETTERS, _WORDS, _LOUDNESS = 1.6, 1.9, 2.9
 _WEAKEST_FEET = {Piece.KICK: Limb.LEFT_FOOT, Piece.HIHAT_PEDAL: Limb.RIGHT_FOOT}
 """Whose letters say something: the foot that a piece is not played with as a rule."""
 _PLAIN_GRID = PPQ // 8
+_PLAIN_BEAMS, _FINEST = 2, 5
+"""Rests of sixteenths lie within any stem; 128ths have five beams, and nothing finer is written."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,10 +99,25 @@ def shown_limbs(score: Score, limbs: NDArray[np.int8]) -> NDArray[np.int8]:
     return shown
 
 
-def stem_end(heights: Sequence[float], is_up: bool, has_flag: bool) -> float:
-    """Where the stems of one group of chords end whose heads stand at `heights`."""
-    beyond = _FLAGGED if has_flag else _BEAMED
-    return min(_UP_BEAM_Y, min(heights) - beyond) if is_up else max(_DOWN_BEAM_Y, max(heights) + beyond)
+def stem_end(
+    heights: Sequence[float], is_up: bool, beams: int = 1, has_flags: bool = False, rests: Sequence[float] = ()
+) -> float:
+    """Where the stems of one group of chords end, flags and beams within, whose heads stand at `heights`.
+
+    `beams`: the most that a note of it has; `has_flags`: one of them bears flags; `rests`: the edges, towards the
+    stems' ends, of rests between its notes.
+    """
+    beam = BEAM_STEP * max(beams - 1, 0) + BEAM
+    beyond = max(_BEAMED, beam + _UNDER_BEAM, _FLAGGED + flag_overhang(beams) if has_flags else 0.0)
+    edges = [edge + (-1 if is_up else 1) * (beam + STACK_GAP) for edge in rests]
+    if is_up:
+        return min(_UP_BEAM_Y, min(heights) - beyond, *edges)
+    return max(_DOWN_BEAM_Y, max(heights) + beyond, *edges)
+
+
+def flag_overhang(count: int) -> float:
+    """How far so many flags would reach beyond the point where they hang on the stem."""
+    return max(sign_box(f"flag_{4 << count}").top, 0.0) if count else 0.0
 
 
 def staff_rows(score: Score, limbs: NDArray[np.int8] | None = None) -> StaffRows:
@@ -122,9 +142,17 @@ def _reach(score: Score, rows: NDArray[np.bool_], way: int) -> float:
     if not len(notes):
         return _UP_BEAM_Y if way < 0 else _DOWN_BEAM_Y
     heights = [height(step_of(Piece(int(piece)))) for piece in np.unique(notes["piece"])]
-    return stem_end(heights, way < 0, has_flag=True) + way * (
-        _tallest(notes, closing) + (TUPLET_HEIGHT if _has_tuplets(notes) else 0.0)
-    )
+    beams = _most_beams(notes)
+    rests = [rest_edge(4 << k, way < 0, ()) for k in range(1, beams + 1)] if beams > _PLAIN_BEAMS else []
+    stem = stem_end(heights, way < 0, beams, has_flags=True, rests=rests)
+    return stem + way * (_tallest(notes, closing) + (TUPLET_HEIGHT if _has_tuplets(notes) else 0.0))
+
+
+def _most_beams(notes: NDArray[np.void]) -> int:
+    """How many beams write the shortest step between strokes of one voice, at the most."""
+    steps = np.diff(np.unique(notes["tick"] - notes["swing_ticks"]))
+    shortest = int(steps.min()) if len(steps) else PPQ
+    return min(max((PPQ - 1) // shortest, 0).bit_length(), _FINEST)
 
 
 def _tallest(notes: NDArray[np.void], closing: NDArray[np.bool_]) -> float:

@@ -9,9 +9,8 @@ from station.core.units import PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.render.notation.engraving import Engraver
-from station.render.notation.held_rolls import held_until, long_groups
+from station.render.notation.held_rolls import held_until
 from station.render.notation.line_breaks import want
-from station.render.notation.rhythm import Value, spell
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import ShapeKind
 from tests.unit.render.scores import BAR, score_of
@@ -86,7 +85,7 @@ def test_a_roll_over_the_bar_line_is_tied_to_the_next_bar_and_is_no_silence_ther
     assert (heads(first, hollow=True), heads(second, hollow=True)) == ([1.0], [2.0])
     assert tied(first) == pytest.approx((1.0, 2.0))
     assert tied(second) is None, "the bar before drew it"
-    assert signs(second, "rest_4") == [3.0, 3.5]
+    assert signs(second, "rest_2") == [3.0]
 
 
 def test_a_tie_from_the_line_before_begins_anew() -> None:
@@ -95,10 +94,11 @@ def test_a_tie_from_the_line_before_begins_anew() -> None:
     assert tied(shapes) == (2.0, 2.0)
 
 
-def test_a_roll_inside_its_beat_is_written_like_a_stroke() -> None:
+def test_a_roll_inside_its_beat_is_no_longer_than_it_sounds() -> None:
+    """A sixteenth of each beat; rests say that the roll does not fill it, as a stroke's note value would."""
     (shapes,) = bars_of(*(roll(k * PPQ, SIXTEENTH) for k in range(4)))
     assert heads(shapes, hollow=False) == [0.0, 0.5, 1.0, 1.5]
-    assert (signs(shapes, "flag_8"), signs(shapes, "rest_16"), tied(shapes)) == ([], [], None)
+    assert (len(signs(shapes, "rest_16")), len(signs(shapes, "rest_8")), tied(shapes)) == (4, 4, None)
 
 
 def test_a_roll_ends_at_the_next_stroke_of_its_voice_as_it_is_written() -> None:
@@ -106,26 +106,8 @@ def test_a_roll_ends_at_the_next_stroke_of_its_voice_as_it_is_written() -> None:
     late = round(PPQ * 2 / 3) - PPQ // 2
     notes = [roll(0, 4 * PPQ), Note(PPQ, Piece.KICK), Note(PPQ + PPQ // 2 + late, Piece.SNARE, swing_ticks=late)]
     score = score_of(*notes)
-    until = held_until(score, score.notes["piece"] == Piece.KICK)
+    until = held_until(score, score.notes["piece"] == Piece.KICK, score.notes["tick"] - score.notes["swing_ticks"])
     assert until.tolist() == [PPQ + PPQ // 2, PPQ, PPQ + PPQ // 2]
-
-
-def test_long_notes_join_only_whole_beats_that_are_held() -> None:
-    beats = [(k * PPQ, (k + 1) * PPQ) for k in range(4)]
-    held = list(long_groups(beats, [(PPQ, 3 * PPQ + SIXTEENTH)]))
-    assert held == [(0, PPQ, None), (PPQ, 3 * PPQ, Value(2)), (3 * PPQ, 4 * PPQ, None)]
-    assert [group[2] for group in long_groups(beats, [(1, 3 * PPQ)])] == [None, Value(2), None]
-
-
-def test_what_one_value_does_not_write_is_tied() -> None:
-    """Five of eight thirty-seconds: an eighth and a thirty-second."""
-    eighth = PPQ // 8
-    group = spell([0], 0, PPQ, 5 * eighth)
-    assert [(s.tick, s.value, s.is_tied) for s in group.strokes] == [
-        (0, Value(8), False),
-        (4 * eighth, Value(32), True),
-    ]
-    assert [(rest.tick, rest.value) for rest in group.rests] == [(5 * eighth, Value(32)), (6 * eighth, Value(16))]
 
 
 def test_a_bar_has_room_for_where_a_roll_ends() -> None:
