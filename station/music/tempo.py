@@ -194,6 +194,11 @@ class TempoMap:
         i = max(int(np.searchsorted(starts, tick, side="right")) - 1, 0)
         return _US_PER_MINUTE / int(rates[i])
 
+    def us_per_quarter_at(self, tick: int) -> int:
+        """Microseconds a quarter note at `tick`."""
+        starts, rates, _, _ = self._segments
+        return int(rates[max(int(np.searchsorted(starts, tick, side="right")) - 1, 0)])
+
     def scaled(self, factor: float) -> "TempoMap":
         """The same music played `factor` times as fast."""
         return TempoMap(
@@ -248,7 +253,7 @@ class TempoMap:
 
     def section(self, start: int, end: int) -> "TempoMap":
         """The map of [start, end) moved to tick 0."""
-        tempos = [TempoChange(0, self._rate_at(start))] + [
+        tempos = [TempoChange(0, self.us_per_quarter_at(start))] + [
             TempoChange(t.tick - start, t.us_per_quarter) for t in self.tempos if start < t.tick < end
         ]
         at_start = self.meter_at(start)
@@ -256,10 +261,6 @@ class TempoMap:
             replace(m, tick=m.tick - start) for m in self.meters if start < m.tick < end
         ]
         return TempoMap.build(tempos, meters)
-
-    def _rate_at(self, tick: int) -> int:
-        starts, rates, _, _ = self._segments
-        return int(rates[max(int(np.searchsorted(starts, tick, side="right")) - 1, 0)])
 
 
 def _tick(change: TempoChange | MeterChange) -> int:

@@ -1,0 +1,369 @@
+"""A part as a GrooveScribe link: the coarsest division that has a cell for every stroke, a letter for each.
+
+There is no link at all for a part of more than ten bars, of several meters, or with strokes that no division has.
+What a letter does not say is told with its bars: of each stroke the nearest letter is written.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+import numpy as np
+
+from station.core.errors import BadInput
+from station.core.pieces import CLOSED, HALF_OPEN, OPEN, Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.core.units import PPQ
+from station.music.drum_part import DrumPart
+from station.music.formats.groovescribe.groove_letters import HANDS, LETTER_OF, LETTERS, GrooveStroke
+from station.music.formats.groovescribe.groove_query import (
+    DIVISIONS,
+    LEAST_TEMPO,
+    MOST_BARS,
+    MOST_BEATS,
+    MOST_SWING,
+    MOST_TEMPO,
+    UNITS,
+    Groove,
+    groove_url,
+    one_line,
+)
+from station.music.formats.groovescribe.groove_reader import part_of_groove, swing_of
+from station.music.formats.music_format import Feature, Loss, WrittenFile
+from station.music.score import Note, Score
+from station.music.swing import TRIPLETS
+from station.music.tempo import MeterChange, TempoChange
+
+KEEPS: Mapping[Feature, str] = MappingProxyType(
+    {
+        Feature.TIMES: "4 to 48 cells a whole note, one meter, at most ten bars",
+        Feature.PIECES: "two toms, one crash, one ride; one cymbal at a time",
+        Feature.TEMPO: "one, 20 to 400, in whole numbers",
+        Feature.METERS: "one",
+        Feature.SWING: "of eighths, sixteenths or 32nds, in whole percent to 3:1",
+        Feature.DYNAMICS: "ghosts and accents of the snare, accents of the closed hi-hat",
+        Feature.CROSS_STICKS: "",
+        Feature.OPENNESS: "open or closed",
+        Feature.FLAMS: "of the snare, as loud as a plain stroke",
+        Feature.DRAGS: "of the snare, as loud as a plain stroke",
+        Feature.BUZZES: "of the snare, to the hands' next stroke in the beat",
+        Feature.STICKING: "where one hand strikes at a time",
+        Feature.TITLE: "",
+        Feature.AUTHOR: "",
+        Feature.ABOUT: "",
+    }
+)
+
+_NEAREST: Mapping[Piece, Piece] = MappingProxyType(
+    {
+        Piece.RIDE_2: Piece.RIDE,
+        Piece.CRASH_2: Piece.CRASH_1,
+        Piece.SPLASH: Piece.CRASH_1,
+        Piece.TOM_2: Piece.TOM_1,
+        Piece.TOM_3: Piece.FLOOR_TOM_1,
+        Piece.TOM_4: Piece.FLOOR_TOM_1,
+        Piece.FLOOR_TOM_2: Piece.FLOOR_TOM_1,
+        Piece.TAMBOURINE: Piece.PERCUSSION,
+        Piece.CLAP: Piece.PERCUSSION,
+    }
+)
+_ZONES = {
+    Piece.RIDE: Zone.BOW,
+    Piece.HIHAT: Zone.BOW,
+    Piece.CRASH_1: Zone.EDGE,
+    Piece.CHINA: Zone.EDGE,
+    Piece.HIHAT_PEDAL: Zone.PEDAL,
+}
+_HAND_LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L"}
+_REST = "-"
+_FIRST = "csbrmXxoONnfdgb"
+"""Of two letters on one line the first of these is written: a crash before a ride, that before the hi-hat."""
+_SAME_RATIO = 1e-9
+"""Below any difference that a file writes."""
+
+
+@dataclass(slots=True)
+class _Losses:
+    """What is lost, by feature and sentence, each with its bars from 1."""
+
+    bars: dict[tuple[Feature, str], list[int]] = field(default_factory=dict)
+
+    def add(self, feature: Feature, text: str, bar: int | None = None) -> None:
+        known = self.bars.setdefault((feature, text), [])
+        if bar is not None and bar + 1 not in known:
+            known.append(bar + 1)
+
+    def told(self) -> tuple[Loss, ...]:
+        return tuple(Loss(feature, _with_bars(text, bars)) for (feature, text), bars in self.bars.items())
+
+
+def _with_bars(text: str, bars: list[int]) -> str:
+    if not bars:
+        return text
+    return f"bar{'s' if len(bars) > 1 else ''} {', '.join(map(str, sorted(bars)))}: {text}"
+
+
+def write_groove(part: DrumPart) -> WrittenFile:
+    """The link as UTF-8 text, a line; raises `BadInput` where a groove has no place for the part."""
+    groove, lost = groove_of(part)
+    return WrittenFile((groove_url(groove) + "\n").encode(), lost)
+
+
+def groove_of(part: DrumPart) -> tuple[Groove, tuple[Loss, ...]]:
+    """The groove that is nearest to `part`, and what it has not; raises `BadInput`."""
+    losses = _Losses()
+    bars = _bars(part)
+    score, division, percent = _timed(part, losses)
+    meter = score.tempo_map.meters[0]
+    groove = Groove(
+        meter=replace(meter, groups=()),
+        division=division,
+        bars=bars,
+        tempo=_tempo(score, losses),
+        swing=percent,
+        title=one_line(score.title),
+        author=one_line(part.author),
+        comments=one_line(part.about),
+    )
+    lines, stickings = _lines(score, groove, losses)
+    if part.sections:
+        losses.add(Feature.SECTIONS, "a groove has no names of sections")
+    if score.loudness:
+        losses.add(Feature.LOUDNESS, "a groove has no loudness marks")
+    if meter.groups:
+        losses.add(Feature.METER_GROUPS, f"a groove's meter is {meter.beats}/{meter.unit} without groups")
+    written = replace(groove, lines=lines, stickings=stickings)
+    _check_lengths(part.score, written, losses)
+    return written, losses.told()
+
+
+# --- the frame --------------------------------------------------------------------------------------------------------
+
+
+def _bars(part: DrumPart) -> int:
+    tempo_map, end = part.score.tempo_map, part.score.end_tick
+    meters = tempo_map.section(0, max(end, 1)).meters
+    if len(meters) > 1:
+        bar = int(tempo_map.bars_at(meters[1].tick)) + 1
+        raise BadInput(_name(part), f"bar {bar}", f"a groove has one meter; {meters[1]} follows {meters[0]} here")
+    if meters[0].unit not in UNITS or meters[0].beats > MOST_BEATS:
+        raise BadInput(_name(part), "", f"GrooveScribe has no meter of {meters[0]}")
+    bars = -(-end // meters[0].bar_ticks)
+    if not 1 <= bars <= MOST_BARS:
+        raise BadInput(_name(part), "", f"a groove has 1 to {MOST_BARS} bars; this part has {bars}")
+    return bars
+
+
+def _name(part: DrumPart) -> str:
+    return part.score.title or "part"
+
+
+def _timed(part: DrumPart, losses: _Losses) -> tuple[Score, int, int]:
+    """The strokes on the cells of a division, that division, and the percent of its swing."""
+    ratio, unit = part.swing.ratio, part.swing.unit_ticks
+    if not part.swing.stands_in_words:
+        if ratio == TRIPLETS:
+            losses.add(Feature.SWING, "swing of 2:1 is written out in triplets")
+        return part.score, _division(part, part.score), 0
+    score = part.score.as_written
+    percent = min(round(100 * (ratio - 1) / (ratio + 1)), MOST_SWING)
+    swung = Groove(meter=score.tempo_map.meters[0], division=4 * PPQ // unit, swing=percent)
+    if not swung.swings or 4 * PPQ % unit or not _fits(score, swung.meter, swung.division):
+        for feature in (Feature.SWING, Feature.TIMES):
+            losses.add(feature, f"swing of {ratio:g}:1 is left out: GrooveScribe swings the finest cells alone")
+        return score, _division(part, score), 0
+    said = swing_of(percent, unit)
+    if abs(said.ratio - ratio) > _SAME_RATIO:
+        for feature in (Feature.SWING, Feature.TIMES):
+            losses.add(feature, f"swing of {ratio:g}:1 becomes {said.ratio:.3g}:1")
+    return score, swung.division, percent
+
+
+def _division(part: DrumPart, score: Score) -> int:
+    """The coarsest division with a cell for every stroke; raises `BadInput` with the bar of a stroke without one."""
+    meter, ticks = score.tempo_map.meters[0], score.notes["tick"]
+    for division in DIVISIONS:
+        if _fits(score, meter, division):
+            return division
+    spare = [ticks % (4 * PPQ // division) > 0 for division in (32, 48)]
+    alone = np.flatnonzero(spare[0] & spare[1])
+    bar = int(score.tempo_map.bars_at(int(ticks[alone[0] if len(alone) else 0]))) + 1
+    fault = "strokes here are on no cell of 1/32 or of triplets" if len(alone) else "32nds and triplets in one groove"
+    raise BadInput(_name(part), f"bar {bar}", f"{fault}, which GrooveScribe has no division for")
+
+
+def _fits(score: Score, meter: MeterChange, division: int) -> bool:
+    whole_bar = meter.beats * division % meter.unit == 0
+    return whole_bar and not (score.notes["tick"] % (4 * PPQ // division)).any()
+
+
+def _tempo(score: Score, losses: _Losses) -> int:
+    bpm = score.tempo_map.bpm_at(0)
+    used = min(max(round(bpm), LEAST_TEMPO), MOST_TEMPO)
+    if score.tempo_map.tempos[0] != TempoChange.from_bpm(0, used):
+        losses.add(Feature.TEMPO, f"{bpm:.4g} quarters a minute become {used}")
+    for change in score.tempo_map.tempos[1:]:
+        if change.tick < score.end_tick:
+            losses.add(
+                Feature.TEMPO,
+                "a groove has one tempo; its change is left out",
+                int(score.tempo_map.bars_at(change.tick)),
+            )
+    return used
+
+
+# --- the letters ------------------------------------------------------------------------------------------------------
+
+
+def _lines(score: Score, groove: Groove, losses: _Losses) -> tuple[dict[str, str], str]:
+    """The letters of all lines that have any (H, S and K always), and the stickings."""
+    size = groove.cells_per_bar * groove.bars
+    lines = {name: [_REST] * size for name in LETTERS}
+    hands: dict[int, list[Limb]] = {}
+    for note in score:
+        if note.lead_ms > 0:
+            continue
+        cell, bar = note.tick // groove.cell_ticks, note.tick // groove.meter.bar_ticks
+        name, letter = _letter(note, bar, losses)
+        lines[name][cell] = _joined(name, lines[name][cell], letter, note, bar, losses)
+        if name in HANDS:
+            hands.setdefault(cell, []).append(note.limb)
+    written = {name: "".join(line) for name, line in lines.items() if name in "HSK" or any(c != _REST for c in line)}
+    return written, _stickings(hands, groove, losses)
+
+
+def _letter(note: Note, bar: int, losses: _Losses) -> tuple[str, str]:
+    """The line and letter nearest to a stroke."""
+    meant = GrooveStroke(note.piece, note.zone, note.articulation, note.dynamic, note.openness, note.ornament)
+    said = meant
+    for feature, nearer in _STEPS:
+        if said in LETTER_OF:
+            break
+        changed = nearer(said)
+        if changed != said:
+            losses.add(feature, _SENTENCES[feature], bar)
+        said = changed
+    if note.choke_ticks:
+        losses.add(Feature.CHOKES, _SENTENCES[Feature.CHOKES], bar)
+    return LETTER_OF[said]
+
+
+def _joined(name: str, there: str, letter: str, note: Note, bar: int, losses: _Losses) -> str:
+    """What a cell of a line says when `letter` comes to what is `there`."""
+    if there in (_REST, letter):
+        return letter
+    if {there, letter} <= set("oxX") and name == "K":
+        return "X"
+    for feature in (Feature.PIECES, Feature.TIMES):
+        losses.add(feature, f"of two strokes at once on the line {name} one is left out", bar)
+    return min(there, letter, key=_FIRST.index)
+
+
+def _stickings(hands: Mapping[int, list[Limb]], groove: Groove, losses: _Losses) -> str:
+    """A letter a cell where one hand strikes; "" where no hand is said at all."""
+    letters = [_REST] * (groove.cells_per_bar * groove.bars)
+    for cell, limbs in hands.items():
+        said = [limb for limb in limbs if limb in _HAND_LETTERS]
+        if len(limbs) == 1 and said:
+            letters[cell] = _HAND_LETTERS[said[0]]
+        elif said:
+            letters[cell] = "B" if len(said) > 1 else _REST
+            losses.add(Feature.STICKING, "which hand plays which of two strokes", cell // groove.cells_per_bar)
+    return "".join(letters) if any(letter != _REST for letter in letters) else ""
+
+
+def _check_lengths(score: Score, written: Groove, losses: _Losses) -> None:
+    """Tells the bars where strokes come back at another time, and buzzes with another length."""
+    back = part_of_groove(written).score
+    for feature, places in (
+        (Feature.TIMES, (_times(score), _times(back))),
+        (Feature.BUZZES, (_buzzes(score), _buzzes(back))),
+    ):
+        for tick, *_ in sorted(places[0] - places[1]):
+            losses.add(feature, _SENTENCES[feature], tick // written.meter.bar_ticks)
+
+
+def _times(score: Score) -> set[tuple[int, ...]]:
+    return {(tick,) for tick in score.notes["tick"][~score.is_grace].tolist()}
+
+
+def _buzzes(score: Score) -> set[tuple[int, ...]]:
+    rows = score.notes[score.notes["articulation"] == Articulation.BUZZ]
+    return set(zip(rows["tick"].tolist(), rows["duration_ticks"].tolist(), strict=True))
+
+
+# --- nearer and nearer to a letter ------------------------------------------------------------------------------------
+
+
+def _known_piece(stroke: GrooveStroke) -> GrooveStroke:
+    return replace(stroke, piece=_NEAREST.get(stroke.piece, stroke.piece))
+
+
+def _plain_articulation(stroke: GrooveStroke) -> GrooveStroke:
+    if stroke.piece is Piece.HIHAT_PEDAL:
+        return replace(stroke, zone=Zone.PEDAL, articulation=Articulation.CHICK, openness=CLOSED)
+    if stroke.articulation is Articulation.RIM_SHOT:
+        return replace(stroke, zone=Zone.HEAD, articulation=Articulation.NORMAL)
+    return stroke
+
+
+def _no_buzz(stroke: GrooveStroke) -> GrooveStroke:
+    if stroke.articulation is not Articulation.BUZZ or stroke.piece is Piece.SNARE:
+        return stroke
+    return replace(stroke, articulation=Articulation.NORMAL, ornament=Ornament.NONE)
+
+
+def _usual_zone(stroke: GrooveStroke) -> GrooveStroke:
+    if stroke.articulation is Articulation.CROSS_STICK:
+        return replace(stroke, zone=Zone.RIM)
+    return replace(stroke, zone=_ZONES.get(stroke.piece, Zone.HEAD))
+
+
+def _open_or_closed(stroke: GrooveStroke) -> GrooveStroke:
+    if stroke.piece is Piece.HIHAT:
+        return replace(stroke, openness=OPEN if (stroke.openness or CLOSED) >= HALF_OPEN else CLOSED)
+    return stroke if stroke.piece is Piece.HIHAT_PEDAL else replace(stroke, openness=None)
+
+
+def _no_diddle(stroke: GrooveStroke) -> GrooveStroke:
+    is_diddle = stroke.ornament in (Ornament.DIDDLE, Ornament.ROLL) and stroke.articulation is not Articulation.BUZZ
+    return replace(stroke, ornament=Ornament.NONE) if is_diddle else stroke
+
+
+def _no_grace(ornament: Ornament) -> Callable[[GrooveStroke], GrooveStroke]:
+    def nearer(stroke: GrooveStroke) -> GrooveStroke:
+        is_plain_snare = stroke.piece is Piece.SNARE and stroke.articulation is Articulation.NORMAL
+        return stroke if stroke.ornament is not ornament or is_plain_snare else replace(stroke, ornament=Ornament.NONE)
+
+    return nearer
+
+
+_STEPS: tuple[tuple[Feature, Callable[[GrooveStroke], GrooveStroke]], ...] = (
+    (Feature.PIECES, _known_piece),
+    (Feature.FOOT_SPLASHES, lambda s: _plain_articulation(s) if s.piece is Piece.HIHAT_PEDAL else s),
+    (Feature.RIM_SHOTS, _plain_articulation),
+    (Feature.BUZZES, _no_buzz),
+    (Feature.ZONES, _usual_zone),
+    (Feature.OPENNESS, _open_or_closed),
+    (Feature.DIDDLES, _no_diddle),
+    (Feature.FLAMS, _no_grace(Ornament.FLAM)),
+    (Feature.DRAGS, _no_grace(Ornament.DRAG)),
+    (Feature.DYNAMICS, lambda s: replace(s, dynamic=Dynamic.NORMAL)),
+)
+"""In this order, until there is a letter: so an accented flam stays a flam, an accented diddle an accent."""
+
+_SENTENCES: Mapping[Feature, str] = MappingProxyType(
+    {
+        Feature.PIECES: "pieces that GrooveScribe has no line for are written as the nearest",
+        Feature.FOOT_SPLASHES: "splashes of the hi-hat foot become chicks",
+        Feature.RIM_SHOTS: "rim shots become plain strokes",
+        Feature.BUZZES: "buzz rolls of another length, or of another drum than the snare",
+        Feature.ZONES: "rims, edges and bells but the ride's",
+        Feature.OPENNESS: "a half-open hi-hat becomes open or closed",
+        Feature.DIDDLES: "diddles become single strokes",
+        Feature.FLAMS: "flams of other pieces than the snare",
+        Feature.DRAGS: "drags of other pieces than the snare",
+        Feature.DYNAMICS: "accents and ghosts that have no letter become plain strokes",
+        Feature.CHOKES: "chokes are left out",
+        Feature.TIMES: "strokes that come back at another time",
+    }
+)
