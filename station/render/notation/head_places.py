@@ -7,6 +7,7 @@ on a hand's goes to the far side of its own stem.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,7 +91,7 @@ def placed_heads(mains: NDArray[np.void]) -> list[PlacedHead]:
     found = [_plain(row) for row in mains]
     placed: list[PlacedHead] = []
     for i in sorted(range(len(found)), key=lambda i: _order(found[i])):
-        near = [o for o in placed if abs(o.step - found[i].step) <= _SECOND]
+        near = [o for o in placed if _cover(o, found[i])]
         if not all(map(_is_displaced, near)):
             found[i] = replace(found[i], x=_displaced_x(found[i], near))
         placed.append(found[i])
@@ -99,9 +100,21 @@ def placed_heads(mains: NDArray[np.void]) -> list[PlacedHead]:
     return found
 
 
+def _cover(a: PlacedHead, b: PlacedHead) -> bool:
+    """Whether two heads would lie on one another: those a second apart, and a slash that ends in a wide cross."""
+    apart = abs(a.step - b.step)
+    return apart <= _SECOND or (apart == _SECOND + 1 and {a.head, b.head} == {NoteHead.SLASHED, NoteHead.HEAVY_CROSS})
+
+
 def _plain(row: np.void) -> PlacedHead:
-    piece = Piece(int(row["piece"]))
-    head = head_of(piece, Zone(int(row["zone"])), Articulation(int(row["articulation"])))
+    return _head_alone(int(row["piece"]), int(row["zone"]), int(row["articulation"]))
+
+
+@cache
+def _head_alone(of: int, where: int, how: int) -> PlacedHead:
+    """The head of a piece, a zone and an articulation where it stands alone."""
+    piece = Piece(of)
+    head = head_of(piece, Zone(where), Articulation(how))
     is_foot = piece in FOOT_PIECES
     beside = EDGE_X - _stem_half(head)
     return PlacedHead(step_of(piece), head, -beside if is_foot else beside, is_foot)
@@ -129,13 +142,12 @@ def is_ghost(row: np.void) -> bool:
 
 
 def _ghost_clusters(heads: Sequence[PlacedHead], ghosts: Sequence[bool]) -> list[list[int]]:
-    """The ghost strokes of each voice from the lowest up, those together whose brackets would meet."""
+    """The ghost strokes from the lowest up, those together whose brackets would meet."""
     clusters: list[list[int]] = []
-    for i in sorted(range(len(heads)), key=lambda i: (heads[i].is_foot, heads[i].step)):
+    for i in sorted(range(len(heads)), key=lambda i: heads[i].step):
         if not ghosts[i]:
             continue
-        before = heads[clusters[-1][-1]] if clusters else None
-        if before and before.is_foot == heads[i].is_foot and heads[i].step - before.step <= _BRACKET_REACH:
+        if clusters and heads[i].step - heads[clusters[-1][-1]].step <= _BRACKET_REACH:
             clusters[-1].append(i)
         else:
             clusters.append([i])
@@ -148,6 +160,6 @@ def _brackets(cluster: Sequence[PlacedHead], heads: Sequence[PlacedHead]) -> Bra
     scale = 1 + (high - low) / 2 / sign_box("bracket_left").height
     half = sign_box("bracket_left").width / 2 * scale
     near = [other for other in heads if low - _BRACKET_REACH <= other.step <= high + _BRACKET_REACH]
-    stem = -EDGE_X if cluster[0].is_foot else EDGE_X
-    left, right = min(stem, *(o.left for o in near)), max(stem, *(o.right for o in near))
+    stems = [-EDGE_X if head.is_foot else EDGE_X for head in cluster]
+    left, right = min(*stems, *(o.left for o in near)), max(*stems, *(o.right for o in near))
     return Brackets(left - _BRACKET_GAP - half, right + _BRACKET_GAP + half, (low + high) / 2, scale)

@@ -5,8 +5,9 @@ signs. The hands' letters stand above, at their stems' ends, the feet's below: n
 Units are staff spaces, y down, 0 on the staff's middle line.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,8 @@ TUPLET_HEIGHT = sign_box("tuplet_0").height * 0.8 + 2 * STACK_GAP
 """What a tuplet's number and bracket take."""
 _LETTERS, _WORDS, _LOUDNESS = 1.6, 1.9, 2.9
 """What rows of letters, of words and of loudness take, with the gap before them."""
+_UNDER_WORD = 0.7
+"""What the letter f has below its baseline."""
 _WEAKEST_FEET = {Piece.KICK: Limb.LEFT_FOOT, Piece.HIHAT_PEDAL: Limb.RIGHT_FOOT}
 """Whose letters say something: the foot that a piece is not played with as a rule."""
 _PLAIN_GRID = PPQ // 8
@@ -120,39 +123,61 @@ def flag_overhang(count: int) -> float:
     return max(sign_box(f"flag_{4 << count}").top, 0.0) if count else 0.0
 
 
-def staff_rows(score: Score, limbs: NDArray[np.int8] | None = None) -> StaffRows:
-    """The rows of the staff of `score`; `limbs` (n,) write its sticking, None those of the score itself."""
+def staff_rows(score: Score, limbs: NDArray[np.int8] | None = None, bars: range | None = None) -> StaffRows:
+    """The rows of the staff of `score` over its `bars`, None for all of them.
+
+    `limbs` (n,) write its sticking, None those of the score itself.
+    """
     shown = shown_limbs(score, score.notes["limb"] if limbs is None else limbs)
     is_foot = np.isin(score.notes["piece"], [int(piece) for piece in FOOT_PIECES])
-    hands = _reach(score, ~is_foot, -1)
-    hands_row = hands - STACK_GAP
-    has_hands = bool(np.isin(shown, (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any())
+    places = list(_bar_rows(score, bars if bars is not None else range(score.bar_count)))
+    rows = np.concatenate([np.arange(first, last) for first, last in places] or [np.arange(0)])
+    hands_row = _reach(score, ~is_foot, places, -1) - STACK_GAP
+    has_hands = bool(np.isin(shown[rows], (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any())
     words = hands_row - (_LETTERS if has_hands else 0.0)
-    feet = _reach(score, is_foot, 1) + _LETTERS
-    has_feet = bool(np.isin(shown, (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)).any())
+    feet = _reach(score, is_foot, places, 1) + _LETTERS
+    has_feet = bool(np.isin(shown[rows], (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)).any())
     low = feet if has_feet else feet - _LETTERS
-    loudness = low + _LOUDNESS - 0.7
+    loudness = low + _LOUDNESS - _UNDER_WORD
     bottom = (low + _LOUDNESS if score.loudness else low) + STACK_GAP
     return StaffRows(words - _WORDS, words, hands_row, feet, loudness, bottom)
 
 
-def _reach(score: Score, rows: NDArray[np.bool_], way: int) -> float:
-    """How far what is stacked on the chords of one voice reaches at the most."""
-    notes, closing = score.notes[rows], closing_hats(score)[rows]
-    if not len(notes):
-        return _UP_BEAM_Y if way < 0 else _DOWN_BEAM_Y
-    heights = [height(step_of(Piece(int(piece)))) for piece in np.unique(notes["piece"])]
-    beams = _most_beams(notes)
+def _bar_rows(score: Score, bars: range) -> Iterator[tuple[int, int]]:
+    """First stroke of each bar, and the first one after it."""
+    starts = [score.tempo_map.bar_start(bar) for bar in range(bars.start, bars.stop + 1)]
+    yield from pairwise(np.searchsorted(score.notes["tick"], starts).tolist())
+
+
+def _reach(score: Score, of_voice: NDArray[np.bool_], places: Sequence[tuple[int, int]], way: int) -> float:
+    """How far what is stacked on the chords of one voice reaches at the most, in any bar."""
+    closing = closing_hats(score)
+    found = _UP_BEAM_Y if way < 0 else _DOWN_BEAM_Y
+    for first, last in places:
+        own = of_voice[first:last]
+        if own.any():
+            reach = _bar_reach(score.notes[first:last][own], closing[first:last][own], way)
+            found = min(found, reach) if way < 0 else max(found, reach)
+    return found
+
+
+def _bar_reach(notes: NDArray[np.void], closing: NDArray[np.bool_], way: int) -> float:
+    """How far the chords of one voice reach in a bar: no nearer than they do once their rhythm is spelled."""
+    heights = [height(step_of(Piece(piece))) for piece in set(notes["piece"].tolist())]
+    written = notes["tick"] - notes["swing_ticks"]
+    beams = _most_beams(written)
     rests = [rest_edge(4 << k, way < 0, ()) for k in range(1, beams + 1)] if beams > _PLAIN_BEAMS else []
     stem = stem_end(heights, way < 0, beams, has_flags=True, rests=rests)
-    return stem + way * (_tallest(notes, closing) + (TUPLET_HEIGHT if _has_tuplets(notes) else 0.0))
+    has_tuplets = (written % _PLAIN_GRID != 0).any()
+    return stem + way * (_tallest(notes, closing) + (TUPLET_HEIGHT if has_tuplets else 0.0))
 
 
-def _most_beams(notes: NDArray[np.void]) -> int:
-    """How many beams write the shortest step between strokes of one voice, at the most."""
-    steps = np.diff(np.unique(notes["tick"] - notes["swing_ticks"]))
-    shortest = int(steps.min()) if len(steps) else PPQ
-    return min(max((PPQ - 1) // shortest, 0).bit_length(), _FINEST)
+def _most_beams(written: NDArray[np.int64]) -> int:
+    """How many beams write the shortest step from stroke to stroke or to a beat, at the most."""
+    ticks = np.unique(written)
+    beside = np.concatenate([np.diff(ticks), ticks % PPQ, -ticks % PPQ])
+    shortest = int(beside[beside > 0].min(initial=PPQ))
+    return min((PPQ // shortest).bit_length() - 1, _FINEST)
 
 
 def _tallest(notes: NDArray[np.void], closing: NDArray[np.bool_]) -> float:
@@ -162,12 +187,9 @@ def _tallest(notes: NDArray[np.void], closing: NDArray[np.bool_]) -> float:
     bearing = (
         closing | (notes["openness"] >= OPEN_FROM) | (notes["choke_ticks"] > 0) | (notes["dynamic"] == Dynamic.ACCENT)
     )
+    if not bearing.any():
+        return 0.0
     ticks = np.unique(notes["tick"][bearing])
     firsts, lasts = np.searchsorted(notes["tick"], ticks), np.searchsorted(notes["tick"], ticks, side="right")
     kinds = {tuple(stacked_signs(notes[a:b], closing[a:b])) for a, b in zip(firsts, lasts, strict=True)}
     return max((stack_height(list(names)) for names in kinds), default=0.0)
-
-
-def _has_tuplets(notes: NDArray[np.void]) -> bool:
-    """Whether strokes lie beside the grid of thirty-seconds, as those of tuplets and of played music do."""
-    return bool(((notes["tick"] - notes["swing_ticks"]) % _PLAIN_GRID != 0).any())
