@@ -9,18 +9,18 @@ from dataclasses import dataclass
 
 from station.music.tempo import TempoMap
 from station.render.notation.beaming import BeamSpan
-from station.render.notation.staff_rows import flag_overhang
-from station.render.palette import INK, INK_SOFT
-from station.render.text.draw_list import DrawList, TypeStyle
-from station.render.text.fonts import Face
-from station.render.text.sign_outlines import BEAM, BEAM_STEP, STEM, sign_box
+from station.render.notation.note_shapes import draw_figures, figures_width
+from station.render.notation.staff_rows import TUPLET_SCALE, flag_overhang
+from station.render.palette import INK
+from station.render.text.draw_list import DrawList
+from station.render.text.sign_outlines import BEAM, BEAM_STEP, BRACKET_LINE, STEM, sign_box
 
 STEM_X = sign_box("head_round").right - STEM / 2
 """How far from its head's middle a stem stands."""
 FLAG_STEP = 0.85
 _STUB = 1.1
-_GAP = 0.7
-"""What a bracket leaves free on either side of its number's middle."""
+_GAP, _HOOK = 0.2, 0.5
+"""What a bracket leaves free on either side of its number, and how far its ends reach and hang over."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,20 +92,22 @@ def draw_tuplet(
 ) -> None:
     """A tuplet's `number` midway between two ticks, its baseline at `y`; the bracket is for one without a beam."""
     start_s, end_s = anchor.seconds(ends[0]), anchor.seconds(ends[1])
+    half = figures_width(str(number), "tuplet") * TUPLET_SCALE / 2
     if with_bracket:
-        _bracket(anchor.draw_list, (start_s, end_s), voice, y - 0.45)
+        middle = y - sign_box("tuplet_0").top * TUPLET_SCALE / 2
+        _bracket(anchor.draw_list, (start_s, end_s), voice, (middle, half + _GAP))
     anchor.draw_list.time_s, anchor.draw_list.span_s = (start_s + end_s) / 2, 0.0
-    anchor.draw_list.text(str(number), (voice.stem_x, y), TypeStyle(1.35, INK, Face.BOLD, 0.5))
+    draw_figures(anchor.draw_list, str(number), (voice.stem_x - half, y), INK, TUPLET_SCALE, "tuplet")
 
 
-def _bracket(draw_list: DrawList, ends_s: tuple[float, float], voice: StaffVoice, y: float) -> None:
-    """A line over a tuplet with a hook at each end, and a gap in the middle for its number."""
-    (start_s, end_s), tip = ends_s, 0.5 * -voice.way
-    centre_s, right = (start_s + end_s) / 2, 0.5 + voice.stem_x
-    for begin_s, x, end_x in ((start_s, -0.5, voice.stem_x - _GAP), (centre_s, voice.stem_x + _GAP, right)):
+def _bracket(draw_list: DrawList, ends_s: tuple[float, float], voice: StaffVoice, middle: tuple[float, float]) -> None:
+    """A line over a tuplet with a hook at each end; `middle`: its height, and half the gap for its number."""
+    (start_s, end_s), tip, (y, gap) = ends_s, _HOOK * -voice.way, middle
+    centre_s, right = (start_s + end_s) / 2, _HOOK + voice.stem_x
+    for begin_s, x, end_x in ((start_s, -_HOOK, voice.stem_x - gap), (centre_s, voice.stem_x + gap, right)):
         draw_list.time_s, draw_list.span_s = begin_s, centre_s - start_s
-        draw_list.box((x, y - 0.05), (end_x - x, 0.1), INK_SOFT)
+        draw_list.box((x, y - BRACKET_LINE / 2), (end_x - x, BRACKET_LINE), INK)
     draw_list.span_s = 0.0
-    for at_s, x in ((start_s, -0.5), (end_s, right)):
+    for at_s, x in ((start_s, -_HOOK + BRACKET_LINE / 2), (end_s, right - BRACKET_LINE / 2)):
         draw_list.time_s = at_s
-        draw_list.line((x, y), (x, y + tip), 0.1, INK_SOFT)
+        draw_list.line((x, y), (x, y + tip), BRACKET_LINE, INK)

@@ -26,7 +26,7 @@ from station.render.notation.head_places import EDGE_X, PlacedHead, placed_heads
 from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_slur
 from station.render.notation.note_values import TimedValue, Value
 from station.render.notation.staff import FOOT_PIECES, height, ledger_steps, step_of
-from station.render.notation.staff_rows import STACK_GAP, StaffRows, stack_height, stacked_signs
+from station.render.notation.staff_rows import LETTER_LINE, STACK_GAP, StaffRows, stack_height, stacked_signs
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import TypeStyle
 from station.render.text.fonts import Face
@@ -179,10 +179,10 @@ class ChordPen:
 
     def _letters(self, chord: Chord, voice: StaffVoice) -> None:
         rows = [*chord.graces, *chord.mains]
-        hands, feet = sticking(self._notes[rows], self._limbs[rows])
-        text, y = (hands, self._rows.hands) if voice.is_up else (feet, self._rows.feet)
-        if text:
-            self._draw_list.text(text, (0.0, y), TypeStyle(LETTER_SIZE, INK_SOFT, Face.BOLD, 0.5))
+        y = self._rows.hands if voice.is_up else self._rows.feet
+        for k, text in enumerate(sticking(self._notes[rows], self._limbs[rows], voice.is_up)):
+            at = 0.0, y + voice.way * LETTER_LINE * k
+            self._draw_list.text(text, at, TypeStyle(LETTER_SIZE, INK, Face.BOLD, 0.5))
 
     # --- grace notes --------------------------------------------------------------------------------------------------
 

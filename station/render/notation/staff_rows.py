@@ -25,16 +25,22 @@ beyond the kick's."""
 _FLAGGED = 3.75
 """And so far beyond a head with flags, which are three and a quarter long: Gould's stems of 3½ spaces clear round
 heads, but not the corners of crosses."""
+_BARE_STAFF = 2.75
+"""Where a voice without strokes has its edge: the staff's, and a head beside it."""
 _BEAMED, _UNDER_BEAM = 2.0, 1.0
 """And with beams, whose innermost lies so far from the head's middle: clear of brackets, too."""
 OPEN_FROM, WIDE_FROM = 0.25, 0.75
 """Openness from which a hat is written half open and open (our choice)."""
 STACK_GAP = 0.3
 """Between two signs on top of each other (Gould, "Behind Bars": at least a quarter of a space)."""
-TUPLET_HEIGHT = sign_box("tuplet_0").height * 0.8 + 2 * STACK_GAP
+TUPLET_SCALE = 0.75
+"""Of the font's figures for tuplets, which are set for orchestral parts: a little taller than a space (our choice)."""
+TUPLET_HEIGHT = sign_box("tuplet_0").height * TUPLET_SCALE + 2 * STACK_GAP
 """What a tuplet's number and bracket take."""
 _LETTERS, _WORDS, _LOUDNESS = 1.6, 1.9, 2.9
 """What rows of letters, of words and of loudness take, with the gap before them."""
+LETTER_LINE = 1.3
+"""From one letter to that of the other hand over it."""
 _UNDER_WORD = 0.7
 """What the letter f has below its baseline."""
 _WEAKEST_FEET = {Piece.KICK: Limb.LEFT_FOOT, Piece.HIHAT_PEDAL: Limb.RIGHT_FOOT}
@@ -134,13 +140,19 @@ def staff_rows(score: Score, limbs: NDArray[np.int8] | None = None, bars: range 
     rows = np.concatenate([np.arange(first, last) for first, last in places] or [np.arange(0)])
     hands_row = _reach(score, ~is_foot, places, -1) - STACK_GAP
     has_hands = bool(np.isin(shown[rows], (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any())
-    words = hands_row - (_LETTERS if has_hands else 0.0)
+    words = hands_row - (_LETTERS if has_hands else 0.0) - (LETTER_LINE if _both_hands(score, shown, rows) else 0.0)
     feet = _reach(score, is_foot, places, 1) + _LETTERS
     has_feet = bool(np.isin(shown[rows], (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)).any())
     low = feet if has_feet else feet - _LETTERS
     loudness = low + _LOUDNESS - _UNDER_WORD
     bottom = (low + _LOUDNESS if score.loudness else low) + STACK_GAP
     return StaffRows(words - _WORDS, words, hands_row, feet, loudness, bottom)
+
+
+def _both_hands(score: Score, shown: NDArray[np.int8], rows: NDArray[np.int64]) -> bool:
+    """Whether both hands' letters stand over one place, on top of each other."""
+    own = [rows[(shown[rows] == hand) & ~score.is_grace[rows]] for hand in (Limb.RIGHT_HAND, Limb.LEFT_HAND)]
+    return bool(np.intersect1d(*(score.notes["tick"][some] for some in own)).size)
 
 
 def _bar_rows(score: Score, bars: range) -> Iterator[tuple[int, int]]:
@@ -152,7 +164,7 @@ def _bar_rows(score: Score, bars: range) -> Iterator[tuple[int, int]]:
 def _reach(score: Score, of_voice: NDArray[np.bool_], places: Sequence[tuple[int, int]], way: int) -> float:
     """How far what is stacked on the chords of one voice reaches at the most, in any bar."""
     closing = closing_hats(score)
-    found = _UP_BEAM_Y if way < 0 else _DOWN_BEAM_Y
+    found = way * _BARE_STAFF
     for first, last in places:
         own = of_voice[first:last]
         if own.any():

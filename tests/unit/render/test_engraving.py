@@ -181,9 +181,9 @@ def test_flams_and_drags() -> None:
 
 def test_a_tuplet_has_its_number() -> None:
     triplet = [Note(round(k * PPQ / 3), Piece.SNARE) for k in range(3)]
-    assert letters(bar_of(*triplet), "3") == 1
+    assert signs(bar_of(*triplet), "tuplet_3") == 1
     eighths = [Note(k * PPQ // 2, Piece.SNARE) for k in range(2)]
-    assert letters(bar_of(*eighths), "3") == 0
+    assert signs(bar_of(*eighths), "tuplet_3") == 0
 
 
 def test_a_single_eighth_has_a_flag_and_two_have_a_beam() -> None:
@@ -291,7 +291,7 @@ def test_swung_eighths_are_written_straight_and_stand_where_they_sound() -> None
     assert sorted(heads["time_s"][:, 0].tolist()) == pytest.approx([0, late_s, 0.5, 0.5 + late_s, 1, 1.5], abs=1e-4)
     assert beams(shapes) == pytest.approx([0.5 + late_s], abs=1e-4), "one beam from the first beat to the late half"
     for figure in "023456789":
-        assert letters(shapes, figure) == 0, "no tuplet"
+        assert letters(shapes, figure) == signs(shapes, f"tuplet_{figure}") == 0, "no tuplet"
 
 
 def test_swing_is_said_where_it_begins_and_where_it_ends() -> None:
