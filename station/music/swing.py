@@ -16,7 +16,7 @@ from station.core.units import PPQ
 from station.music.score import Score
 from station.music.tempo import MeterChange
 
-STRAIGHT = 1.0
+STRAIGHT, TRIPLETS = 1.0, 2.0
 MIN_RATIO, MAX_RATIO = 1.0, 3.5
 """The range that drummers play (HUMANS: Friberg & Sundström, 1 at 300 bpm to 3.5 at 120)."""
 _LIMIT_DENOMINATOR = 1000
@@ -46,6 +46,11 @@ class Swing:
         if inside <= self.unit_ticks:
             return start + round(inside * 2 * long_share)
         return start + round(pair * long_share + (inside - self.unit_ticks) * 2 * (1 - long_share))
+
+    @property
+    def stands_in_words(self) -> bool:
+        """Whether notation writes it as a mark over straight cells: any swing (but see `triplets_spelled_out`)."""
+        return self.ratio != STRAIGHT
 
 
 def triplets_spelled_out(score: Score) -> Score:

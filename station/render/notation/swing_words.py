@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import PPQ
+from station.music import swing
 from station.music.score import Score
 from station.render.text.draw_list import Colour, DrawList, TypeStyle
 from station.render.text.fonts import Face
 from station.render.text.sign_outlines import sign_box
 
-_STRAIGHT, _TRIPLETS = 1.0, 2.0
 _SAME = 0.02
 """Ratios closer than this are one: ticks are rounded, and imports by more (our choice)."""
 _SCALE = 0.34
@@ -40,14 +40,14 @@ class SwingMark:
     @property
     def is_straight(self) -> bool:
         """Whether it ends a swing."""
-        return abs(self.ratio - _STRAIGHT) < _SAME
+        return abs(self.ratio - swing.STRAIGHT) < _SAME
 
     def is_as(self, other: "SwingMark") -> bool:
         """Whether both say the same."""
         return abs(self.ratio - other.ratio) < _SAME and (self.is_straight or self.unit_ticks == other.unit_ticks)
 
 
-STRAIGHT = SwingMark(_STRAIGHT)
+STRAIGHT = SwingMark(swing.STRAIGHT)
 
 
 def swing_marks(score: Score) -> dict[int, SwingMark]:
@@ -123,7 +123,7 @@ def draw_swing_mark(
         return draw_list.text("straight", at, style)
     levels = 1 if mark.unit_ticks >= PPQ // 2 else 2
     x += _pair(draw_list, at, _SCALE * size, (levels, levels), colour) + gap
-    if abs(mark.ratio - _TRIPLETS) >= _SAME:
+    if abs(mark.ratio - swing.TRIPLETS) >= _SAME:
         return x + draw_list.text(f"swing {mark.ratio:.3g} : 1", (x, y), style) - at[0]
     x += draw_list.text("=", (x, y), style) + gap
     return x + _triplet(draw_list, (x, y), _SCALE * size, levels, colour) - at[0]

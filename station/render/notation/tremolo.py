@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from station.music.passages import diddle_pairs
 from station.music.score import Score
-from station.render.notation.beams import BEAM_STEP, Anchor, StaffVoice
+from station.render.notation.beams import Anchor, StaffVoice
 from station.render.notation.note_values import TimedValue
 from station.render.notation.written_rhythm import beats_of
 from station.render.palette import INK
+from station.render.text.sign_outlines import BEAM_STEP
 
 _HEAD_ROOM, _FLAG_ROOM, _OVER_WHOLE = 1.0, 2.0, 1.6
 """What stays free beside a head, what a flag takes of a stem, and how far from a whole note slashes stand, in staff

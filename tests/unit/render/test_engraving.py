@@ -181,9 +181,9 @@ def test_flams_and_drags() -> None:
 
 def test_a_tuplet_has_its_number() -> None:
     triplet = [Note(round(k * PPQ / 3), Piece.SNARE) for k in range(3)]
-    assert letters(bar_of(*triplet), "3") == 1
+    assert signs(bar_of(*triplet), "tuplet_3") == 1
     eighths = [Note(k * PPQ // 2, Piece.SNARE) for k in range(2)]
-    assert letters(bar_of(*eighths), "3") == 0
+    assert signs(bar_of(*eighths), "tuplet_3") == 0
 
 
 def test_a_single_eighth_has_a_flag_and_two_have_a_beam() -> None:
