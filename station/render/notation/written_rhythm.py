@@ -97,10 +97,13 @@ def _exact_places(offsets: tuple[int, ...], length: int) -> dict[int, int] | Non
 
 
 def _fits(division: Division, offsets: Sequence[int], length: int, most: int) -> bool:
-    places = slot_ticks(division, length)
-    slots = [nearest_slot(division, length, tick) for tick in offsets]
-    is_near = all(abs(places[slot] - tick) <= most for slot, tick in zip(slots, offsets, strict=True))
-    return is_near and len(set(slots)) == len(slots) and places[-1] not in (places[slot] for slot in slots)
+    places, slots = slot_ticks(division, length), set[int]()
+    for tick in offsets:
+        slot = nearest_slot(division, length, tick)
+        if abs(places[slot] - tick) > most or slot in slots or slot == len(places) - 1:
+            return False
+        slots.add(slot)
+    return True
 
 
 def _moved(score: Score, beats: list[_Beat]) -> dict[int, int]:
