@@ -11,6 +11,7 @@ from station.music.tempo import TempoMap
 from station.render.notation.engraving import Engraver
 from station.render.notation.written_strokes import feet_of, written_strokes
 from station.render.text.atlas import Atlas
+from station.render.text.fonts import Face
 from tests.unit.render.scores import score_of
 
 ATLAS = Atlas()
@@ -40,6 +41,12 @@ def test_a_diddle_is_one_note_of_its_cell() -> None:
     score = lesson('snare = "ot-- t--- oooo --tt"')
     assert cells(score) == [(0.25, 0.5), (1, 1.25), (3.5, 3.75), (3.75, 4)]
     assert slashes(score) == 4
+
+
+def test_the_hand_of_a_diddle_is_written_twice() -> None:
+    shapes = Engraver(lesson('snare = "t- o- t- o-"\nsticking = "R- L- L- R-"'), ATLAS).bar(0)
+    found = [int((shapes["uv"] == np.array(ATLAS.letter(c, Face.BOLD).uv, np.float32)).all(axis=1).sum()) for c in "RL"]
+    assert found == [3, 3], "RR L LL R"
 
 
 def test_the_feet_beneath_a_roll_do_not_break_it() -> None:
