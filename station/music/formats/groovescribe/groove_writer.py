@@ -30,7 +30,6 @@ from station.music.formats.groovescribe.groove_query import (
 from station.music.formats.groovescribe.groove_reader import part_of_groove, swing_of
 from station.music.formats.music_format import Feature, Loss, WrittenFile
 from station.music.score import Note, Score
-from station.music.swing import TRIPLETS
 from station.music.tempo import MeterChange, TempoChange
 
 KEEPS: Mapping[Feature, str] = MappingProxyType(
@@ -161,8 +160,6 @@ def _timed(part: DrumPart, losses: _Losses) -> tuple[Score, int, int]:
     """The strokes on the cells of a division, that division, and the percent of its swing."""
     ratio, unit = part.swing.ratio, part.swing.unit_ticks
     if not part.swing.stands_in_words:
-        if ratio == TRIPLETS:
-            losses.add(Feature.SWING, "swing of 2:1 is written out in triplets")
         return part.score, _division(part, part.score), 0
     score = part.score.as_written
     percent = min(round(100 * (ratio - 1) / (ratio + 1)), MOST_SWING)
