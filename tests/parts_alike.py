@@ -24,12 +24,12 @@ def differences(before: DrumPart, after: DrumPart, features: Collection[Feature]
     """What of `features` came back otherwise, a line each; empty if all came back.
 
     Strokes are told apart as main strokes and grace strokes. Where neither flams nor drags are asked for, strokes of
-    `after` that sound where grace strokes of `before` do are those, and not looked at.
+    `after` that sound where grace strokes of `before` do are those, and not looked at; a format without tempo has none.
     """
     found = [f"{feature.value}: {fault}" for feature in Feature if feature in features and feature in _OF_PART
              if (fault := _OF_PART[feature](before, after))]  # fmt: skip
     ours, theirs = _main(before.score.notes), _main(after.score.notes)
-    if not {Feature.FLAMS, Feature.DRAGS} & set(features):
+    if Feature.TEMPO in features and not {Feature.FLAMS, Feature.DRAGS} & set(features):
         theirs = _without_graces_of(before, after, theirs)
     if len(ours) != len(theirs):  # strokes that the writer left out are told as lost times
         return [*found, f"{Feature.TIMES.value}: {len(ours)} strokes became {len(theirs)}"] * (

@@ -6,11 +6,20 @@ from station.core.errors import BadInput
 from station.core.files import read_regular
 from station.music.drum_part import DrumPart
 from station.music.formats.groovescribe.groove_formats import GROOVE_TEXT, GROOVESCRIBE, GROOVESCRIBE_MIDI
+from station.music.formats.hydrogen.hydrogen_formats import HYDROGEN_PATTERN, HYDROGEN_SONG
 from station.music.formats.music_format import MusicFormat
 from station.music.formats.smf.midi_part import MIDI
 from station.music.formats.text_score import TEXT_SCORE
 
-FORMATS: tuple[MusicFormat, ...] = (GROOVESCRIBE_MIDI, MIDI, GROOVESCRIBE, GROOVE_TEXT, TEXT_SCORE)
+FORMATS: tuple[MusicFormat, ...] = (
+    GROOVESCRIBE_MIDI,
+    MIDI,
+    GROOVESCRIBE,
+    GROOVE_TEXT,
+    HYDROGEN_SONG,
+    HYDROGEN_PATTERN,
+    TEXT_SCORE,
+)
 """Of several with the same ending, the choosy ones first."""
 
 

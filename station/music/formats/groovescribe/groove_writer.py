@@ -5,7 +5,7 @@ What a letter does not say is told with its bars: of each stroke the nearest let
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
@@ -13,6 +13,7 @@ import numpy as np
 from station.core.errors import BadInput
 from station.core.pieces import CLOSED, HALF_OPEN, OPEN, Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
+from station.core.utf8 import one_line
 from station.music.drum_part import DrumPart
 from station.music.formats.groovescribe.groove_letters import HANDS, LETTER_OF, LETTERS, GrooveStroke
 from station.music.formats.groovescribe.groove_query import (
@@ -25,9 +26,9 @@ from station.music.formats.groovescribe.groove_query import (
     UNITS,
     Groove,
     groove_url,
-    one_line,
 )
 from station.music.formats.groovescribe.groove_reader import part_of_groove, swing_of
+from station.music.formats.lost_bars import LostBars
 from station.music.formats.music_format import Feature, Loss, WrittenFile
 from station.music.score import Note, Score
 from station.music.swing import TRIPLETS
@@ -81,27 +82,6 @@ _SAME_RATIO = 1e-9
 """Below any difference that a file writes."""
 
 
-@dataclass(slots=True)
-class _Losses:
-    """What is lost, by feature and sentence, each with its bars from 1."""
-
-    bars: dict[tuple[Feature, str], list[int]] = field(default_factory=dict)
-
-    def add(self, feature: Feature, text: str, bar: int | None = None) -> None:
-        known = self.bars.setdefault((feature, text), [])
-        if bar is not None and bar + 1 not in known:
-            known.append(bar + 1)
-
-    def told(self) -> tuple[Loss, ...]:
-        return tuple(Loss(feature, _with_bars(text, bars)) for (feature, text), bars in self.bars.items())
-
-
-def _with_bars(text: str, bars: list[int]) -> str:
-    if not bars:
-        return text
-    return f"bar{'s' if len(bars) > 1 else ''} {', '.join(map(str, sorted(bars)))}: {text}"
-
-
 def write_groove(part: DrumPart) -> WrittenFile:
     """The link as UTF-8 text, a line; raises `BadInput` where a groove has no place for the part."""
     groove, lost = groove_of(part)
@@ -110,7 +90,7 @@ def write_groove(part: DrumPart) -> WrittenFile:
 
 def groove_of(part: DrumPart) -> tuple[Groove, tuple[Loss, ...]]:
     """The groove that is nearest to `part`, and what it has not; raises `BadInput`."""
-    losses = _Losses()
+    losses = LostBars()
     bars = _bars(part)
     score, division, percent = _timed(part, losses)
     meter = score.tempo_map.meters[0]
@@ -157,12 +137,14 @@ def _name(part: DrumPart) -> str:
     return part.score.title or "part"
 
 
-def _timed(part: DrumPart, losses: _Losses) -> tuple[Score, int, int]:
+def _timed(part: DrumPart, losses: LostBars) -> tuple[Score, int, int]:
     """The strokes on the cells of a division, that division, and the percent of its swing."""
     ratio, unit = part.swing.ratio, part.swing.unit_ticks
     if not part.swing.stands_in_words:
         if ratio == TRIPLETS:
             losses.add(Feature.SWING, "swing of 2:1 is written out in triplets")
+        elif part.score.notes["swing_ticks"].any():
+            losses.add(Feature.SWING, "swing of some bars is written where it sounds")
         return part.score, _division(part, part.score), 0
     score = part.score.as_written
     percent = min(round(100 * (ratio - 1) / (ratio + 1)), MOST_SWING)
@@ -196,7 +178,7 @@ def _fits(score: Score, meter: MeterChange, division: int) -> bool:
     return whole_bar and not (score.notes["tick"] % (4 * PPQ // division)).any()
 
 
-def _tempo(score: Score, losses: _Losses) -> int:
+def _tempo(score: Score, losses: LostBars) -> int:
     bpm = score.tempo_map.bpm_at(0)
     used = min(max(round(bpm), LEAST_TEMPO), MOST_TEMPO)
     if score.tempo_map.tempos[0] != TempoChange.from_bpm(0, used):
@@ -214,7 +196,7 @@ def _tempo(score: Score, losses: _Losses) -> int:
 # --- the letters ------------------------------------------------------------------------------------------------------
 
 
-def _lines(score: Score, groove: Groove, losses: _Losses) -> tuple[dict[str, str], str]:
+def _lines(score: Score, groove: Groove, losses: LostBars) -> tuple[dict[str, str], str]:
     """The letters of all lines that have any (H, S and K always), and the stickings."""
     size = groove.cells_per_bar * groove.bars
     lines = {name: [_REST] * size for name in LETTERS}
@@ -231,7 +213,7 @@ def _lines(score: Score, groove: Groove, losses: _Losses) -> tuple[dict[str, str
     return written, _stickings(hands, groove, losses)
 
 
-def _letter(note: Note, bar: int, losses: _Losses) -> tuple[str, str]:
+def _letter(note: Note, bar: int, losses: LostBars) -> tuple[str, str]:
     """The line and letter nearest to a stroke."""
     meant = GrooveStroke(note.piece, note.zone, note.articulation, note.dynamic, note.openness, note.ornament)
     said = meant
@@ -247,7 +229,7 @@ def _letter(note: Note, bar: int, losses: _Losses) -> tuple[str, str]:
     return LETTER_OF[said]
 
 
-def _joined(name: str, there: str, letter: str, note: Note, bar: int, losses: _Losses) -> str:
+def _joined(name: str, there: str, letter: str, note: Note, bar: int, losses: LostBars) -> str:
     """What a cell of a line says when `letter` comes to what is `there`."""
     if there in (_REST, letter):
         return letter
@@ -258,7 +240,7 @@ def _joined(name: str, there: str, letter: str, note: Note, bar: int, losses: _L
     return min(there, letter, key=_FIRST.index)
 
 
-def _stickings(hands: Mapping[int, list[Limb]], groove: Groove, losses: _Losses) -> str:
+def _stickings(hands: Mapping[int, list[Limb]], groove: Groove, losses: LostBars) -> str:
     """A letter a cell where one hand strikes; "" where no hand is said at all."""
     letters = [_REST] * (groove.cells_per_bar * groove.bars)
     for cell, limbs in hands.items():
@@ -271,7 +253,7 @@ def _stickings(hands: Mapping[int, list[Limb]], groove: Groove, losses: _Losses)
     return "".join(letters) if any(letter != _REST for letter in letters) else ""
 
 
-def _check_lengths(score: Score, written: Groove, losses: _Losses) -> None:
+def _check_lengths(score: Score, written: Groove, losses: LostBars) -> None:
     """Tells the bars where strokes come back at another time, and buzzes with another length."""
     back = part_of_groove(written).score
     for feature, places in (

@@ -1,0 +1,326 @@
+"""A part as a song of Hydrogen's: a column a bar, a pattern for each bar that is unlike the others.
+
+A stroke lies at the nearest tick and has the rest as its lead or lag, so that Hydrogen plays it where the part has it.
+Swung sixteenths are written straight with the swing factor, any other swing where it sounds. Instruments are named as
+in Hydrogen's own kit. Grace strokes are notes of their own, before their stroke by their time.
+"""
+
+from bisect import bisect_right
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from station.core.errors import BadInput
+from station.core.note_map import NoteMeaning, general_midi_note
+from station.core.pieces import CHOKEABLE, Articulation, Ornament, Piece, Zone
+from station.core.sound_names import HIHAT_STEPS, SoundName, choose_sound, strike_of_sound
+from station.core.units import PPQ
+from station.core.utf8 import one_line
+from station.music.drum_part import DrumPart
+from station.music.formats.hydrogen.rock_kit import KIT, KIT_ID, NAMES, kit_id
+from station.music.formats.hydrogen.song_contents import (
+    ENTIRE_SAMPLE,
+    FULL_VELOCITY,
+    LEAD_LAG_TICKS,
+    LEAST_BPM,
+    MOST_BPM,
+    SCORE_TICKS,
+    SIXTEENTH,
+    SWING_TICKS,
+    HydrogenSong,
+    Instrument,
+    Pattern,
+    PatternNote,
+)
+from station.music.formats.lost_bars import LostBars
+from station.music.formats.music_format import Feature, Loss
+from station.music.score import Note, Score
+from station.music.swing import STRAIGHT
+
+SONG_KEEPS: Mapping[Feature, str] = MappingProxyType(
+    {
+        Feature.TIMES: "a 48th of a quarter note, and lead or lag for the rest; grace strokes are strokes like others",
+        Feature.PIECES: "",
+        Feature.TEMPO: "from 10 to 400, changes where a bar begins",
+        Feature.METERS: "",
+        Feature.SWING: "of sixteenths, to 3:1; other swing is written where it sounds",
+        Feature.VELOCITIES: "",
+        Feature.ZONES: "the ride's bell and edge, the hi-hat's edge, the other cymbals' bow, rims of toms",
+        Feature.CROSS_STICKS: "",
+        Feature.RIM_SHOTS: "",
+        Feature.OPENNESS: "in quarters",
+        Feature.FOOT_SPLASHES: "",
+        Feature.BUZZES: "of the snare",
+        Feature.CHOKES: "",
+        Feature.TITLE: "",
+        Feature.AUTHOR: "",
+        Feature.ABOUT: "",
+        Feature.SECTIONS: "where one follows the other",
+    }
+)
+PATTERN_KEEPS: Mapping[Feature, str] = MappingProxyType(
+    {
+        Feature.TIMES: SONG_KEEPS[Feature.TIMES].partition(";")[0],
+        Feature.PIECES: "those of Hydrogen's own kit",
+        Feature.VELOCITIES: "",
+        Feature.ZONES: "the ride's bell",
+        Feature.CROSS_STICKS: "",
+        Feature.RIM_SHOTS: "",
+        Feature.OPENNESS: "closed, half open and open",
+        Feature.CHOKES: "",
+        Feature.TITLE: "",
+        Feature.AUTHOR: "",
+        Feature.ABOUT: "",
+    }
+)
+
+_ADDITIONS: Mapping[tuple[SoundName, Zone], str] = MappingProxyType(
+    {
+        **{(step, Zone.EDGE): " Edge" for step in HIHAT_STEPS},
+        **{
+            (sound, Zone.BOW): " Bow"
+            for sound in (SoundName.CRASH_1, SoundName.CRASH_2, SoundName.SPLASH, SoundName.CHINA)
+        },
+    }
+)
+"""What is added to an instrument's name where it is struck elsewhere than usual."""
+_OF_THE_RIM = (Articulation.CROSS_STICK, Articulation.RIM_SHOT)
+_ARTICULATIONS: Mapping[Articulation, Feature] = MappingProxyType(
+    {
+        Articulation.CROSS_STICK: Feature.CROSS_STICKS,
+        Articulation.RIM_SHOT: Feature.RIM_SHOTS,
+        Articulation.SPLASH: Feature.FOOT_SPLASHES,
+        Articulation.BUZZ: Feature.BUZZES,
+    }
+)
+_SENTENCES: Mapping[Feature, str] = MappingProxyType(
+    {
+        Feature.PIECES: "pieces that Hydrogen's kit has not become the nearest",
+        Feature.ZONES: "zones that have no instrument",
+        Feature.RIM_SHOTS: "rim shots become plain strokes",
+        Feature.CROSS_STICKS: "cross-sticks of other pieces than the snare",
+        Feature.OPENNESS: "openings between those that have an instrument",
+        Feature.FOOT_SPLASHES: "splashes of the hi-hat foot",
+        Feature.BUZZES: "buzzes that are not of the snare, or no whole number of ticks long",
+    }
+)
+_HALF_STEP = 0.5
+"""Added to a velocity, so that Hydrogen, which cuts it, finds the same again."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Strike:
+    """What an instrument is for: what asks for its sound, and what its name adds."""
+
+    sound: SoundName
+    addition: str = ""
+
+    @property
+    def name(self) -> str:
+        return NAMES[self.sound] + self.addition
+
+
+@dataclass(frozen=True, slots=True)
+class _Event:
+    """A note at a tick of the song, in score ticks."""
+
+    tick: int
+    strike: _Strike
+    velocity: int
+    length: int = ENTIRE_SAMPLE
+    is_stop: bool = False
+
+
+def song_of_part(part: DrumPart) -> tuple[HydrogenSong, tuple[Loss, ...]]:
+    """The song that plays `part`, and what it has not; raises `BadInput` for a bar that no pattern is as long as."""
+    losses = LostBars()
+    starts = _bar_starts(part)
+    score, factor = _straight(part, starts, losses)
+    events = _events(score, losses)
+    strikes = sorted({event.strike for event in events}, key=lambda one: (kit_id(one.sound), one.name))
+    ids = {strike: i for i, strike in enumerate(strikes)}
+    patterns, columns = _patterns(_by_bar(events, starts, ids), starts, score)
+    if any(meter.groups for meter in score.tempo_map.meters):
+        losses.add(Feature.METER_GROUPS, "Hydrogen has no groups of meters")
+    song = HydrogenSong(
+        *(one_line(part.score.title), one_line(part.author), one_line(part.about)),
+        *(_bpm(score.tempo_map.bpm_at(0), 0, losses), factor),
+        tuple(_instrument(i, strike) for strike, i in ids.items()),
+        patterns,
+        columns,
+        tempos=tuple(_tempos(score, starts, losses).items()),
+        tags=_tags(part, len(columns), losses),
+    )
+    return song, losses.told()
+
+
+def pattern_of_part(part: DrumPart) -> tuple[HydrogenSong, tuple[Loss, ...]]:
+    """All bars of `part` as one pattern for Hydrogen's own kit, and what it has not."""
+    losses = LostBars()
+    score, starts = part.score, _bar_starts(part)
+    events = _events(score, losses, for_kit=True)
+    ids = {_Strike(one.sound): i for i, one in enumerate(KIT)}
+    if len({(event.tick, event.strike, event.is_stop) for event in events}) < len(events):
+        losses.add(Feature.TIMES, "strokes at once that share an instrument of Hydrogen's kit")
+    notes = _by_bar(events, [0, starts[-1]], ids)[0]
+    name = one_line(score.title) or "Pattern"
+    pattern = Pattern(name, starts[-1] // SCORE_TICKS, score.tempo_map.meters[0].unit, notes)
+    about = (one_line(part.author), one_line(part.about))
+    return HydrogenSong(name, *about, patterns=(pattern,), columns=((name,),)), losses.told()
+
+
+# --- the frame --------------------------------------------------------------------------------------------------------
+
+
+def _bar_starts(part: DrumPart) -> list[int]:
+    """Where the bars begin, and where the last one ends; all are on Hydrogen's ticks."""
+    score = part.score
+    starts = [score.tempo_map.bar_start(bar) for bar in range(score.bar_count)] + [max(score.end_tick, SCORE_TICKS)]
+    for bar, tick in enumerate(starts[1:]):
+        if tick % SCORE_TICKS:
+            meter = score.tempo_map.meter_at(starts[bar])
+            fault = f"Hydrogen has no bar of {meter}: its shortest note is a 48th of a quarter"
+            raise BadInput(score.title or "part", f"bar {bar + 1}", fault)
+    return starts
+
+
+def _straight(part: DrumPart, starts: Sequence[int], losses: LostBars) -> tuple[Score, float]:
+    """The strokes where Hydrogen writes them, and its swing factor; where it swings otherwise, as they sound and 0."""
+    ratio, rows = part.swing.ratio, part.score.notes
+    if ratio == STRAIGHT:
+        if rows["swing_ticks"].any():
+            losses.add(Feature.SWING, "swing of some bars is written where it sounds")
+        return part.score, 0.0
+    factor = SIXTEENTH / SWING_TICKS * (ratio - 1) / (ratio + 1)
+    straight = rows["tick"] - rows["swing_ticks"]
+    inside = straight - np.array(starts)[np.searchsorted(starts, straight, side="right") - 1]
+    late = np.where(inside % (2 * SIXTEENTH * SCORE_TICKS) == SIXTEENTH * SCORE_TICKS, SWING_TICKS * factor, 0.0)
+    is_so = (np.abs(straight + late * SCORE_TICKS - rows["tick"]) <= 1).all()
+    if part.swing.unit_ticks == PPQ // 4 and part.swing.stands_in_words and factor <= 1 and is_so:
+        return part.score.as_written, factor
+    losses.add(Feature.SWING, f"swing of {ratio:g}:1 is written where it sounds: Hydrogen swings sixteenths alone")
+    return part.score, 0.0
+
+
+def _bpm(bpm: float, bar: int, losses: LostBars) -> float:
+    used = min(max(bpm, LEAST_BPM), MOST_BPM)
+    if used != bpm:
+        losses.add(Feature.TEMPO, f"Hydrogen plays {LEAST_BPM:g} to {MOST_BPM:g} quarters a minute", bar)
+    return used
+
+
+def _tempos(score: Score, starts: Sequence[int], losses: LostBars) -> dict[int, float]:
+    """The tempos by the bars with which they begin."""
+    found = {}
+    for change in score.tempo_map.tempos[1:]:
+        if change.tick >= score.end_tick:
+            break
+        bar = int(np.argmin(np.abs(np.array(starts[:-1]) - change.tick)))
+        if starts[bar] != change.tick:
+            losses.add(Feature.TEMPO, "a tempo that changes within a bar changes with the nearest", bar)
+        found[bar] = _bpm(score.tempo_map.bpm_at(change.tick), bar, losses)
+    return found
+
+
+def _tags(part: DrumPart, bars: int, losses: LostBars) -> tuple[tuple[int, str], ...]:
+    ends = [section.first_bar - 1 for section in part.sections[1:]] + [bars - 1]
+    for section, end in zip(part.sections, ends, strict=False):
+        if section.last_bar != end:
+            losses.add(Feature.SECTIONS, f"where {section.name!r} ends", section.last_bar)
+    return tuple((section.first_bar, one_line(section.name)) for section in part.sections)
+
+
+def _patterns(
+    bars: Sequence[tuple[PatternNote, ...]], starts: Sequence[int], score: Score
+) -> tuple[tuple[Pattern, ...], tuple[tuple[str, ...], ...]]:
+    """A pattern for each bar that is unlike the others, and the columns that play them."""
+    known: dict[tuple[int, int, tuple[PatternNote, ...]], Pattern] = {}
+    columns = []
+    for bar, notes in enumerate(bars):
+        size = (starts[bar + 1] - starts[bar]) // SCORE_TICKS
+        unit = score.tempo_map.meter_at(starts[bar]).unit
+        pattern = known.setdefault((size, unit, notes), Pattern(f"Bar {bar + 1}", size, unit, notes))
+        columns.append((pattern.name,))
+    return tuple(known.values()), tuple(columns)
+
+
+# --- strokes ----------------------------------------------------------------------------------------------------------
+
+
+def _events(score: Score, losses: LostBars, for_kit: bool = False) -> list[_Event]:
+    """All notes; `for_kit` with the instruments of Hydrogen's kit alone and, for want of a tempo, no grace strokes."""
+    found = []
+    for note, bar, onset_ns in zip(score, score.bar.tolist(), score.onset_ns.tolist(), strict=True):
+        tick = note.tick
+        if note.lead_ms > 0:
+            tick = int(score.tempo_map.ticks_at_ns(onset_ns))
+            if for_kit or tick < -LEAD_LAG_TICKS * SCORE_TICKS:
+                feature = Feature.FLAMS if note.ornament is Ornament.FLAM else Feature.DRAGS
+                losses.add(feature, "grace strokes that a pattern has no tempo for, or before the song begins", bar)
+                continue
+        strike = _strike(note, bar, losses, for_kit)
+        length = _length(note, bar, losses) if note.articulation is Articulation.BUZZ else ENTIRE_SAMPLE
+        found.append(_Event(tick, strike, note.velocity, length))
+        if note.choke_ticks:
+            stop = note.tick + note.choke_ticks
+            if note.piece in CHOKEABLE and stop <= score.end_tick:
+                found.append(_Event(stop, strike, note.velocity, is_stop=True))
+            else:
+                losses.add(Feature.CHOKES, "chokes after the end, or of what does not ring", bar)
+    return found
+
+
+def _length(note: Note, bar: int, losses: LostBars) -> int:
+    length, rest = divmod(note.duration_ticks, SCORE_TICKS)
+    if rest or not length:
+        losses.add(Feature.BUZZES, "buzzes that last no whole 48th of a quarter", bar)
+    return length or ENTIRE_SAMPLE
+
+
+def _strike(note: Note, bar: int, losses: LostBars, for_kit: bool) -> _Strike:
+    """The instrument for a stroke; what that does not say is told."""
+    sound = choose_sound(NoteMeaning(note.piece, note.zone, note.articulation, note.openness)).sound
+    strike = _Strike(KIT[kit_id(sound)].sound) if for_kit else _Strike(sound, _ADDITIONS.get((sound, note.zone), ""))
+    said = strike_of_sound(strike.sound)
+    if said.piece is not note.piece:
+        losses.add(Feature.PIECES, _SENTENCES[Feature.PIECES], bar)
+    if said.zone is not note.zone and not strike.addition and note.articulation not in _OF_THE_RIM:
+        losses.add(Feature.ZONES, _SENTENCES[Feature.ZONES], bar)
+    if note.piece is Piece.HIHAT and said.openness != note.openness:
+        losses.add(Feature.OPENNESS, _SENTENCES[Feature.OPENNESS], bar)
+    for articulation, feature in _ARTICULATIONS.items():
+        if (said.articulation is articulation) != (note.articulation is articulation):
+            losses.add(feature, _SENTENCES[feature], bar)
+    return strike
+
+
+def _by_bar(
+    events: Sequence[_Event], starts: Sequence[int], ids: Mapping[_Strike, int]
+) -> list[tuple[PatternNote, ...]]:
+    """The notes of each bar, in the order of their places."""
+    bars: list[list[PatternNote]] = [[] for _ in starts[1:]]
+    for event in events:
+        bar = min(max(bisect_right(starts, event.tick) - 1, 0), len(bars) - 1)
+        size = (starts[bar + 1] - starts[bar]) // SCORE_TICKS
+        inside = (event.tick - starts[bar]) / SCORE_TICKS
+        position = min(max(round(inside), 0), size - 1)
+        bars[bar].append(
+            PatternNote(
+                position,
+                ids[event.strike],
+                min((event.velocity + _HALF_STEP) / FULL_VELOCITY, 1.0),
+                (inside - position) / LEAD_LAG_TICKS,
+                kind=KIT[kit_id(event.strike.sound)].kind if event.strike.sound in KIT_ID else "",
+                length=event.length,
+                is_stop=event.is_stop,
+            )
+        )
+    return [tuple(sorted(bar, key=lambda note: (note.position + note.lead_lag, note.instrument))) for bar in bars]
+
+
+def _instrument(number: int, strike: _Strike) -> Instrument:
+    meant = strike_of_sound(strike.sound)
+    midi_note = general_midi_note(meant.piece, meant.zone, meant.articulation, meant.openness)
+    return Instrument(number, strike.name, KIT[kit_id(strike.sound)].kind, midi_note)
