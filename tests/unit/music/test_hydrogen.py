@@ -159,6 +159,8 @@ def test_a_pattern_is_read_by_its_types_else_for_hydrogens_own_kit() -> None:
     part = HYDROGEN_PATTERN.read(data, "groove.h2pattern")
     assert [(n.piece, n.openness) for n in part.score] == [(Piece.KICK, None), (Piece.HIHAT, 1.0), (Piece.RIDE, None)]
     assert part.score.title == "Groove"
+    odd = HYDROGEN_PATTERN.read(data.replace(b"Hi-hat Open", b"China"), "groove.h2pattern")
+    assert [n.piece for n in odd.score] == [Piece.KICK, Piece.CHINA, Piece.RIDE]
     other = HYDROGEN_PATTERN.read(data.replace(b"GMRockKit", b"TR808"), "groove.h2pattern")
     assert other.lost == ("the instruments of 'TR808' are not in a pattern; they are taken for those of GMRockKit",)
 
@@ -281,3 +283,27 @@ def test_a_pattern_takes_the_nearest_instrument_of_the_kit() -> None:
     back = HYDROGEN_PATTERN.read(done.data, "a.h2pattern")
     assert [(n.tick, n.piece) for n in back.score] == [(0, Piece.CRASH_1), (4 * PPQ, Piece.KICK)]
     assert {loss.feature for loss in done.lost} == {Feature.PIECES}
+
+
+def test_the_fields_of_a_pattern_are_in_the_order_of_hydrogens_schema() -> None:
+    """drumkit_pattern.xsd: a sequence; a file in another order is read as one of an older Hydrogen."""
+    assert HYDROGEN_PATTERN.write is not None
+    root = fromstring(HYDROGEN_PATTERN.write(part_of(Note(0, Piece.KICK))).data)
+    names = [[child.tag.partition("}")[2] for child in element] for element in (root, root[3], root[3][5][0])]
+    assert names == [
+        ["drumkit_name", "author", "license", "pattern"],
+        ["name", "info", "category", "size", "denominator", "noteList"],
+        [
+            "position",
+            "leadlag",
+            "velocity",
+            "pan",
+            "pitch",
+            "key",
+            "length",
+            "instrument",
+            "type",
+            "note_off",
+            "probability",
+        ],
+    ]

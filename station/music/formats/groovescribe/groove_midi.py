@@ -99,7 +99,7 @@ def _bars(data: bytes, source: str) -> list[_Bar]:
     events = parse_events(data, _TRACK_AT, _TRACK_AT + int.from_bytes(data[18:22], "big"), source)
     columns = events.columns
     bars: list[_Bar] = []
-    start, notes = int(columns.tick[0]), list[tuple[int, int, int]]()
+    start, notes = int(columns.tick[0]) if len(columns.tick) else 0, list[tuple[int, int, int]]()
     rows = zip(*(c.tolist() for c in (columns.tick, columns.status, columns.first, columns.second)), strict=True)
     for tick, status, number, velocity in rows:
         if status == _NOTE_ON and velocity:

@@ -13,13 +13,12 @@ from types import MappingProxyType
 import numpy as np
 
 from station.core.errors import BadInput
-from station.core.note_map import NoteMeaning, general_midi_note
-from station.core.pieces import CHOKEABLE, Articulation, Ornament, Piece, Zone
-from station.core.sound_names import HIHAT_STEPS, SoundName, choose_sound, strike_of_sound
+from station.core.pieces import CHOKEABLE, Articulation, Ornament
 from station.core.units import PPQ
 from station.core.utf8 import one_line
 from station.music.drum_part import DrumPart
-from station.music.formats.hydrogen.rock_kit import KIT, KIT_ID, NAMES, kit_id
+from station.music.formats.hydrogen.instrument_strikes import InstrumentStrike, instrument_for, instrument_of
+from station.music.formats.hydrogen.rock_kit import KIT, KIT_ID, kit_id
 from station.music.formats.hydrogen.song_contents import (
     ENTIRE_SAMPLE,
     FULL_VELOCITY,
@@ -30,7 +29,6 @@ from station.music.formats.hydrogen.song_contents import (
     SIXTEENTH,
     SWING_TICKS,
     HydrogenSong,
-    Instrument,
     Pattern,
     PatternNote,
 )
@@ -76,50 +74,8 @@ PATTERN_KEEPS: Mapping[Feature, str] = MappingProxyType(
     }
 )
 
-_ADDITIONS: Mapping[tuple[SoundName, Zone], str] = MappingProxyType(
-    {
-        **{(step, Zone.EDGE): " Edge" for step in HIHAT_STEPS},
-        **{
-            (sound, Zone.BOW): " Bow"
-            for sound in (SoundName.CRASH_1, SoundName.CRASH_2, SoundName.SPLASH, SoundName.CHINA)
-        },
-    }
-)
-"""What is added to an instrument's name where it is struck elsewhere than usual."""
-_OF_THE_RIM = (Articulation.CROSS_STICK, Articulation.RIM_SHOT)
-_ARTICULATIONS: Mapping[Articulation, Feature] = MappingProxyType(
-    {
-        Articulation.CROSS_STICK: Feature.CROSS_STICKS,
-        Articulation.RIM_SHOT: Feature.RIM_SHOTS,
-        Articulation.SPLASH: Feature.FOOT_SPLASHES,
-        Articulation.BUZZ: Feature.BUZZES,
-    }
-)
-_SENTENCES: Mapping[Feature, str] = MappingProxyType(
-    {
-        Feature.PIECES: "pieces that Hydrogen's kit has not become the nearest",
-        Feature.ZONES: "zones that have no instrument",
-        Feature.RIM_SHOTS: "rim shots become plain strokes",
-        Feature.CROSS_STICKS: "cross-sticks of other pieces than the snare",
-        Feature.OPENNESS: "openings between those that have an instrument",
-        Feature.FOOT_SPLASHES: "splashes of the hi-hat foot",
-        Feature.BUZZES: "buzzes that are not of the snare, or no whole number of ticks long",
-    }
-)
 _HALF_STEP = 0.5
 """Added to a velocity, so that Hydrogen, which cuts it, finds the same again."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Strike:
-    """What an instrument is for: what asks for its sound, and what its name adds."""
-
-    sound: SoundName
-    addition: str = ""
-
-    @property
-    def name(self) -> str:
-        return NAMES[self.sound] + self.addition
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +83,7 @@ class _Event:
     """A note at a tick of the song, in score ticks."""
 
     tick: int
-    strike: _Strike
+    strike: InstrumentStrike
     velocity: int
     length: int = ENTIRE_SAMPLE
     is_stop: bool = False
@@ -147,7 +103,7 @@ def song_of_part(part: DrumPart) -> tuple[HydrogenSong, tuple[Loss, ...]]:
     song = HydrogenSong(
         *(one_line(part.score.title), one_line(part.author), one_line(part.about)),
         *(_bpm(score.tempo_map.bpm_at(0), 0, losses), factor),
-        tuple(_instrument(i, strike) for strike, i in ids.items()),
+        tuple(instrument_of(i, strike) for strike, i in ids.items()),
         patterns,
         columns,
         tempos=tuple(_tempos(score, starts, losses).items()),
@@ -161,7 +117,7 @@ def pattern_of_part(part: DrumPart) -> tuple[HydrogenSong, tuple[Loss, ...]]:
     losses = LostBars()
     score, starts = part.score, _bar_starts(part)
     events = _events(score, losses, for_kit=True)
-    ids = {_Strike(one.sound): i for i, one in enumerate(KIT)}
+    ids = {InstrumentStrike(one.sound): i for i, one in enumerate(KIT)}
     if len({(event.tick, event.strike, event.is_stop) for event in events}) < len(events):
         losses.add(Feature.TIMES, "strokes at once that share an instrument of Hydrogen's kit")
     notes = _by_bar(events, [0, starts[-1]], ids)[0]
@@ -260,7 +216,7 @@ def _events(score: Score, losses: LostBars, for_kit: bool = False) -> list[_Even
                 feature = Feature.FLAMS if note.ornament is Ornament.FLAM else Feature.DRAGS
                 losses.add(feature, "grace strokes that a pattern has no tempo for, or before the song begins", bar)
                 continue
-        strike = _strike(note, bar, losses, for_kit)
+        strike = instrument_for(note, bar, losses, for_kit)
         length = _length(note, bar, losses) if note.articulation is Articulation.BUZZ else ENTIRE_SAMPLE
         found.append(_Event(tick, strike, note.velocity, length))
         if note.choke_ticks:
@@ -279,25 +235,8 @@ def _length(note: Note, bar: int, losses: LostBars) -> int:
     return length or ENTIRE_SAMPLE
 
 
-def _strike(note: Note, bar: int, losses: LostBars, for_kit: bool) -> _Strike:
-    """The instrument for a stroke; what that does not say is told."""
-    sound = choose_sound(NoteMeaning(note.piece, note.zone, note.articulation, note.openness)).sound
-    strike = _Strike(KIT[kit_id(sound)].sound) if for_kit else _Strike(sound, _ADDITIONS.get((sound, note.zone), ""))
-    said = strike_of_sound(strike.sound)
-    if said.piece is not note.piece:
-        losses.add(Feature.PIECES, _SENTENCES[Feature.PIECES], bar)
-    if said.zone is not note.zone and not strike.addition and note.articulation not in _OF_THE_RIM:
-        losses.add(Feature.ZONES, _SENTENCES[Feature.ZONES], bar)
-    if note.piece is Piece.HIHAT and said.openness != note.openness:
-        losses.add(Feature.OPENNESS, _SENTENCES[Feature.OPENNESS], bar)
-    for articulation, feature in _ARTICULATIONS.items():
-        if (said.articulation is articulation) != (note.articulation is articulation):
-            losses.add(feature, _SENTENCES[feature], bar)
-    return strike
-
-
 def _by_bar(
-    events: Sequence[_Event], starts: Sequence[int], ids: Mapping[_Strike, int]
+    events: Sequence[_Event], starts: Sequence[int], ids: Mapping[InstrumentStrike, int]
 ) -> list[tuple[PatternNote, ...]]:
     """The notes of each bar, in the order of their places."""
     bars: list[list[PatternNote]] = [[] for _ in starts[1:]]
@@ -318,9 +257,3 @@ def _by_bar(
             )
         )
     return [tuple(sorted(bar, key=lambda note: (note.position + note.lead_lag, note.instrument))) for bar in bars]
-
-
-def _instrument(number: int, strike: _Strike) -> Instrument:
-    meant = strike_of_sound(strike.sound)
-    midi_note = general_midi_note(meant.piece, meant.zone, meant.articulation, meant.openness)
-    return Instrument(number, strike.name, KIT[kit_id(strike.sound)].kind, midi_note)

@@ -39,6 +39,10 @@ from station.music.tempo import MeterChange, TempoChange, TempoMap
 _MOST_STROKES = 500_000
 """Hours of drums (our choice; a small file may ask for any number by its columns)."""
 _UNITS = (4, 8, 16, 32)
+_KNOWN_KITS = (ROCK_KIT, "GMkit", "")
+"""Kits whose instruments are in General MIDI's order."""
+_FIRST_OTHER = 1 << 20
+"""Ids above those of any kit."""
 
 
 def part_of_song(song: HydrogenSong, source: str) -> DrumPart:
@@ -46,12 +50,14 @@ def part_of_song(song: HydrogenSong, source: str) -> DrumPart:
     columns = _columns(song, source)
     starts = np.cumsum([0] + [_size(column) for column in columns]).tolist()
     band = _band(song.instruments)
+    of_kind = {one.kind: one.id for one in reversed(song.instruments) if one.kind}
     notes, chance = [], 0
     for index, column in enumerate(columns):
         for pattern in column:
             for note in pattern.notes:
                 if note.position < pattern.size and note.probability > 0:
-                    notes.append(_Placed(starts[index] + note.position, _factor(song, index, note, column), note))
+                    played = replace(note, instrument=of_kind.get(note.kind, note.instrument)) if note.kind else note
+                    notes.append(_Placed(starts[index] + note.position, _factor(song, index, note, column), played))
                     chance += note.probability < 1
     swing = _swing(song.swing_factor)
     score = Score.from_notes(
@@ -66,15 +72,14 @@ def part_of_song(song: HydrogenSong, source: str) -> DrumPart:
 
 
 def kit_of_pattern(song: HydrogenSong, kit_name: str) -> HydrogenSong:
-    """The pattern with the instruments that it may be for: of its own types, else GMRockKit's by their number."""
-    by_kind = {one.kind: one.name for one in KIT}
-    kinds: dict[int, str] = {note.instrument: note.kind for note in song.patterns[0].notes if note.kind}
-    known = {i: Instrument(i, one.name, one.kind) for i, one in enumerate(KIT)}
-    named = {i: Instrument(i, by_kind.get(kind, kind), kind) for i, kind in kinds.items()}
-    used = {note.instrument for note in song.patterns[0].notes}
-    is_guess = kit_name not in (ROCK_KIT, "GMkit", "") and bool(used - named.keys())
+    """The pattern with the instruments that it may be for: GMRockKit's, and one for each type that this has not."""
+    notes = song.patterns[0].notes
+    others = sorted({note.kind for note in notes if note.kind} - {one.kind for one in KIT})
+    kit = [Instrument(i, one.name, one.kind) for i, one in enumerate(KIT)]
+    more = [Instrument(_FIRST_OTHER + i, kind, kind) for i, kind in enumerate(others)]
+    is_guess = kit_name not in _KNOWN_KITS and any(not note.kind for note in notes)
     guess = f"the instruments of {kit_name[:40]!r} are not in a pattern; they are taken for those of {ROCK_KIT}"
-    return replace(song, instruments=tuple((known | named).values()), lost=(*song.lost, *([guess] if is_guess else ())))
+    return replace(song, instruments=(*kit, *more), lost=(*song.lost, *([guess] if is_guess else ())))
 
 
 # --- columns ----------------------------------------------------------------------------------------------------------
