@@ -124,9 +124,12 @@ def _timed(part: DrumPart, losses: LostBars) -> tuple[Score, int, int]:
     if not part.swing.stands_in_words:
         if ratio == TRIPLETS:
             losses.add(Feature.SWING, "swing of 2:1 is written out in triplets")
-        elif part.score.notes["swing_ticks"].any():
-            losses.add(Feature.SWING, "swing of some bars is written where it sounds")
-        return part.score, _division(part, part.score), 0
+        score = part.score
+        if score.notes["swing_ticks"].any():  # of some sections alone
+            score = score.as_written
+            for feature in (Feature.SWING, Feature.TIMES):
+                losses.add(feature, "swing of some bars is left out: a groove has one swing throughout")
+        return score, _division(part, score), 0
     score = part.score.as_written
     percent = min(round(100 * (ratio - 1) / (ratio + 1)), MOST_SWING)
     swung = Groove(meter=score.tempo_map.meters[0], division=4 * PPQ // unit, swing=percent)
