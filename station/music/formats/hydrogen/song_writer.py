@@ -30,6 +30,7 @@ _MODE: _Fields = (
     ("playbackTrackEnabled", "false"),
     ("playbackTrackVolume", "0"),
     ("action_mode", "0"),
+    ("isPatternEditorLocked", "false"),
     ("mode", "song"),
     ("pan_law_type", "RATIO_STRAIGHT_POLYGONAL"),
     ("pan_law_k_norm", "1.33333"),
