@@ -221,7 +221,7 @@ def test_tempo_meter_words_and_sections_come_back() -> None:
         [MeterChange(0, 3, 4), MeterChange(3 * PPQ, 7, 8)],
     )
     score = Score.from_notes([Note(0, Piece.KICK)], tempo_map, tempo_map.bar_start(3), "Ö & <b>")
-    part = DrumPart(score, "A", "B", sections=(PartSection("one", 0, 0), PartSection("two", 1, 2)))
+    part = DrumPart(score, "A", "B", sections=(PartSection("one", 0, 0), PartSection("two", 1, 1)))
     back = written(part)
     assert back.score.tempo_map == tempo_map
     assert back.score.end_tick == score.end_tick

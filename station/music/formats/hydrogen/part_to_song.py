@@ -55,7 +55,7 @@ SONG_KEEPS: Mapping[Feature, str] = MappingProxyType(
         Feature.TITLE: "",
         Feature.AUTHOR: "",
         Feature.ABOUT: "",
-        Feature.SECTIONS: "where one follows the other",
+        Feature.SECTIONS: "",
     }
 )
 PATTERN_KEEPS: Mapping[Feature, str] = MappingProxyType(
@@ -107,7 +107,7 @@ def song_of_part(part: DrumPart) -> tuple[HydrogenSong, tuple[Loss, ...]]:
         patterns,
         columns,
         tempos=tuple(_tempos(score, starts, losses).items()),
-        tags=_tags(part, len(columns), losses),
+        tags=_tags(part, len(columns)),
     )
     return song, losses.told()
 
@@ -180,12 +180,11 @@ def _tempos(score: Score, starts: Sequence[int], losses: LostBars) -> dict[int, 
     return found
 
 
-def _tags(part: DrumPart, bars: int, losses: LostBars) -> tuple[tuple[int, str], ...]:
-    ends = [section.first_bar - 1 for section in part.sections[1:]] + [bars - 1]
-    for section, end in zip(part.sections, ends, strict=False):
-        if section.last_bar != end:
-            losses.add(Feature.SECTIONS, f"where {section.name!r} ends", section.last_bar)
-    return tuple((section.first_bar, one_line(section.name)) for section in part.sections)
+def _tags(part: DrumPart, bars: int) -> tuple[tuple[int, str], ...]:
+    """The names of the sections where they begin, and an empty one where a section ends and none follows."""
+    names = {section.last_bar + 1: "" for section in part.sections if section.last_bar + 1 < bars}
+    names |= {section.first_bar: one_line(section.name) for section in part.sections}
+    return tuple(sorted(names.items()))
 
 
 def _patterns(

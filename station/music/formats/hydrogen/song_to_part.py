@@ -137,10 +137,10 @@ def _meter(size: int, denominator: int) -> tuple[int, int]:
 
 
 def _sections(tags: Sequence[tuple[int, str]], bars: int) -> tuple[PartSection, ...]:
-    """A section from each tag to the next."""
-    named = sorted({bar: name for bar, name in tags if name and bar < bars}.items())
+    """A section from each tag to the next; one without a name ends that before it."""
+    named = sorted({bar: name for bar, name in tags if bar < bars}.items())
     ends = [bar - 1 for bar, _ in named[1:]] + [bars - 1]
-    return tuple(PartSection(name, bar, end) for (bar, name), end in zip(named, ends, strict=False))
+    return tuple(PartSection(name, bar, end) for (bar, name), end in zip(named, ends, strict=False) if name)
 
 
 # --- strokes ----------------------------------------------------------------------------------------------------------
