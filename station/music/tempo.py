@@ -84,6 +84,12 @@ class MeterChange:
         ends = [end * self.beat_ticks for end in accumulate(groups)]
         return tuple(zip([0, *ends[:-1]], ends, strict=True))
 
+    @property
+    def usual_beat_ticks(self) -> int:
+        """The beat that is counted where nobody says: a dotted quarter in 6/8 and its like, else a quarter."""
+        is_compound = self.unit == 8 and not self.groups and len(self.felt_groups) < self.beats
+        return 3 * self.beat_ticks if is_compound else PPQ
+
     def __str__(self) -> str:
         beats = "+".join(map(str, self.groups)) or str(self.beats)
         return f"{beats}/{self.unit}"

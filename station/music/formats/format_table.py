@@ -10,6 +10,7 @@ from station.music.formats.clone_hero.clone_hero_format import CHART, NOTES_MIDI
 from station.music.formats.dtx.dtx_writer import DTX
 from station.music.formats.groovescribe.groove_formats import GROOVE_TEXT, GROOVESCRIBE, GROOVESCRIBE_MIDI
 from station.music.formats.guitar_pro.guitar_pro_format import GUITAR_PRO, OLD_GUITAR_PRO
+from station.music.formats.hydrogen.hydrogen_formats import HYDROGEN_PATTERN, HYDROGEN_SONG
 from station.music.formats.music_format import MusicFormat
 from station.music.formats.music_xml.music_xml_format import MUSIC_XML
 from station.music.formats.smf.midi_part import MIDI
@@ -24,6 +25,8 @@ FORMATS: tuple[MusicFormat, ...] = (
     GUITAR_PRO,
     CHART,
     GROOVESCRIBE,
+    HYDROGEN_SONG,
+    HYDROGEN_PATTERN,
     DTX,
     GROOVE_TEXT,
     ASCII_TAB,
