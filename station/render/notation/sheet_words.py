@@ -92,7 +92,7 @@ def draw_words(draw_list: DrawList, skyline: Skyline, words: Sequence[LineWord])
         row_of.append(row)
     for row in range(len(rows)):
         chosen = [(word, end) for word, end, of in zip(words, ends, row_of, strict=True) if of == row]
-        y = min(_LOWEST, *(skyline.top_over(word.x, end) for word, end in chosen)) - _AIR - _FRAME
+        y = min(_LOWEST, *(skyline.top_over(word.x - _AIR, end + _AIR) for word, end in chosen)) - _AIR - _FRAME
         for word, end in chosen:
             _drawn(draw_list, word, y)
             skyline.add(word.x, end, y - _SECTION.size * _CAPITAL - _FRAME, y + _FRAME)

@@ -17,13 +17,13 @@ from station.music.loudness_marks import LoudnessMark
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.files.pdf_file import pdf
-from  import HAIRPIN_LINE
 from station.render.notation.sheet import MARGIN, PAPERS, SPACES, SheetWords, sheet
 from station.render.notation.sheet_key import notes_used, signs_used
 from station.render.palette import INK, INK_FAINT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 from station.render.text.paper import Filled, Ink, OutlineAtlas, PaperSpot, filled
+from station.render.text.sign_outlines import HAIRPIN_LINE
 from station.scenes.sheets import lesson_labels
 
 A4 = PAPERS["a4"]
