@@ -73,8 +73,8 @@ def _cells(spans: BeatSpans, span: Ints, within: Ints, swing: Swing) -> Ints | N
 def _by_span(span: Ints) -> Iterator[tuple[int, NDArray[np.int64]]]:
     """Each span that has strokes, and their indices."""
     order = np.argsort(span, kind="stable")
-    known, starts = np.unique(span[order], return_index=True)
-    yield from zip(known.tolist(), np.split(order, starts[1:]), strict=True)
+    known, starts, counts = np.unique(span[order], return_index=True, return_counts=True)
+    yield from ((s, order[a : a + n]) for s, a, n in zip(known.tolist(), starts, counts, strict=True))
 
 
 def _holds(places: Floats, within: Ints) -> bool:

@@ -77,18 +77,18 @@ class Take:
 def feel_of(take: Take) -> Feel:
     """How the take was played."""
     feel = _cheapest(take.first(LEAN_STROKES), [Feel(lean, swing=swing) for lean in LEANS_S for swing in _FIRST_SWINGS])
-    feel = _settled(take, feel)
+    feel = settled(take, feel)
     rivals = [replace(feel, swing=s) for s in {Swing(), feel.swing, *_SWINGS}]
-    rivals = sorted(rivals, key=lambda f: _cost(take.first(SWING_STROKES), f))[:_FINALISTS]
-    rivals = [_settled(take, rival) for rival in rivals]
-    return _cheapest(take, [_refined(take, r) if r.swing.ratio != STRAIGHT else _settled(take, r) for r in rivals])
+    rivals = sorted(rivals, key=lambda f: cost_of(take.first(SWING_STROKES), f))[:_FINALISTS]
+    rivals = [settled(take, rival) for rival in rivals]
+    return _cheapest(take, [_refined(take, r) if r.swing.ratio != STRAIGHT else settled(take, r) for r in rivals])
 
 
 def _cheapest(take: Take, feels: Iterable[Feel]) -> Feel:
-    return min(feels, key=lambda f: _cost(take, f))
+    return min(feels, key=lambda f: cost_of(take, f))
 
 
-def _cost(take: Take, feel: Feel) -> float:
+def cost_of(take: Take, feel: Feel) -> float:
     """What the take costs with that feel, itself included."""
     return take.read(feel).cost + len(take.piece) * log(feel.spread_s) + prior_cost(feel)
 
@@ -102,7 +102,7 @@ def prior_cost(feel: Feel) -> float:
     return swing + (feel.lean_s / LEAN_SD_S) ** 2 / 2
 
 
-def _settled(take: Take, feel: Feel) -> Feel:
+def settled(take: Take, feel: Feel) -> Feel:
     """The feel with the lean and the spread that its errors have."""
     errors = take.errors_s(feel, take.read(feel))
     lean = mean_error(errors, feel.spread_s)
@@ -112,8 +112,12 @@ def _settled(take: Take, feel: Feel) -> Feel:
 def _spread(errors: Floats) -> float:
     """The standard deviation of errors about 0, of which the furthest count as slips."""
     middle = 1.4826 * float(np.median(np.abs(errors)))
-    clipped = np.clip(errors, -SLIP * middle, SLIP * middle)
-    return min(max(float(np.sqrt(np.mean(clipped**2))), MIN_SPREAD_S), MAX_SPREAD_S)
+    return min(max(float(np.sqrt(np.mean(clipped_errors(errors, middle) ** 2))), MIN_SPREAD_S), MAX_SPREAD_S)
+
+
+def clipped_errors(errors: Floats, spread_s: float) -> Floats:
+    """The errors, slips no further than they begin."""
+    return np.clip(errors, -SLIP * spread_s, SLIP * spread_s)
 
 
 def _refined(take: Take, feel: Feel) -> Feel:
