@@ -28,6 +28,7 @@ from station.drills.transcription.loudness_levels import with_dynamics
 from station.drills.transcription.ornament_finder import FoundOrnaments, found_ornaments
 from station.drills.transcription.reach import Reach, within_reach
 from station.drills.transcription.ringing import with_lengths
+from station.drills.transcription.sticking_proposal import with_sticking
 from station.drills.transcription.tempo_steps import steady
 from station.drills.writing.lesson_form import LessonForm
 from station.drills.writing.lesson_writer import write_lesson
@@ -94,7 +95,8 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         beyond=Score.from_notes(beyond, score.tempo_map, score.end_tick).notes,
     )
     form = found_form(lesson, part.sections)
-    read = parse_lesson(write_lesson(replace(lesson, level=_level(lesson, form)), form), name, name).lesson
+    lesson = with_sticking(replace(lesson, level=_level(lesson, form)), form)
+    read = parse_lesson(write_lesson(lesson, form), name, name).lesson
     assert read, "what write_lesson gives is a lesson"
     return Transcribed(read, tuple(_remarks(ornaments, times, mains, reach, read)))
 
