@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Piece
 from station.music.score import Score
-from station.render.notation.beams import BEAM_STEP, FLAG_STEP, Anchor, StaffVoice
+from station.render.notation.beams import FLAG_STEP, Anchor, StaffVoice
 from station.render.notation.chord_width import (
     DOT_GAP,
     GRACE,
@@ -26,11 +26,11 @@ from station.render.notation.head_places import EDGE_X, PlacedHead, placed_heads
 from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_slur
 from station.render.notation.note_values import TimedValue, Value
 from station.render.notation.staff import FOOT_PIECES, height, ledger_steps, step_of
-from station.render.notation.staff_rows import STACK_GAP, StaffRows, stack_height, stacked_signs
+from station.render.notation.staff_rows import LETTER_LINE, STACK_GAP, StaffRows, stack_height, stacked_signs
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import TypeStyle
 from station.render.text.fonts import Face
-from station.render.text.sign_outlines import LEDGER_LINE, LEDGER_OUT, STEM, sign_box
+from station.render.text.sign_outlines import BEAM_STEP, LEDGER_LINE, LEDGER_OUT, STEM, sign_box
 
 _BUZZ_OFF = 1.4
 """From a stem's end to the middle of a buzz's sign on it, clear of one beam."""
@@ -86,7 +86,7 @@ class ChordPen:
             self._dots(chord, heads, stroke.value.dots)
         if not chord.is_tied:
             self._stack(chord, voice, self._stack_from(chord, stroke.value, voice, beam_y))
-            self._letters(chord, voice)
+            self._letters(chord, voice, is_double=stroke.slashes > 0)
 
     def reach(self, chord: Chord, value: Value, voice: StaffVoice, beam_y: float) -> float:
         """How far up (hands) or down (feet) the chord's stem and what is stacked on it reach."""
@@ -145,8 +145,8 @@ class ChordPen:
             half = (head.right - head.left) / 2 * scale + LEDGER_OUT * scale
             self._draw_list.line((head.x - half, height(line)), (head.x + half, height(line)), LEDGER_LINE, INK_SOFT)
         draw_head(self._draw_list, head.head, (head.x, y), scale, base)
-        if head.brackets_x is not None:
-            draw_brackets(self._draw_list, head.brackets_x, y)
+        if (pair := head.brackets) is not None:
+            draw_brackets(self._draw_list, (pair.left, pair.right), height(pair.step), pair.scale)
 
     def _dots(self, chord: Chord, heads: Sequence[PlacedHead], count: int) -> None:
         """Right of everything, in the space that the head stands in or the one above its line."""
@@ -177,12 +177,14 @@ class ChordPen:
             self._draw_list.sign(name, (0.0, y + voice.way * (STACK_GAP + tall / 2)), INK)
             y += voice.way * (STACK_GAP + tall)
 
-    def _letters(self, chord: Chord, voice: StaffVoice) -> None:
+    def _letters(self, chord: Chord, voice: StaffVoice, is_double: bool) -> None:
+        """The sticking; a diddle's hand twice, as both strokes are its own."""
         rows = [*chord.graces, *chord.mains]
-        hands, feet = sticking(self._notes[rows], self._limbs[rows])
-        text, y = (hands, self._rows.hands) if voice.is_up else (feet, self._rows.feet)
-        if text:
-            self._draw_list.text(text, (0.0, y), TypeStyle(LETTER_SIZE, INK_SOFT, Face.BOLD, 0.5))
+        y = self._rows.hands if voice.is_up else self._rows.feet
+        for k, text in enumerate(sticking(self._notes[rows], self._limbs[rows], voice.is_up)):
+            at = 0.0, y + voice.way * LETTER_LINE * k
+            shown = text + text[-1] * is_double
+            self._draw_list.text(shown, at, TypeStyle(LETTER_SIZE, INK, Face.BOLD, 0.5))
 
     # --- grace notes --------------------------------------------------------------------------------------------------
 

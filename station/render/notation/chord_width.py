@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Dynamic, Limb
+from station.core.pieces import Dynamic, Limb, Piece
 from station.render.notation.head_places import EDGE_X, placed_heads
-from station.render.notation.staff import ledger_steps
+from station.render.notation.staff import ledger_steps, step_of
 from station.render.text.fonts import Face, font
 from station.render.text.sign_outlines import LEDGER_OUT, sign_box
 
@@ -23,7 +23,6 @@ GRACE_GAP, GRACE_STEP = 0.91, 1.0
 """From what stands left of the main note to the middle of the last grace note, and between two of them: their flags
 and ledger lines have room there."""
 DOT_GAP = 0.25
-CHOKE_GAP = 0.2
 
 
 class Extent(NamedTuple):
@@ -45,26 +44,23 @@ def chord_extent(notes: NDArray[np.void], limbs: NDArray[np.int8], dots: int = 0
     if has_flag:
         right = max(right, EDGE_X + sign_box("flag_8").right)
     left += graces_width(int((~is_main).sum()))
-    for letters in sticking(notes, limbs):
+    for letters in (*sticking(notes, limbs, is_up=True), *sticking(notes, limbs, is_up=False)):
         half = letters_width(letters) / 2
         left, right = max(left, half), max(right, half)
     return Extent(left, right)
 
 
 def heads_extent(mains: NDArray[np.void]) -> Extent:
-    """What the heads of main strokes take, with brackets, ledger lines, accents and choke signs."""
+    """What the heads of main strokes take, with brackets, ledger lines and accents."""
     left = right = EDGE_X
-    half = sign_box("bracket_left").width / 2
     heads = placed_heads(mains)
     for row, head in zip(mains, heads, strict=True):
         out = LEDGER_OUT if ledger_steps(head.step) else 0.0
         left, right = max(left, out - head.left), max(right, head.right + out)
-        if head.brackets_x is not None:
-            left, right = max(left, half - head.brackets_x[0]), max(right, half + head.brackets_x[1])
+        if (pair := head.brackets) is not None:
+            left, right = max(left, pair.half_width - pair.left), max(right, pair.half_width + pair.right)
         if row["dynamic"] == Dynamic.ACCENT:
             left, right = max(left, sign_box("accent").right), max(right, sign_box("accent").right)
-    if (mains["choke_ticks"] > 0).any():
-        right += CHOKE_GAP + sign_box("choke").width
     return Extent(left, right)
 
 
@@ -73,16 +69,20 @@ def graces_width(count: int) -> float:
     return GRACE_GAP + (count - 1) * GRACE_STEP + EDGE_X * GRACE + 0.1 if count else 0.0
 
 
-def sticking(notes: NDArray[np.void], limbs: NDArray[np.int8]) -> tuple[str, str]:
-    """The letters of the hands and of the feet: grace strokes small before the main one (lR, llR), both hands R L."""
+def sticking(notes: NDArray[np.void], limbs: NDArray[np.int8], is_up: bool) -> list[str]:
+    """The letters over (`is_up`, the hands) or under a chord, from the staff outward; none where none are written.
+
+    Grace strokes are small before the main one, as drummers write them (lR, llR); what two hands strike at once is
+    written on top of each other, as the heads are.
+    """
     is_main = notes["lead_ms"] <= 0
-    order = np.argsort(-notes["lead_ms"][~is_main], kind="stable")
-    graces = [Limb(int(limb)) for limb in limbs[~is_main][order]]
-    mains = sorted({Limb(int(limb)) for limb in limbs[is_main]})
-    hands = "".join(LETTERS[limb].lower() for limb in graces if limb.is_hand)
-    hands += "".join(LETTERS[limb] for limb in mains if limb.is_hand)
-    feet = "".join(LETTERS[limb] for limb in mains if limb in (Limb.RIGHT_FOOT, Limb.LEFT_FOOT))
-    return hands, feet
+    steps = [step_of(Piece(int(piece))) for piece in notes["piece"]]
+    order = sorted(np.flatnonzero(is_main).tolist(), key=lambda i: steps[i])
+    letters = [LETTERS[Limb(int(limbs[i]))] for i in order if limbs[i] in LETTERS and Limb(limbs[i]).is_hand == is_up]
+    letters = list(dict.fromkeys(letters))
+    early = np.flatnonzero(~is_main)[np.argsort(-notes["lead_ms"][~is_main], kind="stable")] if is_up else []
+    graces = "".join(LETTERS[Limb(int(limbs[i]))].lower() for i in early if limbs[i] in LETTERS)
+    return [graces + letters[0], *letters[1:]] if letters else [graces] * bool(graces)
 
 
 def letters_width(letters: str) -> float:

@@ -7,13 +7,14 @@ on a hand's goes to the far side of its own stem.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Dynamic, Piece, Zone
 from station.render.notation.staff import FOOT_PIECES, NoteHead, head_of, step_of
-from station.render.text.sign_outlines import STEM, sign_box
+from station.render.text.sign_outlines import sign_box
 
 HEAD_SIGNS = {
     NoteHead.ROUND: "head_round",
@@ -37,14 +38,32 @@ _BRACKET_REACH = 2
 
 
 @dataclass(frozen=True, slots=True)
+class Brackets:
+    """A pair of brackets: their middles `left` and `right`, on which `step` they are centred, and their size."""
+
+    left: float
+    right: float
+    step: float
+    scale: float
+
+    @property
+    def half_width(self) -> float:
+        """Half of what each takes across."""
+        return sign_box("bracket_left").width / 2 * self.scale
+
+
+@dataclass(frozen=True, slots=True)
 class PlacedHead:
-    """One head: its `step`, its shape, its middle `x`, and the middles of its brackets where it is a ghost stroke."""
+    """One head: its `step`, its shape, its middle `x`, and the brackets where it is a ghost stroke.
+
+    The lowest of several ghost strokes that lie close bears the brackets round them all.
+    """
 
     step: int
     head: NoteHead
     x: float
     is_foot: bool
-    brackets_x: tuple[float, float] | None = None
+    brackets: "Brackets | None" = None
 
     @property
     def left(self) -> float:
@@ -72,15 +91,30 @@ def placed_heads(mains: NDArray[np.void]) -> list[PlacedHead]:
     found = [_plain(row) for row in mains]
     placed: list[PlacedHead] = []
     for i in sorted(range(len(found)), key=lambda i: _order(found[i])):
-        if any(abs(o.step - found[i].step) <= _SECOND and not _is_displaced(o) for o in placed):
-            found[i] = replace(found[i], x=_displaced_x(found[i]))
+        near = [o for o in placed if _cover(o, found[i])]
+        if not all(map(_is_displaced, near)):
+            found[i] = replace(found[i], x=_displaced_x(found[i], near))
         placed.append(found[i])
-    return [_bracketed(head, found) if is_ghost(row) else head for head, row in zip(found, mains, strict=True)]
+    for cluster in _ghost_clusters(found, [is_ghost(row) for row in mains]):
+        found[cluster[0]] = replace(found[cluster[0]], brackets=_brackets([found[k] for k in cluster], found))
+    return found
+
+
+def _cover(a: PlacedHead, b: PlacedHead) -> bool:
+    """Whether two heads would lie on one another: those a second apart, and a slash that ends in a wide cross."""
+    apart = abs(a.step - b.step)
+    return apart <= _SECOND or (apart == _SECOND + 1 and {a.head, b.head} == {NoteHead.SLASHED, NoteHead.HEAVY_CROSS})
 
 
 def _plain(row: np.void) -> PlacedHead:
-    piece = Piece(int(row["piece"]))
-    head = head_of(piece, Zone(int(row["zone"])), Articulation(int(row["articulation"])))
+    return _head_alone(int(row["piece"]), int(row["zone"]), int(row["articulation"]))
+
+
+@cache
+def _head_alone(of: int, where: int, how: int) -> PlacedHead:
+    """The head of a piece, a zone and an articulation where it stands alone."""
+    piece = Piece(of)
+    head = head_of(piece, Zone(where), Articulation(how))
     is_foot = piece in FOOT_PIECES
     beside = EDGE_X - _stem_half(head)
     return PlacedHead(step_of(piece), head, -beside if is_foot else beside, is_foot)
@@ -95,8 +129,10 @@ def _is_displaced(head: PlacedHead) -> bool:
     return abs(head.x) > EDGE_X  # heads wider or narrower than round ones leave the middle by less
 
 
-def _displaced_x(head: PlacedHead) -> float:
-    beyond = EDGE_X - STEM + _stem_half(head.head)
+def _displaced_x(head: PlacedHead, near: Sequence[PlacedHead]) -> float:
+    """On the far side of the stem, and of what reaches beyond it."""
+    edges = [-other.left if head.is_foot else other.right for other in near]
+    beyond = max(EDGE_X, *edges) + half_width(head.head)
     return -beyond if head.is_foot else beyond
 
 
@@ -105,10 +141,25 @@ def is_ghost(row: np.void) -> bool:
     return bool(row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0)
 
 
-def _bracketed(head: PlacedHead, heads: Sequence[PlacedHead]) -> PlacedHead:
-    """The head in brackets, which stand outside of any other head that is as high as they are."""
-    near = [other for other in heads if abs(other.step - head.step) <= _BRACKET_REACH]
-    half = sign_box("bracket_left").width / 2
-    left = min(-EDGE_X if head.is_foot else 0.0, *(o.left for o in [head, *near])) - _BRACKET_GAP - half
-    right = max(0.0 if head.is_foot else EDGE_X, *(o.right for o in [head, *near])) + _BRACKET_GAP + half
-    return replace(head, brackets_x=(left, right))
+def _ghost_clusters(heads: Sequence[PlacedHead], ghosts: Sequence[bool]) -> list[list[int]]:
+    """The ghost strokes from the lowest up, those together whose brackets would meet."""
+    clusters: list[list[int]] = []
+    for i in sorted(range(len(heads)), key=lambda i: heads[i].step):
+        if not ghosts[i]:
+            continue
+        if clusters and heads[i].step - heads[clusters[-1][-1]].step <= _BRACKET_REACH:
+            clusters[-1].append(i)
+        else:
+            clusters.append([i])
+    return clusters
+
+
+def _brackets(cluster: Sequence[PlacedHead], heads: Sequence[PlacedHead]) -> Brackets:
+    """Brackets round `cluster`, outside of any other head that is as high as they are."""
+    low, high = cluster[0].step, cluster[-1].step
+    scale = 1 + (high - low) / 2 / sign_box("bracket_left").height
+    half = sign_box("bracket_left").width / 2 * scale
+    near = [other for other in heads if low - _BRACKET_REACH <= other.step <= high + _BRACKET_REACH]
+    stems = [-EDGE_X if head.is_foot else EDGE_X for head in cluster]
+    left, right = min(*stems, *(o.left for o in near)), max(*stems, *(o.right for o in near))
+    return Brackets(left - _BRACKET_GAP - half, right + _BRACKET_GAP + half, (low + high) / 2, scale)

@@ -7,7 +7,6 @@ from station.music.loudness_marks import GROW, LoudnessMark
 from station.music.score import Score
 from station.render.notation.beams import Anchor
 from station.render.palette import INK
-from station.render.text.draw_list import DrawList
 from station.render.text.sign_outlines import HAIRPIN_LINE, sign_box
 
 _RAISED, _OPENING = 0.5, 0.6
@@ -16,8 +15,6 @@ _STEPS = 32
 """Its lines slope in so many level steps a bar, for time stretches level shapes alone: 0.02 spaces each."""
 _AFTER_WORD = 0.5
 """What it leaves free beside a word."""
-_CLOSE = 0.25
-"""How much nearer the letters of one word stand than they do alone (our choice: as "mf" is set)."""
 
 
 def draw_loudness(anchor: Anchor, score: Score, bar: tuple[int, int], y: float) -> None:
@@ -29,22 +26,7 @@ def draw_loudness(anchor: Anchor, score: Score, bar: tuple[int, int], y: float) 
             _hairpin(anchor, (marks[i - 1] if i else None, mark, after), score.end_tick, bar, y)
         elif start <= mark.tick < end:
             anchor.at(mark.tick)
-            draw_loudness_word(anchor.draw_list, mark.sign, (0.0, y))
-
-
-def draw_loudness_word(draw_list: DrawList, word: str, at: tuple[float, float]) -> None:
-    """A word of the letters p, m, f from ppp to fff, its middle and baseline at `at`."""
-    x = at[0] - _width(word) / 2 - sign_box(f"loud_{word[0]}").left
-    for letter in word:
-        draw_list.sign(f"loud_{letter}", (x, at[1]), INK)
-        x += sign_box(f"loud_{letter}").advance - _CLOSE
-
-
-def _width(word: str) -> float:
-    """From the first letter's left edge to the last one's right."""
-    boxes = [sign_box(f"loud_{letter}") for letter in word]
-    steps = sum(box.advance - _CLOSE for box in boxes[:-1])
-    return steps + boxes[-1].right - boxes[0].left
+            anchor.draw_list.sign(f"loud_{mark.sign}", (0.0, y), INK)
 
 
 def _hairpin(
@@ -82,4 +64,4 @@ def _level(anchor: Anchor, ticks: tuple[int, int], ends_x: tuple[float, float], 
 
 def _room(mark: LoudnessMark) -> float:
     """What a word takes on each side of its tick, with the gap to a hairpin; nothing where there is none."""
-    return 0.0 if mark.is_hairpin else _AFTER_WORD + _width(mark.sign) / 2
+    return 0.0 if mark.is_hairpin else _AFTER_WORD + sign_box(f"loud_{mark.sign}").right

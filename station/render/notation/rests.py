@@ -37,6 +37,13 @@ def draw_rest(draw_list: DrawList, value: Value, is_up: bool, other_steps: Seque
         draw_list.sign("dot", (x, y - 0.5), INK)
 
 
+def rest_edge(base: int, is_up: bool, other_steps: Sequence[int]) -> float:
+    """How far a rest of 1/`base` of one of two voices reaches towards the ends of that voice's stems."""
+    name = f"rest_{min(base, 128)}"
+    y = _shared_y(name, is_up, [height(step) for step in other_steps])
+    return y - sign_box(name).top if is_up else y - sign_box(name).bottom
+
+
 def _lone_y(name: str) -> float:
     """The middle line; a whole rest hangs from the one above."""
     return -1.0 if name == "rest_1" else 0.0

@@ -22,9 +22,9 @@ from station.render.notation.beams import (
 from station.render.notation.chord_pen import Chord, ChordPen
 from station.render.notation.held_rolls import draw_tie, tie_way
 from station.render.notation.note_values import BeatGroup, Stroke, TimedValue, Tuplet
-from station.render.notation.rests import draw_rest
+from station.render.notation.rests import draw_rest, rest_edge
 from station.render.notation.staff import height
-from station.render.notation.staff_rows import DOWN_BEAM_Y, OVER_HEADS, UNDER_HEADS, UP_BEAM_Y
+from station.render.notation.staff_rows import stem_end
 from station.render.notation.tremolo import draw_slashes
 from station.render.notation.written_strokes import WrittenStrokes
 
@@ -119,7 +119,7 @@ class VoicePen:
     def _group(self, group: BeatGroup, chords: Sequence[Chord], voice: StaffVoice) -> None:
         if not chords:
             return
-        beam_y, ticks = self._beam_y(chords, voice), [chord.tick for chord in chords]
+        beam_y, ticks = self._beam_y(group, chords, voice), [chord.tick for chord in chords]
         alone = {first for first, last in beam_runs(group) if first == last}
         for k, (chord, value) in enumerate(zip(chords, group.strokes, strict=True)):
             if chord.is_tied:
@@ -138,12 +138,18 @@ class VoicePen:
         for tuplet in group.tuplets:
             self._tuplet(group, tuplet, chords, voice)
 
-    def _beam_y(self, chords: Sequence[Chord], voice: StaffVoice) -> float:
-        """Where the stems of a group end: level, clear of every head."""
+    def _beam_y(self, group: BeatGroup, chords: Sequence[Chord], voice: StaffVoice) -> float:
+        """Where the stems of a group end: level, clear of every head and of the rests between them."""
         heights = [height(self._pen.step(i)) for c in chords for i in c.mains]
-        if voice.is_up:
-            return min(UP_BEAM_Y, min(heights) - OVER_HEADS)
-        return max(DOWN_BEAM_Y, max(heights) + UNDER_HEADS)
+        beams = max(value.value.beams for value in group.strokes)
+        first, last = group.strokes[0].tick, group.strokes[-1].tick
+        rests = [self._rest_edge(rest, voice) for rest in group.rests if first < rest.tick < last]
+        has_flags = any(a == b and group.strokes[a].value.beams for a, b in beam_runs(group))
+        return stem_end(heights, voice.is_up, beams, has_flags, rests)
+
+    def _rest_edge(self, rest: TimedValue, voice: StaffVoice) -> float:
+        others = self._pen.heads_at(self._bar.start + rest.tick, voice)
+        return rest_edge(rest.value.base, voice.is_up, others)
 
     # --- tuplets --------------------------------------------------------------------------------------------------
 
@@ -155,7 +161,7 @@ class VoicePen:
         start, end = min(played + rests), max(played + rests)
         is_beamed = bool(inside) and (inside[0], inside[-1]) in beam_runs(group) and len(inside) > 1
         is_alone = is_beamed and (start, end) == (played[0], played[-1])
-        beam_y = self._beam_y(chords, voice)
+        beam_y = self._beam_y(group, chords, voice)
         reaches = [self._pen.reach(chords[k], group.strokes[k].value, voice, beam_y) for k in inside] or [beam_y]
         y = (min(reaches) if voice.is_up else max(reaches)) + voice.way * _TUPLET_OFF[voice.way]
         ends = (self._bar.start + start, self._bar.start + end)

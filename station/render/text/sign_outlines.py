@@ -17,10 +17,10 @@ FONT_FILE = Path(__file__).with_name("music_signs.ttf")
 _SPACES_PER_EM = 4.0
 """SMuFL 1.4, "Metrics and glyph registration"."""
 
-STAFF_LINE, STEM, BEAM, THIN_LINE, THICK_LINE = 0.13, 0.12, 0.5, 0.16, 0.5
+STAFF_LINE, STEM, BEAM, BEAM_STEP, THIN_LINE, THICK_LINE = 0.13, 0.12, 0.5, 0.75, 0.16, 0.5
 LEDGER_LINE, LEDGER_OUT, BRACKET_LINE, HAIRPIN_LINE, SLUR_END, SLUR_MIDDLE = 0.16, 0.4, 0.16, 0.16, 0.1, 0.22
-"""Thicknesses that Bravura's metadata advise with its signs (`engravingDefaults`), and how far a ledger line passes a
-head."""
+"""Thicknesses that Bravura's metadata advise with its signs (`engravingDefaults`), the step from one beam to the
+next, and how far a ledger line passes a head."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,10 +76,15 @@ SIGNS: dict[str, Sign] = {
     "hat_half": Sign(0xE7F7, True, True),
     "hat_closed": Sign(0xE5E5, True, True),
     "choke": Sign(0xE805, True, True),
-    # how loud; origin left on the baseline
-    "loud_p": Sign(0xE520),
-    "loud_m": Sign(0xE521),
-    "loud_f": Sign(0xE522),
+    # how loud; origin in the middle of their width, on the baseline
+    "loud_ppp": Sign(0xE52A, True),
+    "loud_pp": Sign(0xE52B, True),
+    "loud_p": Sign(0xE520, True),
+    "loud_mp": Sign(0xE52C, True),
+    "loud_mf": Sign(0xE52D, True),
+    "loud_f": Sign(0xE522, True),
+    "loud_ff": Sign(0xE52F, True),
+    "loud_fff": Sign(0xE530, True),
     "dot": Sign(0xE1E7, True, True),
     # the beat that a tempo counts; origin left on the baseline
     "beat_1": Sign(0xECA2),
