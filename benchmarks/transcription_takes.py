@@ -69,15 +69,17 @@ def wander(count: int, rng: np.random.Generator) -> NDArray[np.float64]:
     """1/f noise of standard deviation 1, by its spectrum."""
     frequencies = np.fft.rfftfreq(count)[1:]
     phases = rng.uniform(0, 2 * np.pi, len(frequencies))
-    noise = np.fft.irfft(np.concatenate([[0], np.exp(1j * phases) / np.sqrt(frequencies)]), count)
-    return noise / noise.std()
+    noise: NDArray[np.float64] = np.fft.irfft(np.concatenate([[0], np.exp(1j * phases) / np.sqrt(frequencies)]), count)
+    noise /= noise.std()
+    return noise
 
 
 def take(score: Score, playing: Playing, rng: np.random.Generator) -> Score:
     """The score as it is played; all strokes of one piece at one tick go together, a flam with its grace stroke."""
     rows = score.notes.copy()
     moments, of_row = np.unique(np.stack([rows["tick"], rows["piece"]]), axis=1, return_inverse=True)
-    errors = rng.normal(0, playing.spread_ms, moments.shape[1])[of_row.ravel()] + playing.lean_ms
+    spread: NDArray[np.float64] = rng.normal(0, playing.spread_ms, moments.shape[1])
+    errors = spread[of_row.ravel()] + playing.lean_ms
     if playing.wander_ms:
         errors += playing.wander_ms * wander(len(rows), rng)
     times_s = score.tempo_map.ns_at(rows["tick"]) / NS_PER_S * playing.slow + errors / 1000
