@@ -29,13 +29,13 @@ class SheetOptions:
 
 def run(options: SheetOptions) -> int:
     """Engrave it and write the file."""
-    from station.scenes.sheets import lesson_labels, pdf_of, score_labels
+    from station.scenes.sheets import lesson_labels, on_grid, pdf_of, score_labels
 
     out = options.out
     if out.suffix.lower() != ENDING:
         raise BadInput(out, "", f"expected a name that ends in {ENDING}")
     lesson = find_any_lesson(options.score) if is_lesson(options.score) else None
-    score = load_score(options.score) if lesson is None else lesson.played_once
+    score = on_grid(load_score(options.score)) if lesson is None else lesson.played_once
     first = options.start_bar
     last = score.bar_count if options.end_bar is None else options.end_bar
     if not 1 <= first <= last <= score.bar_count:

@@ -2,9 +2,12 @@
 
 from collections.abc import Iterator
 
+from station.core.errors import BadInput
 from station.core.units import PPQ
 from station.drills.lesson import Lesson, tidy_bpm
+from station.drills.transcription.grid_times import quantised_times
 from station.music.score import Score
+from station.music.swing import triplets_spelled_out
 from station.render.files.pdf_file import pdf
 from station.render.notation.sheet import PAPERS, SheetWords, sheet
 
@@ -42,6 +45,19 @@ def score_labels(score: Score, bars: Bars, name: str) -> SheetWords:
     tempo = score.bars(*bars).tempo_map.tempos[0]
     beats = round(tidy_bpm(tempo.us_per_quarter, PPQ), 1)
     return SheetWords(title=score.title or name, beats_a_minute=beats, first_bar=bars[0] + 1)
+
+
+def on_grid(score: Score) -> Score:
+    """A score that is no lesson's as a sheet writes it: what was played or swings on cells of the beat, under a mark.
+
+    A score that says itself how it swings stays, and one with bars that no meter can name.
+    """
+    if not len(score) or score.notes["swing_ticks"].any():
+        return score
+    try:
+        return triplets_spelled_out(quantised_times(score, is_played=False).score)
+    except BadInput:
+        return score
 
 
 def pdf_of(score: Score, bars: Bars, words: SheetWords, paper: str, with_sticking: bool = True) -> bytes:
