@@ -57,10 +57,16 @@ def test_what_cannot_be_is_refused_in_one_line(tmp_path: Path, capsys: pytest.Ca
     assert list(tmp_path.iterdir()) == []
 
 
+def midi_of(lesson: str) -> bytes:
+    write = writer_for(Path("x.mid")).write
+    assert write
+    return write(part_of(find_lesson(lesson))).data
+
+
 def test_a_midi_file_that_swings_is_written_straight_under_its_mark(tmp_path: Path) -> None:
     """A one drop at 3:2: its late eighths are three fifths into the beat, and no quintuplets."""
     path = tmp_path / "one-drop.mid"
-    path.write_bytes(writer_for(path).write(part_of(find_lesson("reggae-one-drop"))).data)
+    path.write_bytes(midi_of("reggae-one-drop"))
     score = on_grid(load_score(str(path)))
     assert {bar: round(mark.ratio, 2) for bar, mark in swing_marks(score).items()} == {0: 1.5}
     assert set((score.as_written.notes["tick"] % (PPQ // 2)).tolist()) == {0}
@@ -68,6 +74,6 @@ def test_a_midi_file_that_swings_is_written_straight_under_its_mark(tmp_path: Pa
 
 def test_a_score_on_the_grid_stays(tmp_path: Path) -> None:
     path = tmp_path / "rock.mid"
-    path.write_bytes(writer_for(path).write(part_of(find_lesson("rock-1"))).data)
+    path.write_bytes(midi_of("rock-1"))
     before = load_score(str(path))
     assert on_grid(before).notes["tick"].tolist() == before.notes["tick"].tolist()
