@@ -80,7 +80,8 @@ def sticking(notes: NDArray[np.void], limbs: NDArray[np.int8], is_up: bool) -> l
     order = sorted(np.flatnonzero(is_main).tolist(), key=lambda i: steps[i])
     letters = [LETTERS[Limb(int(limbs[i]))] for i in order if limbs[i] in LETTERS and Limb(limbs[i]).is_hand == is_up]
     letters = list(dict.fromkeys(letters))
-    early = np.flatnonzero(~is_main)[np.argsort(-notes["lead_ms"][~is_main], kind="stable")] if is_up else []
+    early = np.flatnonzero(~is_main & is_up)
+    early = early[np.argsort(-notes["lead_ms"][early], kind="stable")]
     graces = "".join(LETTERS[Limb(int(limbs[i]))].lower() for i in early if limbs[i] in LETTERS)
     return [graces + letters[0], *letters[1:]] if letters else [graces] * bool(graces)
 

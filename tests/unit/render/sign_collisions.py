@@ -144,4 +144,4 @@ def _inside(sign: Inked, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDAr
                 falls = (y1 <= y) & (y0 > y)
                 right = x0 + (y - y0) / (y1 - y0) * (x1 - x0) > x
                 winding += (rises & right).astype(np.int64) - (falls & right).astype(np.int64)
-    return winding != 0
+    return np.asarray(winding != 0)

@@ -45,7 +45,7 @@ def marked(label: Label, asynchrony_ms: float = np.nan) -> set[ShapeKind]:
     row = np.zeros(1, MARK_DTYPE)
     row["label"], row["asynchrony_ms"] = label, asynchrony_ms
     draw_list = DrawList(Atlas())
-    draw_mark(draw_list, row[0], 0.0, 12.0)
+    draw_mark(draw_list, row[0], (0.0, 0.0), 12.0)
     return {ShapeKind(int(k)) for k in draw_list.shapes()["kind"]}
 
 
@@ -61,7 +61,7 @@ def test_arrows_point_where_the_hit_fell(asynchrony_ms: float, side: int) -> Non
     row = np.zeros(1, MARK_DTYPE)
     row["label"], row["asynchrony_ms"] = Label.MATCH, asynchrony_ms
     draw_list = DrawList(Atlas())
-    draw_mark(draw_list, row[0], 0.0, 12.0)
+    draw_mark(draw_list, row[0], (0.0, 0.0), 12.0)
     arrow = draw_list.shapes()[draw_list.shapes()["kind"] == ShapeKind.TRIANGLE][0]
     assert np.sign(arrow["centre"][0]) == side
     assert np.sign(arrow["axis"][0]) == side
@@ -103,7 +103,7 @@ def test_no_strength_is_no_wedge() -> None:
     assert off_db(80, float("nan")) is None
     for nothing in (None, 3.0, -3.0):
         draw_list = DrawList(Atlas())
-        draw_dynamics(draw_list, nothing, 0.0)
+        draw_dynamics(draw_list, nothing, (0.0, 0.0))
         assert len(draw_list) == 0
 
 
@@ -111,7 +111,7 @@ def test_no_strength_is_no_wedge() -> None:
 def test_the_wedge_points_up_when_too_loud_and_down_when_too_soft(louder_db: float, way: int) -> None:
     """Heights run downwards: above the head is negative."""
     draw_list = DrawList(Atlas())
-    draw_dynamics(draw_list, louder_db, 0.0)
+    draw_dynamics(draw_list, louder_db, (0.0, 0.0))
     wedge = draw_list.shapes()[0]
     assert wedge["kind"] == ShapeKind.TRIANGLE
     assert np.sign(wedge["centre"][1]) == way
