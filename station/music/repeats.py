@@ -6,9 +6,10 @@ struck (its velocity) is written nowhere and tells no two bars apart. A fold is 
 """
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from types import MappingProxyType
 
 import numpy as np
 
@@ -17,10 +18,11 @@ from station.music.score import Score
 
 LONGEST_PASSAGE = 32
 """Bars of a repeated passage at the most: the chorus of a song; whoever reads looks no farther back (our choice)."""
-_ENDING_LENGTHS = (1, 2, 4)
-_SIGN, _ENDINGS = 2.2, 0.5
-"""What a pair of repeat signs, and endings besides, cost in bars: a fold saves at least three (our choice: two bars
-that are alike are quicker read than two signs)."""
+_ENDING_LENGTHS = (1, 2, 3, 4)
+_SIGN, _NAMED_SIGN, _ENDINGS = 2.2, 0.2, 0.5
+"""What a pair of repeat signs, and endings besides, cost in bars: a fold saves at least three, where a section begins
+again by its name at least one (our choice: two bars that are alike are quicker read than two signs)."""
+_NO_NAMES: Mapping[int, str] = MappingProxyType({})
 _UNWRITTEN = ("velocity", "midi_note")
 """Fields of a stroke that notation does not write."""
 
@@ -71,14 +73,20 @@ def played_bars(passages: Sequence[Passage]) -> list[int]:
     return [bar for passage in passages for number in range(passage.times) for bar in passage.of_pass(number + 1)]
 
 
-def folded(score: Score, starts: Collection[int] = ()) -> list[Passage]:
+def folded(score: Score, sections: Mapping[int, str] = _NO_NAMES, apart: Collection[int] = ()) -> list[Passage]:
     """The bars of `score` as passages in order, each bar in one of them, with the fewest bars that are worth it.
 
-    No passage reaches over a bar in `starts` (from 0), where a section begins or words stand.
+    `sections` are names by the bar, from 0, where they begin: within a passage each pass has the same ones in the same
+    places, or the passage begins one section. No passage reaches over a bar in `apart`.
     """
-    bars = list(_bar_forms(score))
-    ends = sorted({0, len(bars), *(bar for bar in starts if 0 < bar < len(bars))})
+    bars = [replace(form, section=sections.get(bar, "")) for bar, form in enumerate(_bar_forms(score))]
+    ends = sorted({0, len(bars), *(bar for bar in apart if 0 < bar < len(bars))})
     return [passage for first, last in pairwise(ends) for passage in _best(bars, first, last)]
+
+
+def written_forms(score: Score) -> list[tuple[int, str]]:
+    """What is written in each bar, as numbers with the loudness that is new there: bars with one form look alike."""
+    return [(form.lasting, form.new[2]) for form in _bar_forms(score)]
 
 
 # --- which bars are alike ---------------------------------------------------------------------------------------------
@@ -89,11 +97,12 @@ class _BarForm:
     """How a bar is written.
 
     `lasting` numbers all but what is new at its start, though with what that sets; `new` says meter, tempo and loudness
-    that are new there, empty where they hold on.
+    that are new there, empty where they hold on; `section` is the name of what begins with it.
     """
 
     lasting: int
     new: tuple[str, str, str]
+    section: str = ""
 
 
 def _bar_forms(score: Score) -> Iterator[_BarForm]:
@@ -172,12 +181,14 @@ class _Loudness:
 def _comes_again(bars: Sequence[_BarForm], first: int, again: int, length: int) -> bool:
     """Whether the bars from `again` on are those from `first` on: a repeat sign leads back from the one to the other.
 
-    What holds anyway may stand at the beginning on paper and be left out when it is played again, never the reverse.
+    What holds anyway may stand at the beginning on paper and be left out when it is played again, never the reverse; a
+    meter may always be told again.
     """
     if any(bars[first + k].lasting != bars[again + k].lasting for k in range(length)):
         return False
-    back = all(b in ("", a) for a, b in zip(bars[first].new, bars[again].new, strict=True))
-    return back and all(bars[first + k].new == bars[again + k].new for k in range(1, length))
+    one, other = bars[first], bars[again]
+    back = all(b in ("", a) for a, b in zip((*one.new[1:], one.section), (*other.new[1:], other.section), strict=True))
+    return back and all(bars[first + k] == bars[again + k] for k in range(1, length))
 
 
 # --- the cheapest way to write them -----------------------------------------------------------------------------------
@@ -190,7 +201,9 @@ def _best(bars: Sequence[_BarForm], start: int, end: int) -> list[Passage]:
         costs[at] = 1.0 + costs[at + 1][0], None
         for passage in _repeats(bars, at, end):
             after = at + passage.times * passage.pass_length
-            cost = _SIGN + _ENDINGS * bool(passage.endings) + len(passage.written_bars) + costs[after][0]
+            is_named = bars[at + passage.pass_length].section != ""
+            signs = (_NAMED_SIGN if is_named else _SIGN) + _ENDINGS * bool(passage.endings)
+            cost = signs + len(passage.written_bars) + costs[after][0]
             if cost < costs[at][0]:
                 costs[at] = cost, passage
     return list(_chosen(costs, start, end))

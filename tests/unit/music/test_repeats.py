@@ -52,9 +52,21 @@ def test_every_bar_is_played_as_often_and_where_it_was() -> None:
     assert [bars[bar] for bar in written] == list(bars)
 
 
-def test_a_section_begins_outside_every_fold() -> None:
-    assert folded(song("AAAAAAAA"), starts=[4]) == [Passage(0, 0, 4), Passage(4, 4, 4)]
-    assert folded(song("ABCDABCD"), starts=[4]) == [Passage(0, 3), Passage(4, 7)]
+def test_no_section_s_start_hides_in_a_fold() -> None:
+    assert folded(song("AAAAAAAA"), {4: "bridge"}) == [Passage(0, 0, 4), Passage(4, 4, 4)]
+    assert folded(song("ABCDABCD"), {4: "bridge"}) == [Passage(0, 7)]
+    assert folded(song("ABCDABCD"), apart=[4]) == [Passage(0, 3), Passage(4, 7)]
+
+
+def test_sections_that_come_again_by_name_fold_as_their_writer_meant() -> None:
+    verse_and_chorus = {0: "verse", 2: "chorus", 4: "verse", 6: "chorus"}
+    assert folded(song("ABCDABCD"), verse_and_chorus) == [Passage(0, 3, 2)]
+    assert folded(song("ABCDABCD"), verse_and_chorus | {6: "coda"}) == [
+        Passage(0, 1, 2, (Ending(2, 3, (1,)), Ending(6, 7, (2,))))
+    ], "each ending has its name on paper"
+    assert folded(song("ABAC"), {0: "groove", 2: "groove"}) == [
+        Passage(0, 0, 2, (Ending(1, 1, (1,)), Ending(3, 3, (2,))))
+    ]
 
 
 def test_what_is_written_otherwise_is_no_repeat() -> None:

@@ -8,9 +8,9 @@ from station.core.pieces import Articulation, Piece
 from station.core.units import PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
+from station.render.notation.bar_columns import BarColumns, bar_columns
 from station.render.notation.engraving import Engraver
 from station.render.notation.held_rolls import held_until
-from station.render.notation.line_breaks import want
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import ShapeKind
 from tests.unit.render.scores import BAR, score_of
@@ -18,6 +18,11 @@ from tests.unit.render.scores import BAR, score_of
 ATLAS = Atlas()
 SIXTEENTH = PPQ // 4
 Shapes = NDArray[np.void]
+
+
+def columns(score: Score) -> BarColumns:
+    """Those of the first bar, two seconds long."""
+    return bar_columns(Engraver(score, Atlas()).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at, 0.0)
 
 
 def roll(tick: int, length: int, swing: int = 0) -> Note:
@@ -111,7 +116,6 @@ def test_a_roll_ends_at_the_next_stroke_of_its_voice_as_it_is_written() -> None:
 
 
 def test_a_bar_has_room_for_where_a_roll_ends() -> None:
-    plain = want(score_of(Note(0, Piece.SNARE), Note(2 * PPQ, Piece.SNARE)), 0)
-    held = want(score_of(roll(0, PPQ + SIXTEENTH), Note(2 * PPQ, Piece.SNARE)), 0)
-    assert held.width > plain.width
-    assert want(score_of(roll(0, SIXTEENTH), Note(2 * PPQ, Piece.SNARE)), 0) == plain
+    plain = columns(score_of(Note(0, Piece.SNARE), Note(2 * PPQ, Piece.SNARE)))
+    held = columns(score_of(roll(0, PPQ + SIXTEENTH), Note(2 * PPQ, Piece.SNARE)))
+    assert held.width(1.0) > plain.width(1.0)
