@@ -30,8 +30,8 @@ _NOTES_Y = (-5.3, 4.2)
 _TOP, _BAND, _BANDS = -10.0, 0.5, 44
 """The bands in which room is measured, from the highest down, and how high each is."""
 _STAFF_BANDS = slice(round((-2.0 - _TOP) / _BAND), round((2.0 - _TOP) / _BAND))
-_STRETCH_STEPS = 40
-"""Halvings of the interval in which the stretch of a line is sought: to a millionth of a space."""
+_STRETCH_STEPS = 26
+"""Halvings of the interval in which the stretch of a line is sought: to a hundred-thousandth of a space."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

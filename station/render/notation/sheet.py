@@ -13,7 +13,7 @@ from station.core.units import PPQ
 from station.music.score import Score
 from station.music.tempo_words import tempo_words
 from station.render.notation.engraving import Engraver
-from station.render.notation.line_breaks import lines
+from station.render.notation.line_breaks import line_count, lines
 from station.render.notation.sheet_bars import sheet_bars
 from station.render.notation.sheet_key import KEY_HEIGHT, draw_key
 from station.render.notation.sheet_line import LineInk, LineSetter
@@ -103,7 +103,7 @@ class _SheetPages:
 
     def may_be_one(self, space: float) -> bool:
         """Whether all may be on one page, and on few lines where they are of the largest size."""
-        count = len(lines(self._bars, self._width / space))
+        count = line_count(self._bars, self._width / space)
         return count * _LEAST_LINE * space < self._size[1] and (space < SPACES[0] or count <= _FEW_LINES)
 
     def pages(self, space: float) -> list[Ink]:

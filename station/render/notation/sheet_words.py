@@ -65,7 +65,7 @@ def draw_times(draw_list: DrawList, skyline: Skyline, x: float, times: int) -> N
 
 def _low(draw_list: DrawList, skyline: Skyline, ends_x: tuple[float, float], text: str, style: TypeStyle) -> None:
     """A line of text as low as it goes."""
-    y = min(_LOWEST, skyline.top_over(*ends_x) - _AIR)
+    y = min(_LOWEST, skyline.top_over(ends_x[0] - _AIR, ends_x[1] + _AIR) - _AIR)
     draw_list.text(text, (ends_x[1] if style.align else ends_x[0], y), style)
     skyline.add(ends_x[0], ends_x[1], y - _CAPITAL * style.size, y)
 
