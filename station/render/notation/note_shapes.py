@@ -37,8 +37,9 @@ STEM_FROM: Mapping[NoteHead, tuple[float, float]] = MappingProxyType(
 )
 """How far above a head's middle a stem that points up, and one that points down, begins; 0 for the others. Source:
 Bravura's metadata, `stemUpSE` and `stemDownNW`."""
-_GROUPS, _WIDEST = 0.75, 8.0
-"""A time signature with groups is set smaller, the smaller the more they are (our choice)."""
+_FIGURES, _GROUPS, _WIDEST = 0.96, 0.75, 8.0
+"""The font's 8 is a little higher than two spaces: figures so large do not touch each other. A time signature with
+groups is set smaller, the smaller the more they are (our choice)."""
 SIGNATURE_GAP = 0.8
 """What a time signature leaves free on either side at the least."""
 _SLUR_STEPS = 10
@@ -87,7 +88,7 @@ def signature_width(draw_list: DrawList, meter: MeterChange) -> float:
 
 
 def _signature_scale(meter: MeterChange) -> float:
-    scale = _GROUPS if meter.groups else 1.0
+    scale = _GROUPS if meter.groups else _FIGURES
     return min(scale, _WIDEST / figures_width(str(meter).partition("/")[0]))
 
 

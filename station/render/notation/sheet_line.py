@@ -13,7 +13,7 @@ from station.music.repeats import written_forms
 from station.music.score import Score
 from station.render.notation import note_shapes
 from station.render.notation.bar_columns import BarColumns, bar_columns
-from station.render.notation.bar_lines import REPEAT_WIDTH, THIN, BarLine, Volta, draw_bar_line
+from station.render.notation.bar_lines import REPEAT_WIDTH, THIN, BarLine, Volta, draw_bar_line, line_width
 from station.render.notation.engraving import Engraver
 from station.render.notation.line_breaks import BarBox, SetBar
 from station.render.notation.sheet_bars import SheetBar
@@ -77,7 +77,7 @@ class LineSetter:
         )
 
     def _columns_of(self, bar: SheetBar) -> BarColumns:
-        key = (self._form(bar.bar), bar.opens_repeat)
+        key = (self._form(bar.bar), bar.opens_repeat, bar.line)
         if key not in self._columns:
             tempo = self._score.tempo_map
             ends = [tempo.bar_start(bar.bar), tempo.bar_start(bar.bar + 1)]
@@ -86,7 +86,7 @@ class LineSetter:
                 self._shapes(bar.bar, opens_line=False),
                 end_s - start_s,
                 lambda times_s: tempo.ticks_at(times_s + start_s),
-                REPEAT_WIDTH if bar.opens_repeat else 0.0,
+                (REPEAT_WIDTH if bar.opens_repeat else 0.0, line_width(bar.line)),
             )
         return self._columns[key]
 

@@ -6,7 +6,7 @@ import pytest
 from station.core.pieces import Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
 from station.music.score import Note, Score
-from station.render.notation.chord_width import chord_extent, letters_width, sticking
+from station.render.notation.chord_width import heads_extent, sticking
 from station.render.notation.head_places import PlacedHead, heads_x, placed_heads
 from tests.unit.render.scores import score_of
 
@@ -20,9 +20,8 @@ def heads(*pieces: Piece, ghosts: tuple[Piece, ...] = ()) -> dict[Piece, PlacedH
     return {Piece(int(row["piece"])): head for row, head in zip(rows, placed_heads(rows), strict=True)}
 
 
-def extent(*notes: Note, dots: int = 0, has_flag: bool = False) -> tuple[float, float]:
-    rows = score_of(*notes).notes
-    return chord_extent(rows, np.full(len(rows), Limb.UNKNOWN, np.int8), dots, has_flag)
+def reach(note: Note) -> tuple[float, float]:
+    return heads_extent(score_of(note).notes)
 
 
 def test_a_third_stands_on_one_line_and_a_second_on_both_sides_of_the_stem() -> None:
@@ -68,19 +67,14 @@ def test_heads_of_a_whole_score() -> None:
     assert heads_x(score).tolist() == pytest.approx([0, 2 * NOTE_HALF, 0, 0])
 
 
-def test_how_far_a_chord_reaches() -> None:
-    snare = Note(0, Piece.SNARE)
-    assert extent(snare) == pytest.approx((NOTE_HALF, NOTE_HALF))
-    assert extent(snare, has_flag=True)[1] == pytest.approx(NOTE_HALF + 1.056), "flag8thUp is 1.056 wide"
-    assert extent(snare, dots=1)[1] == pytest.approx(NOTE_HALF + 0.25 + 0.4)
+def test_how_far_heads_reach() -> None:
+    assert reach(Note(0, Piece.SNARE)) == pytest.approx((NOTE_HALF, NOTE_HALF))
     crash = Note(0, Piece.CRASH_1, Zone.EDGE)
-    assert extent(crash) == pytest.approx((0.4 + 2 * CROSS_HALF - NOTE_HALF, 0.4 + NOTE_HALF)), "its ledger line"
-    flam = Note(0, Piece.SNARE, lead_ms=30.0, ornament=Ornament.FLAM)
-    drag = Note(0, Piece.SNARE, lead_ms=60.0, ornament=Ornament.DRAG)
-    lefts = [extent(*graces, snare)[0] for graces in ((), (flam,), (flam, drag))]
-    assert lefts[0] + 1 < lefts[1] < lefts[2] - 0.9
+    assert reach(crash) == pytest.approx((0.4 + 2 * CROSS_HALF - NOTE_HALF, 0.4 + NOTE_HALF)), "its ledger line"
     ghost = Note(0, Piece.SNARE, dynamic=Dynamic.GHOST)
-    assert extent(ghost) == pytest.approx((NOTE_HALF + 0.03 + BRACKET,) * 2, abs=0.001)
+    assert reach(ghost) == pytest.approx((NOTE_HALF + 0.03 + BRACKET,) * 2, abs=0.001)
+    accent = Note(0, Piece.SNARE, dynamic=Dynamic.ACCENT)
+    assert reach(accent) == pytest.approx((1.356 / 2,) * 2), "articAccentAbove is 1.356 wide"
 
 
 def test_letters_of_a_chord() -> None:
@@ -94,4 +88,3 @@ def test_letters_of_a_chord() -> None:
     drag = score_of(*early, Note(0, Piece.SNARE, ornament=Ornament.DRAG)).notes
     left = np.array([Limb.LEFT_HAND, Limb.LEFT_HAND, Limb.RIGHT_HAND], np.int8)
     assert sticking(drag, left, is_up=True) == ["llR"]
-    assert letters_width("llR") > letters_width("R")
