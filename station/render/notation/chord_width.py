@@ -13,8 +13,6 @@ from station.render.notation.head_places import EDGE_X, placed_heads
 from station.render.notation.staff import ledger_steps, step_of
 from station.render.text.sign_outlines import LEDGER_OUT, sign_box
 
-LETTER_SIZE = 1.5
-"""Em of the sticking's letters: capitals one space high, as the smallest figures of the staff are (our choice)."""
 LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L", Limb.RIGHT_FOOT: "R", Limb.LEFT_FOOT: "L"}
 GRACE = 0.62
 """How large grace notes are: Gould has three quarters to two thirds; ours are read beside a full flag (our choice)."""

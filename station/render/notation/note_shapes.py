@@ -5,6 +5,7 @@ Units are staff spaces, y down, 0 on the staff's middle line. Shapes and thickne
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
 
@@ -12,7 +13,8 @@ from station.music.tempo import MeterChange
 from station.render.notation.head_places import HEAD_SIGNS
 from station.render.notation.staff import NoteHead
 from station.render.palette import INK, INK_FAINT
-from station.render.text.draw_list import Colour, DrawList
+from station.render.text.draw_list import Colour, DrawList, TypeStyle
+from station.render.text.fonts import Face
 from station.render.text.sign_outlines import SLUR_END, SLUR_MIDDLE, STAFF_LINE, sign_box
 
 _HALF_HEADS: Mapping[NoteHead, str] = MappingProxyType(
@@ -42,6 +44,10 @@ _FIGURES, _GROUPS, _WIDEST = 0.96, 0.75, 8.0
 groups is set smaller, the smaller the more they are (our choice)."""
 SIGNATURE_GAP = 0.8
 """What a time signature leaves free on either side at the least."""
+_LETTER = TypeStyle(1.5, INK, Face.BOLD)
+"""Capitals one space high, as the smallest figures of the staff are (our choice)."""
+_SMALL_LETTER = replace(_LETTER, size=1.05)
+"""As much smaller as grace notes are, a little more readable (our choice)."""
 _SLUR_STEPS = 10
 """A slur is drawn in so many straight pieces: none leaves the curve by a hundredth of a space."""
 
@@ -58,6 +64,17 @@ def draw_brackets(draw_list: DrawList, xs: tuple[float, float], y: float, scale:
     """The brackets of a ghost stroke, their middles at `xs`."""
     for name, x in zip(("bracket_left", "bracket_right"), xs, strict=True):
         draw_list.sign(name, (x, y), INK, scale)
+
+
+def draw_letters(draw_list: DrawList, letters: str, at: tuple[float, float]) -> None:
+    """Letters of the sticking round `at`, on its baseline; those of grace strokes, in lower case, as small capitals.
+
+    A lower-case l of this typeface could be a capital i.
+    """
+    parts = [(letter.upper(), _LETTER if letter.isupper() else _SMALL_LETTER) for letter in letters]
+    x = at[0] - sum(draw_list.width(letter, style) for letter, style in parts) / 2
+    for letter, style in parts:
+        x += draw_list.text(letter, (x, at[1]), style)
 
 
 def draw_slur(draw_list: DrawList, ends: tuple[tuple[float, float], tuple[float, float]], bow: float) -> None:

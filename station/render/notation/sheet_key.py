@@ -10,11 +10,11 @@ from station.core.labels import piece_name
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.music.loudness_marks import FADE, GROW
 from station.music.score import Score
-from station.render.notation.chord_width import LETTER_SIZE
 from station.render.notation.head_places import EDGE_X, HEAD_SIGNS
-from station.render.notation.note_shapes import draw_brackets, draw_head
-from station.render.notation.staff import NoteHead, head_of, height, ledger_steps, step_of
+from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_letters
+from station.render.notation.staff import FOOT_PIECES, NoteHead, head_of, height, ledger_steps, step_of
 from station.render.notation.staff_rows import OPEN_FROM, WIDE_FROM, shown_limbs
+from station.render.notation.written_strokes import written_strokes
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -96,6 +96,8 @@ def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
         yield partial(_graces, count=1), "flam"
     if (graced == Ornament.DRAG).any():
         yield partial(_graces, count=2), "drag"
+    if written_strokes(score, np.isin(notes["piece"], [int(piece) for piece in FOOT_PIECES])).is_hidden.any():
+        yield _diddle, "two strokes, one hand"
     if (notes["articulation"] == Articulation.BUZZ).any():
         yield partial(_sign, name="buzz"), "buzz roll"
     if (notes["choke_ticks"] > 0).any():
@@ -155,6 +157,14 @@ def _splash(draw_list: DrawList, at: tuple[float, float]) -> None:
     draw_list.sign("hat_open", (at[0], at[1] + 0.8), INK)
 
 
+def _diddle(draw_list: DrawList, at: tuple[float, float]) -> None:
+    x, y = at[0] - EDGE_X, at[1] + 0.5
+    draw_head(draw_list, NoteHead.ROUND, (x, y), 1.0)
+    stem = x + EDGE_X - STEM / 2
+    draw_list.line((stem, y - STEM_FROM[NoteHead.ROUND][0]), (stem, y - 2.4), STEM, INK)
+    draw_list.sign("tremolo_1", (stem, y - 1.5), INK)
+
+
 def _hairpin(draw_list: DrawList, at: tuple[float, float], sign: str) -> None:
     (x, y), half = at, 1.4 if sign == GROW else -1.4
     for opening in (-0.5, 0.5):
@@ -171,4 +181,5 @@ def _graces(draw_list: DrawList, at: tuple[float, float], count: int) -> None:
 
 
 def _letters(draw_list: DrawList, at: tuple[float, float]) -> None:
-    draw_list.text("R L", (at[0], at[1] + 0.5), TypeStyle(LETTER_SIZE, INK_SOFT, Face.BOLD, 0.5))
+    for letter, x in (("R", -0.7), ("L", 0.7)):
+        draw_letters(draw_list, letter, (at[0] + x, at[1] + 0.5))

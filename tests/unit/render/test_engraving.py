@@ -173,7 +173,13 @@ def test_flams_and_drags() -> None:
     assert small["centre"][0] < -1, "before the main note"
     assert small["time_s"][0] == 0.5, "on its tick: its spacing belongs to the hand"
     shapes = bar_of(main, flam)
-    assert (letters(shapes, "l"), letters(shapes, "R")) == (1, 1), "lR, as drummers write a flam"
+    assert (letters(shapes, "l"), letters(shapes, "L"), letters(shapes, "R")) == (0, 1, 1), "no l that could be an I"
+    from station.render.text.fonts import Face
+
+    left, right = (np.array(ATLAS.letter(letter, Face.BOLD).uv, np.float32) for letter in "LR")
+    small, large = (shapes[(shapes["uv"] == uv).all(axis=1)][0] for uv in (left, right))
+    assert small["half"][1] < 0.8 * large["half"][1], "the grace stroke's is small"
+    assert small["centre"][0] < large["centre"][0]
     drag = [dataclasses.replace(flam, lead_ms=ms, ornament=Ornament.DRAG) for ms in (80.0, 40.0)]
     places = of_sign(bar_of(main, *drag), "head_round")["centre"][:, 0]
     assert len(set(places.tolist())) == 3
