@@ -50,6 +50,8 @@ _SMALL_LETTER = replace(_LETTER, size=1.05)
 """As much smaller as grace notes are, a little more readable (our choice)."""
 _SLUR_STEPS = 10
 """A slur is drawn in so many straight pieces: none leaves the curve by a hundredth of a space."""
+_SLUR_OVERLAP = 0.2
+"""Each goes on over its ends by so much of its length, which closes the wedges between them."""
 
 
 def draw_head(draw_list: DrawList, head: NoteHead, at: tuple[float, float], scale: float, base: int = 4) -> None:
@@ -84,10 +86,11 @@ def draw_slur(draw_list: DrawList, ends: tuple[tuple[float, float], tuple[float,
     for k in range(_SLUR_STEPS + 1):
         share = k / _SLUR_STEPS
         points.append((x0 + (x1 - x0) * share, y0 + (y1 - y0) * share + bow * 4 * share * (1 - share)))
-    for k, (start, end) in enumerate(pairwise(points)):
+    for k, ((ax, ay), (bx, by)) in enumerate(pairwise(points)):
         share = (k + 0.5) / _SLUR_STEPS
         width = SLUR_END + (SLUR_MIDDLE - SLUR_END) * 4 * share * (1 - share)
-        draw_list.line(start, end, width, INK)
+        over_x, over_y = (bx - ax) * _SLUR_OVERLAP, (by - ay) * _SLUR_OVERLAP
+        draw_list.line((ax - over_x, ay - over_y), (bx + over_x, by + over_y), width, INK)
 
 
 def time_signature(draw_list: DrawList, meter: MeterChange, left: float) -> None:
