@@ -93,8 +93,8 @@ def test_rests_of_two_voices_keep_clear_of_the_other_s_heads() -> None:
 
 
 def test_a_dot_keeps_clear_of_its_flag() -> None:
-    """A dotted eighth that ends a beat's triplet of sixteenths alone, on a line of the staff and in a space."""
-    for piece in (Piece.TOM_2, Piece.SNARE, Piece.HIHAT):
+    """A dotted eighth alone in its beat, on the top line or a ledger line, where its stem is shortest."""
+    for piece in (Piece.RIDE, Piece.CRASH_1):
         score = score_of(Note(PPQ // 4, piece), Note(PPQ, Piece.SNARE))
         assert any(sign.name == "dot" for line in inked_lines(score) for sign in line)
         assert not collisions(score), piece
