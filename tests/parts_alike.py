@@ -24,12 +24,14 @@ def differences(before: DrumPart, after: DrumPart, features: Collection[Feature]
     """What of `features` came back otherwise, a line each; empty if all came back.
 
     Strokes are told apart as main strokes and grace strokes. Where neither flams nor drags are asked for, strokes of
-    `after` that sound where grace strokes of `before` do are those, and not looked at.
+    `after` that sound where grace strokes of `before` do are those, and not looked at; a format without tempo has none.
+    Where times are not asked for, strokes are paired piece by piece in their order.
     """
     found = [f"{feature.value}: {fault}" for feature in Feature if feature in features and feature in _OF_PART
              if (fault := _OF_PART[feature](before, after))]  # fmt: skip
-    ours, theirs = _main(before.score.notes), _main(after.score.notes)
-    if not {Feature.FLAMS, Feature.DRAGS} & set(features):
+    by_time = Feature.TIMES in features
+    ours, theirs = _main(before.score.notes, by_time), _main(after.score.notes, by_time)
+    if Feature.TEMPO in features and not {Feature.FLAMS, Feature.DRAGS} & set(features):
         theirs = _without_graces_of(before, after, theirs)
     if len(ours) != len(theirs):  # strokes that the writer left out are told as lost times
         return [*found, f"{Feature.TIMES.value}: {len(ours)} strokes became {len(theirs)}"] * (
@@ -83,9 +85,14 @@ _OF_PART: Mapping[Feature, Callable[[DrumPart, DrumPart], str]] = {
 # --- what each main stroke has ----------------------------------------------------------------------------------------
 
 
-def _main(notes: _Rows) -> _Rows:
+def _main(notes: _Rows, by_time: bool) -> _Rows:
     rows = notes[notes["lead_ms"] == 0]
-    return _in_order(rows, rows["limb"], rows["piece"], rows["tick"])
+    return _paired(rows, rows["limb"], by_time)
+
+
+def _paired(rows: _Rows, last_key: NDArray[np.void], by_time: bool) -> _Rows:
+    """In the order in which they are compared: by time, or piece by piece."""
+    return _in_order(rows, last_key, *((rows["piece"], rows["tick"]) if by_time else (rows["tick"], rows["piece"])))
 
 
 def _without_graces_of(before: DrumPart, after: DrumPart, rows: _Rows) -> _Rows:
@@ -202,8 +209,9 @@ def _grace_differences(before: DrumPart, after: DrumPart, features: Collection[F
     for feature, ornament in ((Feature.FLAMS, Ornament.FLAM), (Feature.DRAGS, Ornament.DRAG)):
         if feature not in features:
             continue
-        ours, theirs = (_graces(part.score.notes, ornament) for part in (before, after))
-        if len(ours) != len(theirs) or not (_close("tick")(ours, theirs) & _equal("piece")(ours, theirs)).all():
+        by_time = Feature.TIMES in features
+        ours, theirs = (_graces(part.score.notes, ornament, by_time) for part in (before, after))
+        if len(ours) != len(theirs) or not _same_graces(ours, theirs, by_time):
             found.append(f"{feature.value}: {len(ours)} grace strokes became {len(theirs)} others")
             continue
         if Feature.GRACE_SPACING in features:
@@ -215,6 +223,11 @@ def _grace_differences(before: DrumPart, after: DrumPart, features: Collection[F
     return found
 
 
-def _graces(notes: _Rows, ornament: Ornament) -> _Rows:
+def _same_graces(ours: _Rows, theirs: _Rows, by_time: bool) -> bool:
+    same = _equal("piece")(ours, theirs) & (_close("tick")(ours, theirs) | (not by_time))
+    return bool(same.all())
+
+
+def _graces(notes: _Rows, ornament: Ornament, by_time: bool) -> _Rows:
     rows = notes[(notes["lead_ms"] > 0) & (notes["ornament"] == ornament)]
-    return _in_order(rows, -rows["lead_ms"], rows["piece"], rows["tick"])
+    return _paired(rows, -rows["lead_ms"], by_time)

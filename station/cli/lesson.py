@@ -1,6 +1,6 @@
 """`station lesson`: list, show, check, write, import and export lessons."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from station.cli import lesson_list
@@ -131,8 +131,7 @@ def _check_free(out: Path, overwrite: bool) -> None:
 
 
 def _import(options: ImportOptions) -> int:
-    from station.drills.quantise import lesson_of, quantise_score
-    from station.drills.writing.lesson_writer import write_lesson
+    from station.drills.transcription.transcribe import transcribe
 
     if is_lesson(options.source):
         raise BadInput(options.source, "", f"expected a music file ({endings()}), a take (.capture) or a groove's link")
@@ -140,14 +139,11 @@ def _import(options: ImportOptions) -> int:
     _check_free(out, options.overwrite)
     stem = out.stem if is_groove_url(options.source) else existing(options.source).stem
     part = load_part(options.source)
-    if not len(part.score):
-        raise BadInput(options.source, "", "there is no drum note in it")
-    fitted = quantise_score(part.score)
-    lesson = lesson_of(fitted.score, out.stem, part.score.title or stem, fitted.velocities)
-    write_whole(out, write_lesson(lesson).encode())
-    if fitted.moved or fitted.left_out:
-        moved = f"{_counted(fitted.moved, 'stroke')} moved onto the grid, by at most {fitted.furthest_ms:.0f} ms"
-        say(f"{moved}; {fitted.left_out} left out that two hands and two feet cannot play")
+    titled = replace(part, score=replace(part.score, title=part.score.title or stem))
+    found = transcribe(titled, out.stem, options.source)
+    write_whole(out, found.lesson.text.encode())
+    for remark in found.remarks:
+        say(remark)
     for line in part.lost:
         say(f"lost     {line}")
     say(f"lesson   {out}")

@@ -3,10 +3,8 @@
 from station.drills.lesson import Lesson, tidy_bpm
 from station.music.drum_part import DrumPart
 from station.music.score import Score
-from station.music.swing import STRAIGHT, Swing
 from station.render.files.pdf_file import pdf
 from station.render.notation.sheet import PAPERS, SheetWords, sheet
-from station.render.notation.swing_words import swing_words
 from station.scenes.section_names import section_names
 
 Bars = tuple[int, int]
@@ -14,46 +12,26 @@ Bars = tuple[int, int]
 
 
 def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
-    """What stands on the sheet of a lesson's bars; where they hold its loop, that is repeated.
-
-    A section that is called after its feel is not named besides.
-    """
+    """What stands on the sheet of a lesson's bars; where they hold its loop, that is repeated."""
     first, last = bars
     beats = tidy_bpm(lesson.played_once.bars(*bars).tempo_map.tempos[0].us_per_quarter, lesson.beat_ticks)
     loop = (lesson.loop[0] - first, lesson.loop[1] - first)
-    feels, names = _feels(lesson, bars), section_names(lesson.sections, first, last - first + 1)
     return SheetWords(
         title=lesson.title,
         author=lesson.author,
         beats_a_minute=round(beats, 1),
         beat_ticks=lesson.beat_ticks,
         about=" ".join(lesson.about.split()),
-        sections=tuple((bar, name) for bar, name in names if not dict(feels).get(bar, "").startswith(name)),
-        feels=feels,
+        sections=section_names(lesson.sections, first, last - first + 1),
         repeat=loop if first <= lesson.loop[0] and lesson.loop[1] <= last else None,
         first_bar=first + 1,
     )
-
-
-def _feels(lesson: Lesson, bars: Bars) -> tuple[tuple[int, str], ...]:
-    """The feel of a lesson's bars where it is another one than before, by the sheet's bars; straight at first."""
-    found, before = [], _feel(Swing())
-    for bar in range(bars[0], bars[1] + 1):
-        if (feel := _feel(lesson.swing_of_bar(bar))) != before:
-            found.append((bar - bars[0], feel))
-            before = feel
-    return tuple(found)
-
-
-def _feel(swing: Swing) -> str:
-    return "straight" if swing.ratio == STRAIGHT else f"swing {swing.ratio:.3g} : 1"
 
 
 def part_labels(part: DrumPart, bars: Bars, *, name: str) -> SheetWords:
     """What stands on the sheet of another part, called by its own title, else `name`."""
     score = part.score.bars(*bars)
     beats = round(tidy_bpm(score.tempo_map.tempos[0].us_per_quarter, part.beat_ticks), 1)
-    is_swung = part.swing.ratio != STRAIGHT
     return SheetWords(
         title=score.title or name,
         author=part.author,
@@ -61,7 +39,6 @@ def part_labels(part: DrumPart, bars: Bars, *, name: str) -> SheetWords:
         beat_ticks=part.beat_ticks,
         about=" ".join(part.about.split()),
         sections=section_names(part.sections, bars[0], bars[1] - bars[0] + 1),
-        feels=((0, _feel(part.swing)),) if is_swung else tuple(swing_words(score).items()),
         first_bar=bars[0] + 1,
     )
 

@@ -8,6 +8,7 @@ from station.drills.reading.lesson_file import read_lesson
 from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart
 from station.music.formats.groovescribe.groove_formats import GROOVESCRIBE
+from station.music.formats.hydrogen.hydrogen_formats import HYDROGEN_PATTERN, HYDROGEN_SONG
 from station.music.formats.music_format import MusicFormat
 from tests.parts_alike import kept_differences
 
@@ -22,7 +23,11 @@ def parts() -> dict[str, DrumPart]:
     return lesson_parts()
 
 
-@pytest.mark.parametrize(("form", "most_refused"), [(GROOVESCRIBE, 7)], ids=lambda value: getattr(value, "name", ""))
+@pytest.mark.parametrize(
+    ("form", "most_refused"),
+    [(GROOVESCRIBE, 6), (HYDROGEN_SONG, 0), (HYDROGEN_PATTERN, 0)],
+    ids=lambda value: getattr(value, "name", ""),
+)
 def test_what_a_table_promises_is_kept_of_every_lesson(
     parts: dict[str, DrumPart], form: MusicFormat, most_refused: int
 ) -> None:

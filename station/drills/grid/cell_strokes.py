@@ -49,7 +49,7 @@ class Origin:
 class CellPlace:
     """A moment of the music in ticks: its cell, `straight`, and where it is `played`, swing and all.
 
-    `swing_ticks` is how much later it is played than notation writes it (`Swing.stands_in_words`).
+    `swing_ticks` is how much later it is played than notation writes it: straight under a mark, whatever the ratio.
     """
 
     straight: int
@@ -74,7 +74,7 @@ class BarClock:
             return CellPlace(tick, tick)
         bar = self.bars[bisect_right(self.bars, tick, key=lambda b: b.tick) - 1]
         played = bar.tick + self.swing.swung(tick - bar.tick, bar)
-        return CellPlace(tick, played, played - tick if self.swing.stands_in_words else 0)
+        return CellPlace(tick, played, played - tick)
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,6 +47,7 @@ from station.music.formats.format_table import is_music_file
 from station.music.formats.text_score import TEXT_ENDING
 from station.music.loudness_marks import joined_marks
 from station.music.score import NOTE_DTYPE, Score
+from station.music.swing import triplets_spelled_out
 from station.music.tempo import TempoMap
 
 LANDING = "landing"
@@ -204,7 +205,8 @@ def _score(
     }
     at_home = [Origin(homes[origin.path], origin.char) for origin in origins]
     loudness = joined_marks((s.start_tick, s.grid.section.loudness) for s in played)
-    return Score.from_array(rows[order], tempo_map, end, loudness=loudness), [at_home[i] for i in order]
+    score = Score.from_array(rows[order], tempo_map, end, loudness=loudness)
+    return triplets_spelled_out(score), [at_home[i] for i in order]
 
 
 def _grid_path(origin: Origin) -> tuple[str | int, ...]:

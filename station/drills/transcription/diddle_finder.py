@@ -7,6 +7,7 @@ slower stays single strokes, for nothing but the sticking would tell, and MIDI h
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import groupby, pairwise
 
 from station.core.pieces import TOMS, Articulation, Dynamic, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS
@@ -20,12 +21,19 @@ ms); our doubles begin at 77 ms (our choice between them)."""
 _DRUMS = frozenset({Piece.SNARE, *TOMS})
 
 
-def with_diddles(notes: Sequence[Note], tempo_map: TempoMap, velocities: Velocities) -> list[Note]:
-    """The main strokes `notes`, in order of ticks, those of diddles by their ornament, of rolls where they touch."""
+def with_diddles(
+    notes: Sequence[Note], beyond: Sequence[Note], tempo_map: TempoMap, velocities: Velocities
+) -> list[Note]:
+    """The main strokes `notes`, in order of ticks, those of diddles by their ornament, of rolls where they touch.
+
+    `beyond` are the strokes beyond the player, which need cells in the same lines.
+    """
     found = list(notes)
     for piece in _DRUMS & {n.piece for n in notes}:
         rows = [i for i, n in enumerate(notes) if n.piece is piece]
-        pairs = _pairs([notes[i] for i in rows], tempo_map)
+        cells = [n.tick for n in beyond if n.piece is piece]
+        cells += [n.tick + n.duration_ticks for n in notes if n.piece is piece and n.duration_ticks]
+        pairs = _pairs([notes[i] for i in rows], cells, tempo_map)
         spans = {notes[rows[a]].tick: 2 * (notes[rows[b]].tick - notes[rows[a]].tick) for a, b in pairs}
         ends = {start + span for start, span in spans.items()}
         for a, b in pairs:
@@ -39,28 +47,38 @@ def with_diddles(notes: Sequence[Note], tempo_map: TempoMap, velocities: Velocit
     return found
 
 
-def _pairs(line: Sequence[Note], tempo_map: TempoMap) -> list[tuple[int, int]]:
-    """Indices of the strokes of each diddle in one drum's line."""
+def _pairs(line: Sequence[Note], starts: Sequence[int], tempo_map: TempoMap) -> list[tuple[int, int]]:
+    """Indices of the strokes of each diddle in one drum's line, beat by beat; cells begin at `starts` besides."""
     found: list[tuple[int, int]] = []
-    i = 0
-    while i + 1 < len(line):
-        is_pair = _is_diddle(line[i], line[i + 1], line[i + 2 : i + 3], tempo_map)
-        found += [(i, i + 1)] if is_pair else []
-        i += 2 if is_pair else 1
+    for beat, rows in groupby(range(len(line)), key=lambda i: _beat_of(line[i], tempo_map)):
+        in_beat = list(rows)
+        pairs = [(a, b) for a, b in pairwise(in_beat) if _is_diddle(line[a], line[b], beat, tempo_map)]
+        seconds = {b for _, b in pairs}
+        cells = {2 * (line[b].tick - line[a].tick) for a, b in pairs}
+        others = [line[i].tick for i in in_beat if i not in seconds]
+        others += [tick for tick in starts if beat[0] <= tick < sum(beat)]
+        if len(cells) == 1 and not any((tick - beat[0]) % max(cells) for tick in others):
+            found += pairs
     return found
 
 
-def _is_diddle(first: Note, second: Note, following: Sequence[Note], tempo_map: TempoMap) -> bool:
+def _beat_of(note: Note, tempo_map: TempoMap) -> tuple[int, int]:
+    """Start and length of the beat that the stroke is in."""
+    meter = tempo_map.meter_at(note.tick)
+    start = tempo_map.bar_start(int(tempo_map.bars_at(note.tick)))
+    return note.tick - (note.tick - start) % meter.beat_ticks, meter.beat_ticks
+
+
+def _is_diddle(first: Note, second: Note, beat: tuple[int, int], tempo_map: TempoMap) -> bool:
+    """Whether two strokes of one drum are a diddle of a cell of the `beat`, its start and length."""
     gap = second.tick - first.tick
     gap_ns = int(tempo_map.ns_at(second.tick)) - int(tempo_map.ns_at(first.tick))
     if not 0 < gap_ns <= QUICK_MS * NS_PER_MS or not (_is_plain(first) and _is_plain(second)):
         return False
     if first.dynamic is not second.dynamic and (first.dynamic, second.dynamic) != (Dynamic.ACCENT, Dynamic.NORMAL):
         return False
-    beat_ticks = tempo_map.meter_at(first.tick).beat_ticks
-    at = first.tick - tempo_map.bar_start(int(tempo_map.bars_at(first.tick)))
-    fills_a_cell = beat_ticks % (2 * gap) == 0 and at % (2 * gap) == 0
-    return fills_a_cell and all(n.tick >= first.tick + 2 * gap for n in following)
+    start, length = beat
+    return length % (2 * gap) == 0 and (first.tick - start) % (2 * gap) == 0
 
 
 def _is_plain(note: Note) -> bool:

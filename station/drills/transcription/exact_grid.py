@@ -21,8 +21,6 @@ TOLERANCE_TICKS = PPQ // 960
 """Half a tick of a file that counts 480 a quarter, as most programs write; a septuplet falls between its ticks."""
 _CELLS = (*PLAIN_CELLS, *(n for n in TUPLET_CELLS if n not in PLAIN_CELLS))
 """Cells that the lesson's grid can write, the simplest first."""
-MIN_EXACT_SHARE = 0.8
-"""A score of which fewer beats lie on cells was played (our choice); of others the rest was moved by hand."""
 _SURE_S = 0.001
 """A spread at which one tick beside a cell is no cell."""
 _MIN_SWUNG = 3
@@ -36,18 +34,18 @@ def exact_meant(take: Take, ticks: Ints) -> Meant | None:
     span = np.searchsorted(spans.starts, ticks, side="right") - 1
     within = ticks - spans.starts[span]
     straight = _cells(spans, span, within, Swing())
-    if np.any(straight[np.unique(span)] == 0):
+    if straight is None:
         return None
     rivals = [(Swing(), straight)]
     for swing in _swings_heard(spans, span, within):
         cells = _cells(spans, span, within, swing)
-        if np.all(cells[np.unique(span)] > 0):
+        if cells is not None:
             rivals.append((swing, cells))
     swing, cells = min(rivals, key=lambda rival: _cost(take, rival[0]))
     cell = np.zeros(len(span), np.int64)
     for i, (s, at) in enumerate(zip(span.tolist(), within.tolist(), strict=True)):
         cell[i] = np.argmin(np.abs(_places(int(cells[s]), int(spans.lengths[s]), swing) - at))
-    return Meant(span, cell, np.maximum(cells, 1), swing)
+    return Meant(span, cell, cells, swing)
 
 
 def _cost(take: Take, swing: Swing) -> float:
@@ -60,21 +58,23 @@ def _places(cells: int, length: int, swing: Swing) -> Floats:
     return places
 
 
-def _cells(spans: BeatSpans, span: Ints, within: Ints, swing: Swing) -> Ints:
-    """Into how many cells each span (s,) must be cut for its strokes; 0 where none will do, or none is there."""
-    found = np.zeros(len(spans), np.int64)
+def _cells(spans: BeatSpans, span: Ints, within: Ints, swing: Swing) -> Ints | None:
+    """Into how many cells each span (s,) must be cut for its strokes, 1 where none is; None if a span cannot be cut."""
+    found = np.ones(len(spans), np.int64)
     for s, group in _by_span(span):
         length = int(spans.lengths[s])
         fits = (n for n in _CELLS if _holds(_places(n, length, swing), within[group]))
-        found[s] = next(fits, 0)
+        if (cells := next(fits, None)) is None:
+            return None
+        found[s] = cells
     return found
 
 
 def _by_span(span: Ints) -> Iterator[tuple[int, NDArray[np.int64]]]:
     """Each span that has strokes, and their indices."""
     order = np.argsort(span, kind="stable")
-    known, starts = np.unique(span[order], return_index=True)
-    yield from zip(known.tolist(), np.split(order, starts[1:]), strict=True)
+    known, starts, counts = np.unique(span[order], return_index=True, return_counts=True)
+    yield from ((s, order[a : a + n]) for s, a, n in zip(known.tolist(), starts, counts, strict=True))
 
 
 def _holds(places: Floats, within: Ints) -> bool:

@@ -1,7 +1,7 @@
 """The form of a piece as a teacher writes it down: patterns once, how often they are played, and in which order.
 
 A piece is cut where its tempo or meter changes and where the file's own sections begin; without those, where a crash
-opens a new part. What lies between is cut into phrases of the length, of 1, 2, 4 or 8 bars, that makes the shortest
+opens a new part. What lies between is cut into phrases of the length, of 2, 4 or 8 bars, that makes the shortest
 page. A phrase that is one pattern again and again is written as the pattern with its `times`; phrases that are the same
 are one grid that the form names again; one in which few lines differ from an earlier grid is a variation of that.
 """
@@ -22,15 +22,18 @@ from station.drills.transcription.bar_contents import BarContents, bar_contents
 from station.drills.writing.lesson_form import FormGrid, LessonForm
 from station.music.drum_part import PartSection
 
-_PHRASES = (4, 8, 2, 1)
+_PHRASES = (4, 8, 2)
 """Bars of a phrase, the usual one first."""
 _LONGEST = 16
-"""Bars of a named section that are still written as one grid: four rows of four (our choice)."""
+"""Bars of a named section that may still be one grid, most of them repeats (our choice)."""
 _CRASH_APART = 4
 """A part has at least so many bars: crashes that come more often keep time (our choice)."""
 _GRID, _ENTRY = 2.0, 0.3
 """What a grid's head and an entry of the form cost on the page, in bars that are written out (our choice)."""
-_MOST_ENTRIES = 1000
+_WIDE = 4
+"""Bars beside each other that a page has room for: four of sixteenths are 90 characters. Further ones cost twice."""
+_MOST_TURNS = 4
+"""So often the form names a grid again before a grid of its own says how often it is played (our choice)."""
 _FILL = "fill"
 _LONGEST_FILL = 2
 
@@ -51,7 +54,7 @@ def found_form(lesson: Lesson, sections: Sequence[PartSection]) -> LessonForm:
     blocks = [block for span in _spans(bars, sections) for block in _blocks(bars, *span)]
     grids, order = _shared(bars, blocks)
     names = _names(bars, [blocks[i] for i in grids])
-    times = _times(blocks, grids, order)
+    times = _times(blocks, len(grids), order)
     written = [
         FormGrid(name, blocks[i].first, blocks[i].bars, each) for i, name, each in zip(grids, names, times, strict=True)
     ]
@@ -94,8 +97,8 @@ def _new_parts(bars: BarContents) -> set[int]:
 
 def _blocks(bars: BarContents, start: int, end: int, section: str) -> list[_Block]:
     """A stretch as patterns and how often each is played."""
-    whole = end - start <= _LONGEST and section
-    lengths = (end - start,) if whole else _PHRASES
+    is_whole = section and end - start <= _LONGEST
+    lengths = ((end - start,) if is_whole else ()) + _PHRASES
     return min((_cut(bars, start, end, n, section) for n in lengths), key=lambda found: _cost(bars, found))
 
 
@@ -131,30 +134,36 @@ def _pattern(bars: BarContents, block: _Block) -> tuple[str, tuple[int, ...]]:
 def _cost(bars: BarContents, blocks: Sequence[_Block]) -> float:
     """How long the page is that these blocks need."""
     patterns = {_pattern(bars, block)[1] for block in blocks}
-    written = sum(1 + sum(a != b for a, b in pairwise(pattern)) for pattern in patterns)
-    return written + _GRID * len(patterns) + _ENTRY * len(blocks)
+    written = [1 + sum(a != b for a, b in pairwise(pattern)) for pattern in patterns]
+    too_wide = sum(max(0, bars - _WIDE) for bars in written)
+    return sum(written) + too_wide + _GRID * len(patterns) + _ENTRY * len(blocks)
 
 
 # --- the same again ---------------------------------------------------------------------------------------------------
 
 
 def _shared(bars: BarContents, blocks: Sequence[_Block]) -> tuple[list[int], list[int]]:
-    """The blocks that are written, each the first of its pattern, and which of them each block is."""
-    first: dict[tuple[str, tuple[int, ...]], int] = {}
+    """The blocks that are written, each the first of its kind, and which of them each block is."""
+    turns: dict[object, list[int]] = {}
+    for block in blocks:
+        turns.setdefault(_pattern(bars, block), []).append(block.times)
+    first: dict[object, int] = {}
     written: list[int] = []
     order: list[int] = []
     for i, block in enumerate(blocks):
         pattern = _pattern(bars, block)
-        if pattern not in first:
-            first[pattern] = len(written)
+        is_one = max(turns[pattern]) // reduce(gcd, turns[pattern]) <= _MOST_TURNS
+        kind = pattern if is_one else (pattern, block.times)
+        if kind not in first:
+            first[kind] = len(written)
             written.append(i)
-        order.append(first[pattern])
+        order.append(first[kind])
     return written, order
 
 
-def _times(blocks: Sequence[_Block], grids: Sequence[int], order: Sequence[int]) -> list[int]:
+def _times(blocks: Sequence[_Block], count: int, order: Sequence[int]) -> list[int]:
     """How often each grid is played for one entry of the form: what all its blocks are multiples of."""
-    return [reduce(gcd, (b.times for b, g in zip(blocks, order, strict=True) if g == i)) for i in range(len(grids))]
+    return [reduce(gcd, (b.times for b, g in zip(blocks, order, strict=True) if g == i)) for i in range(count)]
 
 
 def _names(bars: BarContents, written: Sequence[_Block]) -> list[str]:

@@ -9,17 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
-from station.drills.quantise_time import at_bar_starts
 from station.drills.transcription.beat_spans import BeatSpans, Ints, spans_of
+from station.drills.transcription.drift import steadied
 from station.drills.transcription.exact_grid import exact_meant
 from station.drills.transcription.meant import Meant
 from station.drills.transcription.rhythm_words import MAX_WORDS, cells_of
 from station.drills.transcription.take_feel import Take, feel_of, take_of
 from station.drills.transcription.triplet_swing import triplet_swing
+from station.drills.transcription.whole_bars import at_bar_starts
 from station.music.score import Score
 from station.music.swing import STRAIGHT, TRIPLETS, Swing
 from station.music.tempo import TempoMap
 
+STEADY_S = 0.015
+"""A take with no wider spread keeps to the file's beat, and no drift is looked for (our choice)."""
 _MS_PER_S = NS_PER_S // NS_PER_MS
 
 
@@ -86,10 +89,14 @@ def quantised_times(score: Score, is_played: bool) -> GridTimes:
 def played_meant(take: Take) -> Meant:
     """What a take is meant as."""
     feel = feel_of(take)
+    late_s = 0.0
+    if feel.spread_s > STEADY_S and (steady := steadied(take, feel)):
+        late_s = float(np.mean(take.times_s - steady.times_s))
+        take, feel = steady, feel_of(steady)
     reading = take.read(feel, MAX_WORDS)
     span, _ = take.spans.places(take.times_s - feel.lean_s)
     cell = cells_of(take.spans, span, reading, feel.swing)
-    return Meant(span, cell, reading.cells, feel.swing, feel.lean_s, feel.spread_s)
+    return Meant(span, cell, reading.cells, feel.swing, late_s + feel.lean_s, feel.spread_s)
 
 
 def _named_swing(take: Take, meant: Meant) -> Swing:

@@ -1,9 +1,11 @@
 """Each stroke as the letter nearest to it plays it: what a lesson has no letter for becomes what sounds most alike."""
 
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
-from station.core.pieces import Articulation, Limb, Ornament, Zone
+from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.drills.grid.tab_symbols import FOOT_OF, SYMBOLS, TabFamily, TabSymbol, family_of
 from station.music.score import Note
 
@@ -48,6 +50,48 @@ def nearest_letter(note: Note) -> TabSymbol:
 
 _SOUND_OF = MappingProxyType({Zone.EDGE: Zone.BOW})
 """Zones that sound so much alike that a ghost stroke matters more."""
+
+
+_VARIANTS: Mapping[Piece, frozenset[tuple[Zone, Articulation]]] = MappingProxyType(
+    {
+        **dict.fromkeys(
+            (Piece.RIDE, Piece.RIDE_2),
+            frozenset({(Zone.BOW, Articulation.NORMAL), (Zone.EDGE, Articulation.NORMAL)}),
+        ),
+        **dict.fromkeys(
+            (Piece.SNARE, *TOMS), frozenset({(Zone.HEAD, Articulation.NORMAL), (Zone.RIM, Articulation.RIM_SHOT)})
+        ),
+    }
+)
+"""Two ways to strike a piece that pads tell apart by where the stick happens to land."""
+
+
+def unified(notes: Sequence[Note]) -> list[Note]:
+    """Of a take, strokes of one piece and dynamic that `_VARIANTS` tells apart, all as most of them are.
+
+    A player who keeps time on the ride meets its edge now and then; nobody means that, and nobody writes it. On the
+    hi-hat most players strike the edge, at least for accents, and all write it as they do the bow.
+    """
+    notes = [_on_the_bow(n) for n in notes]
+    counts: dict[tuple[Piece, Dynamic], Counter[tuple[Zone, Articulation]]] = {}
+    for note in notes:
+        if _is_variant(note):
+            ways = counts.setdefault((note.piece, note.dynamic), Counter())
+            ways[note.zone, note.articulation] += 1
+    return [_as_most(n, counts[n.piece, n.dynamic]) if _is_variant(n) else n for n in notes]
+
+
+def _on_the_bow(note: Note) -> Note:
+    return replace(note, zone=Zone.BOW) if (note.piece, note.zone) == (Piece.HIHAT, Zone.EDGE) else note
+
+
+def _is_variant(note: Note) -> bool:
+    return note.ornament is Ornament.NONE and (note.zone, note.articulation) in _VARIANTS.get(note.piece, ())
+
+
+def _as_most(note: Note, ways: Counter[tuple[Zone, Articulation]]) -> Note:
+    zone, articulation = ways.most_common(1)[0][0]
+    return replace(note, zone=zone, articulation=articulation)
 
 
 def _able(note: Note) -> Limb:

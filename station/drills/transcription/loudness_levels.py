@@ -135,7 +135,7 @@ def _too_near(groups: Sequence[Sequence[int]], count: int) -> int | None:
     gaps = [median_low(b) - median_low(a) for a, b in pairwise(groups)]
     for i, (a, b) in enumerate(pairwise(groups)):
         is_few = min(len(a), len(b)) < max(_FEW, _FEW_SHARE * count)
-        are_exact = a[0] == a[-1] and b[0] == b[-1]
+        are_exact = a[0] == a[-1] and b[0] == b[-1] and max(len(a), len(b)) >= _FEW
         if gaps[i] < _STEP or (is_few and not are_exact and b[0] - a[-1] < _EMPTY):
             return i
     return gaps.index(min(gaps)) if len(groups) > len(Dynamic) else None

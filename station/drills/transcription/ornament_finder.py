@@ -3,7 +3,7 @@
 Asked of each drum by itself, for other pieces have no such letters, and before strokes go onto a grid: an ornament's
 spacing belongs to the hand, not to the beat. What a stroke is called, by the gap to the next one of its drum:
 
-* gap ≤ `BOUNCE_MS` and far softer than its neighbour: the pad triggered twice; no stroke (any piece);
+* gap ≤ `BOUNCE_MS` and far softer than its neighbour, or no gap: the pad triggered twice; no stroke (any piece);
 * three or more gaps ≤ `CLOSE_MS` long that do not lead up to a louder stroke: a buzz, as long as it rebounds;
 * one soft stroke ≤ `CLOSE_MS` before a louder one, or two hands at nearly one moment: a flam;
 * two soft strokes, each `DRAG_MS` before the next, and then a louder one: a drag.
@@ -25,6 +25,8 @@ BOUNCE_MS = 10.0
 """Modules tell strokes apart from 8–10 ms on (their retrigger time); nobody strikes one drum twice so soon."""
 _BOUNCE_SHARE = 0.5
 """A second hand is never half as loud as the first so soon; a pad that still shakes is (our choice)."""
+LAYERED_MS = 1.0
+"""What a pad says of head and rim at once is one stroke; two hands are hardly ever so exact (our choice)."""
 AT_ONCE_MS = 8.0
 """Two hands that mean to strike together are within this: half the just noticeable order of two sounds, 15–20 ms."""
 CLOSE_MS = 45.0
@@ -100,7 +102,8 @@ def found_ornaments(score: Score, graces: Graces | None = None) -> FoundOrnament
 
 
 def _is_said(note: Note) -> bool:
-    return note.ornament is not Ornament.NONE or note.lead_ms > 0
+    is_buzz = note.articulation is Articulation.BUZZ
+    return note.lead_ms > 0 or (note.ornament is not Ornament.NONE and not is_buzz)
 
 
 def _without_bounces(line: Sequence[_Stroke]) -> list[_Stroke]:
@@ -108,7 +111,8 @@ def _without_bounces(line: Sequence[_Stroke]) -> list[_Stroke]:
     soft: set[int] = set()
     for i, (a, b) in enumerate(pairwise(line)):
         low, high = sorted((a.note.velocity, b.note.velocity))
-        if b.ms - a.ms <= BOUNCE_MS and low < _BOUNCE_SHARE * high:
+        gap = b.ms - a.ms
+        if gap < LAYERED_MS or (gap <= BOUNCE_MS and low < _BOUNCE_SHARE * high):
             soft.add(i if a.note.velocity < b.note.velocity else i + 1)
     return [stroke for i, stroke in enumerate(line) if i not in soft]
 

@@ -16,7 +16,7 @@ from station.core.units import NS_PER_S, PPQ
 from station.drills.transcription.beat_spans import BeatSpans, Floats, Ints
 from station.drills.transcription.rhythm_words import Reading, cells_of, played_places, read
 from station.drills.transcription.take_fit import SLIP, strokes_at
-from station.music.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
+from station.music.swing import MAX_RATIO, STRAIGHT, TRIPLETS, Swing
 
 USUAL_SPREAD_S = 0.015
 """Where a search begins: between a professional's 10 ms and the 26 ms of the Groove MIDI Dataset (HUMANS, Timing)."""
@@ -26,17 +26,20 @@ LEANS_S = tuple(ms / 1000 for ms in (0, -10, 10, -20, 20, -30, 30, -40, 40))
 """Leans to begin with; HUMANS, Timing: static lean SD 11 ms, professionals to 16 ms early."""
 LEAN_SD_S = 0.015
 """How far takes lean as a rule (HUMANS, Timing: 11 ms, and 16 for another)."""
-FIRST_STROKES = 300
-"""A lean shows in so many strokes."""
+LEAN_STROKES, SWING_STROKES = 300, 600
+"""A lean shows in so many strokes, and whether music swings; how much it does, all tell."""
 
 NAMED_RATIOS: Mapping[float, float] = MappingProxyType({1.5: 5.0, 2.0: 3.0, 3.0: 6.0})
 """What a swing costs that a teacher would name: light swing, triplets, dotted; our choice."""
 _OTHER_RATIO_COST = 7.0
-_RATIO_STEP = 0.1
+_LEAST_RATIO, _RATIO_STEP = 1.2, 0.1
+"""Below is the unevenness of straight playing; in finer steps nobody names a ratio."""
+_HARD_SIXTEENTHS_COST = 6.0
+"""Sixteenths swing less than eighths do: beyond triplets hardly ever."""
 _FIRST_SWINGS = (Swing(), Swing(1.5), Swing(2.0), Swing(1.5, PPQ // 4))
 _SWINGS = tuple(Swing(ratio, unit) for ratio in (1.3, 1.5, 1.75, 2.0, 2.5, 3.0) for unit in (PPQ // 2, PPQ // 4))
 """Eighths swing, or sixteenths; finer ratios are found about the best of these."""
-_FINALISTS = 4
+_FINALISTS = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,27 +69,26 @@ class Take:
         span, place = self.spans.places(self.times_s - feel.lean_s)
         return (place - reading.place) * self.spans.lengths_s[span] + feel.lean_s
 
-    @property
-    def first(self) -> "Take":
-        """The take's first strokes."""
-        return replace(self, times_s=self.times_s[:FIRST_STROKES], piece=self.piece[:FIRST_STROKES])
+    def first(self, count: int) -> "Take":
+        """The take's first strokes, at most so many."""
+        return replace(self, times_s=self.times_s[:count], piece=self.piece[:count])
 
 
 def feel_of(take: Take) -> Feel:
     """How the take was played."""
-    feel = _cheapest(take.first, [Feel(lean, swing=swing) for lean in LEANS_S for swing in _FIRST_SWINGS])
-    feel = _settled(take, feel)
+    feel = _cheapest(take.first(LEAN_STROKES), [Feel(lean, swing=swing) for lean in LEANS_S for swing in _FIRST_SWINGS])
+    feel = settled(take, feel)
     rivals = [replace(feel, swing=s) for s in {Swing(), feel.swing, *_SWINGS}]
-    rivals = sorted(rivals, key=lambda f: _cost(take, f))[:_FINALISTS]
-    rivals = [_settled(take, rival) for rival in rivals]
-    return _cheapest(take, [_refined(take, r) if r.swing.ratio != STRAIGHT else _settled(take, r) for r in rivals])
+    rivals = sorted(rivals, key=lambda f: cost_of(take.first(SWING_STROKES), f))[:_FINALISTS]
+    rivals = [settled(take, rival) for rival in rivals]
+    return _cheapest(take, [_refined(take, r) if r.swing.ratio != STRAIGHT else settled(take, r) for r in rivals])
 
 
 def _cheapest(take: Take, feels: Iterable[Feel]) -> Feel:
-    return min(feels, key=lambda f: _cost(take, f))
+    return min(feels, key=lambda f: cost_of(take, f))
 
 
-def _cost(take: Take, feel: Feel) -> float:
+def cost_of(take: Take, feel: Feel) -> float:
     """What the take costs with that feel, itself included."""
     return take.read(feel).cost + len(take.piece) * log(feel.spread_s) + prior_cost(feel)
 
@@ -95,10 +97,12 @@ def prior_cost(feel: Feel) -> float:
     """What lean and swing cost before a stroke is heard."""
     ratio = feel.swing.ratio
     swing = 0.0 if ratio == STRAIGHT else NAMED_RATIOS.get(ratio, _OTHER_RATIO_COST)
+    if ratio > TRIPLETS and feel.swing.unit_ticks < PPQ // 2:
+        swing += _HARD_SIXTEENTHS_COST
     return swing + (feel.lean_s / LEAN_SD_S) ** 2 / 2
 
 
-def _settled(take: Take, feel: Feel) -> Feel:
+def settled(take: Take, feel: Feel) -> Feel:
     """The feel with the lean and the spread that its errors have."""
     errors = take.errors_s(feel, take.read(feel))
     lean = mean_error(errors, feel.spread_s)
@@ -108,8 +112,12 @@ def _settled(take: Take, feel: Feel) -> Feel:
 def _spread(errors: Floats) -> float:
     """The standard deviation of errors about 0, of which the furthest count as slips."""
     middle = 1.4826 * float(np.median(np.abs(errors)))
-    clipped = np.clip(errors, -SLIP * middle, SLIP * middle)
-    return min(max(float(np.sqrt(np.mean(clipped**2))), MIN_SPREAD_S), MAX_SPREAD_S)
+    return min(max(float(np.sqrt(np.mean(clipped_errors(errors, middle) ** 2))), MIN_SPREAD_S), MAX_SPREAD_S)
+
+
+def clipped_errors(errors: Floats, spread_s: float) -> Floats:
+    """The errors, slips no further than they begin."""
+    return np.clip(errors, -SLIP * spread_s, SLIP * spread_s)
 
 
 def _refined(take: Take, feel: Feel) -> Feel:
@@ -128,7 +136,7 @@ def _refined(take: Take, feel: Feel) -> Feel:
         found = replace(feel, swing=swing, lean_s=feel.lean_s + lean, spread_s=_spread(errors - lean))
         return float(z @ z) / 2 + prior_cost(found), found
 
-    steps = [round(MIN_RATIO + k * _RATIO_STEP, 1) for k in range(1, round((MAX_RATIO - MIN_RATIO) / _RATIO_STEP) + 1)]
+    steps = [round(x, 1) for x in np.arange(_LEAST_RATIO, MAX_RATIO + _RATIO_STEP / 2, _RATIO_STEP).tolist()]
     return min((at(ratio) for ratio in steps), key=lambda pair: pair[0])[1]
 
 

@@ -6,6 +6,7 @@ what is beyond one player, diddles, and last the page: sections, repeats, level.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from statistics import median
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +14,7 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.difficulty import difficulty
+from station.drills.grid.line_group import MAX_BARS
 from station.drills.grid.lines_from_score import graces_of
 from station.drills.grid.stroke_settings import Velocities
 from station.drills.grid.tab_symbols import BEYOND
@@ -21,12 +23,13 @@ from station.drills.reading.lesson_file import parse_lesson
 from station.drills.transcription.diddle_finder import with_diddles
 from station.drills.transcription.form_finder import found_form
 from station.drills.transcription.grid_times import GridTimes, quantised_times
-from station.drills.transcription.letters import as_letter
+from station.drills.transcription.letters import as_letter, unified
 from station.drills.transcription.loudness_levels import with_dynamics
 from station.drills.transcription.ornament_finder import FoundOrnaments, found_ornaments
 from station.drills.transcription.reach import Reach, within_reach
 from station.drills.transcription.ringing import with_lengths
 from station.drills.transcription.tempo_steps import steady
+from station.drills.writing.lesson_form import LessonForm
 from station.drills.writing.lesson_writer import write_lesson
 from station.music.drum_part import DrumPart, PartSection
 from station.music.grace_strokes import with_graces
@@ -63,15 +66,18 @@ def transcribe(part: DrumPart, name: str, source: str = "") -> Transcribed:
 def _transcribed(part: DrumPart, name: str) -> Transcribed:
     if not len(part.score):
         raise BadInput(name, "", "there is no drum note in it")
+    if part.score.bar_count > MAX_BARS:
+        raise BadInput(name, "", f"{part.score.bar_count} bars; a lesson has at most {MAX_BARS}")
     ornaments = found_ornaments(part.score, graces_of(part.score) if part.score.is_grace.any() else None)
     mains, empty_bars = _from_its_first_bar(part.score, ornaments)
     part = replace(part, sections=_earlier(part.sections, empty_bars))
     times = quantised_times(mains, part.is_played)
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
     strokes, velocities = with_dynamics([as_letter(note) for note in score])
+    strokes = unified(strokes) if times.spread_ms else strokes
     strokes = [_written(note, velocities) for note in strokes]
     reach = within_reach(strokes, ornaments.graces, score.tempo_map, score.end_tick)
-    notes = with_diddles(with_lengths(reach, _ends(score, part), times), score.tempo_map, velocities)
+    notes = with_diddles(with_lengths(reach, _ends(score, part), times), reach.beyond, score.tempo_map, velocities)
     rows = [row for note in notes for row in with_graces(note, ornaments.graces)]
     beyond = [replace(note, velocity=velocities.of(note.piece, note.dynamic)) for note in reach.beyond]
     lesson = Lesson(
@@ -87,8 +93,8 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         velocities=velocities,
         beyond=Score.from_notes(beyond, score.tempo_map, score.end_tick).notes,
     )
-    lesson = replace(lesson, level=1 + sum(difficulty(lesson).total >= least for least in _LEVELS_FROM))
-    read = parse_lesson(write_lesson(lesson, found_form(lesson, part.sections)), name, name).lesson
+    form = found_form(lesson, part.sections)
+    read = parse_lesson(write_lesson(replace(lesson, level=_level(lesson, form)), form), name, name).lesson
     assert read, "what write_lesson gives is a lesson"
     return Transcribed(read, tuple(_remarks(ornaments, times, mains, reach, read)))
 
@@ -107,6 +113,13 @@ def _earlier(sections: Sequence[PartSection], bars: int) -> tuple[PartSection, .
     """The sections so many bars earlier."""
     moved = (PartSection(s.name, max(s.first_bar - bars, 0), s.last_bar - bars) for s in sections)
     return tuple(s for s in moved if s.last_bar >= 0)
+
+
+def _level(lesson: Lesson, form: LessonForm) -> int:
+    """How hard it is, 1–5: as hard as the middle one of its grids, for lessons that ship are as long as a grid."""
+    parts = [replace(lesson, loop=(grid.first_bar, grid.first_bar + grid.bars - 1)) for grid in form.grids]
+    middle = median(difficulty(each).total for each in parts if len(each.loop_score) or len(parts) == 1)
+    return 1 + sum(middle >= least for least in _LEVELS_FROM)
 
 
 def _written(note: Note, velocities: Velocities) -> Note:
@@ -158,7 +171,7 @@ def _shifts_ns(times: GridTimes, mains: Score) -> NDArray[np.int64]:
     """How far each stroke moved; from the end to the start of the music is no way."""
     before = mains.tempo_map.ns_at(mains.notes["tick"][times.origin])
     by = np.abs(before - times.score.tempo_map.ns_at(times.score.notes["tick"]))
-    return np.minimum(by, np.abs(mains.length_ns - by))
+    return np.asarray(np.minimum(by, np.abs(mains.length_ns - by)))
 
 
 def _side(lean_ms: float) -> str:
@@ -166,5 +179,5 @@ def _side(lean_ms: float) -> str:
 
 
 def _counted(count: int, noun: str) -> str:
-    plural = "es" if noun.endswith("z") else "s"
-    return f"{count} {noun}{'' if count == 1 else ('z' if noun.endswith('z') else '') + plural}"
+    """The count and the noun, "1 flam" or "2 buzzes"."""
+    return f"{count} {noun}{'' if count == 1 else 'es' if noun.endswith('z') else 's'}"

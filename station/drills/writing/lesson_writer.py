@@ -121,7 +121,7 @@ def _lines(
     silent = f"{'| - ' * grid.bars}|"
     if not lines and model is None:
         return [f'snare = "{silent}"']
-    write_lines(lines, grid.bars, setting)
+    write_lines(lines, grid.bars, setting, grid.first_bar)
     new = [True] + [any(line.bars[i] != line.bars[i - 1] for line in lines) for i in range(1, grid.bars)]
     written = [f'{line.name} = "{with_repeats(line.bars, new)}"' for line in lines]
     return [*written, *(f'{name} = "{silent}"' for name in rests)]

@@ -18,8 +18,8 @@ MOST_XML_BYTES = 16 << 20
 """Our choice: an orchestra's hour as MusicXML; formats of XML have it as their `most_bytes`."""
 MOST_DEPTH = 64
 """Our choice: MusicXML, Hydrogen and Guitar Pro nest about twelve deep."""
-MOST_NODES = 1_000_000
-"""Elements and attributes, a few hundred bytes each in memory (our choice: 10,000 bars of drums)."""
+MOST_NODES = 400_000
+"""Elements and attributes, a few hundred bytes and a few microseconds each (our choice: 1,000 bars of drums)."""
 
 
 class XmlElement(Element):
@@ -134,4 +134,4 @@ def _parser(begin: Callable[[str, Any], None], refuse: Callable[[str], None]) ->
 
 
 def _local(name: str) -> str:
-    return name.rpartition(":")[2]
+    return name.rpartition(":")[2] if ":" in name else name

@@ -12,7 +12,7 @@ from station.render.notation.bar_lines import BarLine, Volta, draw_slim_line, dr
 from station.render.notation.beams import Anchor
 from station.render.notation.beat_note import draw_beat_note
 from station.render.notation.sheet_words import RAMPS
-from station.render.notation.swing_words import swing_words
+from station.render.notation.swing_words import draw_swing_mark, swing_marks
 from station.render.palette import BRAND, INK_SOFT
 from station.render.snapshot import BarNumbers
 from station.render.text.draw_list import DrawList, TypeStyle
@@ -41,7 +41,7 @@ class BarSigns:
         self._score, self._numbers, self._beat_ticks = score, numbers, beat_ticks
         self._tempo_words = tempo_words(score.tempo_map)
         self._new_meters = {meter.tick for meter in score.tempo_map.meters if meter.tick > 0}
-        self._swing_words = swing_words(score)
+        self._swing = swing_marks(score)
         self._voltas = _voltas(score, numbers)
 
     def draw_line(self, draw_list: DrawList, bar: int) -> None:
@@ -84,8 +84,10 @@ class BarSigns:
         if (volta := self._voltas.get(bar)) is not None:
             x += _WORD_GAP / 2 + self._draw_volta(anchor, (start, end), (x, y), volta)
             anchor.at(start)
-        for word in filter(None, (self._meter_word(start), self._swing_words.get(bar, ""))):
+        if word := self._meter_word(start):
             x += _WORD_GAP + draw_list.text(word, (x, y), _WORD)
+        if (mark := self._swing.get(bar)) is not None:
+            x += _WORD_GAP + draw_swing_mark(draw_list, (x, y), _WORD.size, mark, BRAND)
         for change in self._tempo_words:
             if start <= change.tick < end:
                 self._draw_tempo(anchor, change, (x if change.tick == start else -0.6, y))

@@ -16,7 +16,7 @@ from types import MappingProxyType
 
 from station.core.units import PPQ
 from station.music.tempo import MeterChange
-from station.render.notation.divisions import COMPOUND, tuplets_over
+from station.render.notation.beat_divisions import COMPOUND, tuplets_over
 from station.render.notation.note_values import BeatGroup, Stroke, TimedValue, Value
 from station.render.notation.rhythm import spell, spell_by
 

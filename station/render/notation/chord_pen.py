@@ -83,7 +83,7 @@ class ChordPen:
             self._dots(chord, heads, stroke.value.dots)
         if not chord.is_tied:
             self._stack(chord, voice, self._stack_from(chord, stroke.value, voice, beam_y))
-            self._letters(chord, voice)
+            self._letters(chord, voice, is_double=stroke.slashes > 0)
 
     def reach(self, chord: Chord, value: Value, voice: StaffVoice, beam_y: float) -> float:
         """How far up (hands) or down (feet) the chord's stem and what is stacked on it reach."""
@@ -174,11 +174,13 @@ class ChordPen:
             self._draw_list.sign(name, (0.0, y + voice.way * (STACK_GAP + tall / 2)), INK)
             y += voice.way * (STACK_GAP + tall)
 
-    def _letters(self, chord: Chord, voice: StaffVoice) -> None:
+    def _letters(self, chord: Chord, voice: StaffVoice, is_double: bool) -> None:
+        """The sticking; a diddle's hand twice, as both strokes are its own."""
         rows = [*chord.graces, *chord.mains]
         y = self._rows.hands if voice.is_up else self._rows.feet
         for k, text in enumerate(sticking(self._notes[rows], self._limbs[rows], voice.is_up)):
-            draw_letters(self._draw_list, text, (0.0, y + voice.way * LETTER_LINE * k))
+            at = 0.0, y + voice.way * LETTER_LINE * k
+            draw_letters(self._draw_list, text + text[-1] * is_double, at)
 
     # --- grace notes --------------------------------------------------------------------------------------------------
 

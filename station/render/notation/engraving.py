@@ -19,10 +19,9 @@ from station.render.notation.chord_pen import Chord, ChordPen
 from station.render.notation.loudness_row import draw_loudness
 from station.render.notation.note_values import Value
 from station.render.notation.rests import draw_rest
-from station.render.notation.staff import FOOT_PIECES
 from station.render.notation.staff_rows import closing_hats, shown_limbs, staff_rows
 from station.render.notation.voice_pen import BarSpan, VoicePen
-from station.render.notation.written_strokes import written_strokes
+from station.render.notation.written_strokes import feet_of, written_strokes
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import DrawList
@@ -54,8 +53,7 @@ class Engraver:
         self._limbs = shown_limbs(score, score.notes["limb"] if limbs is None else limbs)
         self.rows_y = staff_rows(score, self._limbs)
         self._closing = closing_hats(score)
-        feet = [int(p) for p in FOOT_PIECES]
-        self.strokes = written_strokes(score, np.isin(score.notes["piece"], feet))
+        self.strokes = written_strokes(score, feet_of(score))
         self._order = np.argsort(self.strokes.tick, kind="stable")
 
     def bar(self, bar: int, with_line: bool = True, opens_line: bool = False) -> NDArray[np.void]:
@@ -103,8 +101,9 @@ class Engraver:
         """What of a bar's strokes is engraved as it is for where and beside what they stand."""
         start = self.score.tempo_map.bar_start(bar)
         rows = self.rows(start, self.score.tempo_map.bar_start(bar + 1))
-        notes = self.score.notes[rows]
         strokes = self.strokes
+        rows += [i for is_foot in (False, True) for i in strokes.held_into(start, is_foot)]
+        notes = self.score.notes[rows]
         parts = [
             strokes.tick[rows] - start,
             strokes.until[rows] - start,

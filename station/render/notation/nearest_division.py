@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 from station.core.units import PPQ
-from station.render.notation.divisions import COMPOUND, Division, divisions, nearest_slot, slot_ticks
+from station.render.notation.beat_divisions import COMPOUND, Division, divisions, nearest_slot, slot_ticks
 
 STRAY = 0.04
 """Standard deviation of a played stroke in parts of a quarter: 20 ms at 120 bpm (HUMANS: amateurs 10 to 20 ms)."""
@@ -26,14 +26,17 @@ _PLAIN_SLOTS, _TUPLET_SLOTS = 8, 6
 _USUAL_NUMBERS = (0, 2, 3, 6)
 
 
-@lru_cache
+@lru_cache(maxsize=1 << 10)
 def guesses(length: int) -> tuple[Division, ...]:
     """The divisions that a beat `length` ticks long may have been meant in, the simplest first."""
     finest = _PLAIN_SLOTS * 3 // 2 if length == COMPOUND else _PLAIN_SLOTS
     found = tuple(
         d
         for d in divisions(length)
-        if all(p.number in _USUAL_NUMBERS and p.slots * len(d) <= (_TUPLET_SLOTS if p.number else finest) for p in d)
+        if all(
+            p.number in _USUAL_NUMBERS and p.slots * len(d.parts) <= (_TUPLET_SLOTS if p.number else finest)
+            for p in d.parts
+        )
     )
     return found or divisions(length)[:1]
 
@@ -57,17 +60,18 @@ def code_lengths(onsets: Sequence[int], length: int, stray: float = STRAY) -> di
 
 def _code_length(division: Division, onsets: Sequence[int], leaders: Sequence[int], length: int, sigma: float) -> float:
     places = slot_ticks(division, length)
-    strays = sum(((tick - places[nearest_slot(division, length, tick)]) / sigma) ** 2 for tick in onsets) / 2
-    slots = {nearest_slot(division, length, tick) for tick in leaders}
+    slot_of = {tick: nearest_slot(division, length, tick) for tick in onsets}
+    strays = sum((tick - places[slot]) ** 2 for tick, slot in slot_of.items()) / sigma**2 / 2
+    slots = {slot_of[tick] for tick in leaders}
     lonely = sum(slot - 1 not in slots and slot + 1 not in slots for slot in slots & _between_sixteenths(division))
     return strays + len(leaders) * math.log(len(places)) + _LOST * (len(leaders) - len(slots)) + _LONELY * lonely
 
 
-@lru_cache
+@lru_cache(maxsize=1 << 14)
 def _between_sixteenths(division: Division) -> frozenset[int]:
     """The slots that only thirty-seconds reach."""
     found, first = set[int](), 0
-    for part in division:
+    for part in division.parts:
         if part.base > _SIXTEENTH and not part.number:
             found |= set(range(first + 1, first + part.slots, 2))
         first += part.slots

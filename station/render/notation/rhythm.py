@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import lru_cache
 
 from station.core.units import PPQ
-from station.render.notation.divisions import COMPOUND, Division, Part, divisions, nearest_slot, slot_ticks
+from station.render.notation.beat_divisions import COMPOUND, Division, Part, divisions, nearest_slot, slot_ticks
 from station.render.notation.nearest_division import nearest_division
 from station.render.notation.note_values import BeatGroup, Stroke, TimedValue, Tuplet, Value
 
@@ -63,8 +63,9 @@ def _spelled(strokes: tuple[Stroke, ...], length: int) -> BeatGroup:
 
 def _refines(division: Division, other: Division) -> bool:
     """Whether one only divides the steps of the other again."""
-    is_whole = len(division) == len(other) == 1
-    return is_whole and bool(division[0].number) == bool(other[0].number) and division[0].slots % other[0].slots == 0
+    if len(division.parts) + len(other.parts) > 2 or bool(division.tuplet) != bool(other.tuplet):
+        return False
+    return division.parts[0].slots % other.parts[0].slots == 0
 
 
 # --- places -----------------------------------------------------------------------------------------------------------
@@ -105,7 +106,7 @@ class _Writing:
     def __init__(self, strokes: Sequence[Stroke], length: int, division: Division, slots: Sequence[int]) -> None:
         self._strokes, self._length, self._division = strokes, length, division
         self._struck: dict[int, int] = {}
-        total = sum(part.slots for part in division)
+        total = sum(part.slots for part in division.parts)
         for index, slot in enumerate(slots):
             self._struck.setdefault(min(slot, total - 1), index)
         self._held_to = {
@@ -119,7 +120,7 @@ class _Writing:
     def group(self) -> BeatGroup:
         tuplets: list[Tuplet] = []
         first = 0
-        for part in self._division:
+        for part in self._division.parts:
             known = len(self._notes), len(self._rests)
             self._part(part, first)
             if part.number:

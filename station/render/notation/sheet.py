@@ -3,7 +3,7 @@
 Lengths are points (1/72 inch) where no other unit is named, y down; the staff's are staff spaces, as in `engraving`.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,6 +18,7 @@ from station.render.notation.sheet_bars import sheet_bars
 from station.render.notation.sheet_key import draw_key
 from station.render.notation.sheet_line import LineInk, LineSetter
 from station.render.notation.sheet_words import LineWord, TempoSign
+from station.render.notation.swing_words import SwingMark, swing_marks
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -44,9 +45,8 @@ _BETWEEN, _MOST_BETWEEN = 2.2, 5.0
 class SheetWords:
     """What stands on a sheet beside its notes.
 
-    `beats_a_minute` of beats `beat_ticks` long; `sections` the names of parts and `feels` such as "swing 2 : 1" by the
-    bar (from 0) where they begin; `repeat` the first and last bar (from 0) of what is to be repeated; `first_bar` what
-    the first bar is called.
+    `beats_a_minute` of beats `beat_ticks` long; `sections` the names of parts by the bar (from 0) where they begin;
+    `repeat` the first and last bar (from 0) of what is to be repeated; `first_bar` what the first bar is called.
     """
 
     title: str
@@ -55,15 +55,8 @@ class SheetWords:
     beat_ticks: int = PPQ
     about: str = ""
     sections: tuple[tuple[int, str], ...] = ()
-    feels: tuple[tuple[int, str], ...] = ()
     repeat: tuple[int, int] | None = None
     first_bar: int = 1
-
-    @property
-    def names(self) -> dict[int, str]:
-        """What begins with each bar where something does: sections and feels."""
-        sections, feels = dict(self.sections), dict(self.feels)
-        return {bar: f"{sections.get(bar, '')} {feels.get(bar, '')}" for bar in sorted({*sections, *feels})}
 
 
 @dataclass(slots=True)
@@ -76,9 +69,9 @@ class _Page:
 
 
 def sheet(score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool = True) -> list[Ink]:
-    """The pages of `score`, as notation writes it (`Score.as_written`), each of `size` (width, height) points."""
+    """The pages of `score`, each of `size` (width, height) points; it swings under marks, straight as it is written."""
     limbs = score.notes["limb"] if with_sticking else np.full_like(score.notes["limb"], Limb.UNKNOWN)
-    pages = _SheetPages(score.with_limbs(limbs).as_written, words, size, with_sticking)
+    pages = _SheetPages(score.with_limbs(limbs), words, size, with_sticking)
     for space in SPACES[:-1]:
         if pages.may_be_one(space) and len(found := pages.pages(space)) == 1:
             return found
@@ -89,12 +82,12 @@ class _SheetPages:
     """The work of one sheet; `space` is a staff space in points throughout."""
 
     def __init__(self, score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool) -> None:
+        swing, score = swing_marks(score), score.as_written
         self._score, self._words, self._size, self._with_sticking = score, words, size, with_sticking
         self._atlas = OutlineAtlas()
-        bars = sheet_bars(score, words.names, words.repeat, words.first_bar)
-        self._setter = LineSetter(
-            Engraver(score, self._atlas, as_written=True), bars, _line_words(score, words), self._atlas
-        )
+        bars = sheet_bars(score, _starts(words, swing), words.repeat, words.first_bar)
+        above = _line_words(score, words, swing)
+        self._setter = LineSetter(Engraver(score, self._atlas, as_written=True), bars, above, self._atlas)
         self._bars = self._setter.set_bars()
 
     @property
@@ -189,24 +182,37 @@ class _SheetPages:
             draw_list.text(line, (0.0, _HEAD_HEIGHT + 4.0 + 13.0 * k), TypeStyle(_SMALL, INK_SOFT))
 
 
-def _line_words(score: Score, words: SheetWords) -> dict[int, list[tuple[float, LineWord]]]:
+def _starts(words: SheetWords, swing: Mapping[int, SwingMark]) -> dict[int, str]:
+    """The bars where something new begins, with what tells it apart: a section's name and how it swings."""
+    names, starts, holds = dict(words.sections), dict[int, str](), swing.get(0)
+    for bar in sorted(names.keys() | swing.keys() - {0}):
+        holds = swing.get(bar, holds)
+        starts[bar] = f"{names.get(bar, '')} {holds}"
+    return starts
+
+
+def _line_words(
+    score: Score, words: SheetWords, swing: Mapping[int, SwingMark]
+) -> dict[int, list[tuple[float, LineWord]]]:
     """What stands above the bars, by bar: how many seconds after its start, and the words."""
     found: dict[int, list[tuple[float, LineWord]]] = {}
-    for bar, at_s, word in _words_in_order(score, words):
+    for bar, at_s, word in _words_in_order(score, words, swing):
         before = found.setdefault(bar, [])
         is_beside = bool(before) and before[-1][0] == at_s
         before.append((at_s, _joined(before.pop()[1], word) if is_beside else word))
     return found
 
 
-def _words_in_order(score: Score, words: SheetWords) -> Iterator[tuple[int, float, LineWord]]:
+def _words_in_order(
+    score: Score, words: SheetWords, swing: Mapping[int, SwingMark]
+) -> Iterator[tuple[int, float, LineWord]]:
     """Bar, seconds from its start, and word, by time."""
     tempo, found = score.tempo_map, list[tuple[int, float, LineWord]]()
     first = None if words.beats_a_minute is None else TempoSign(words.beats_a_minute, words.beat_ticks)
     if first:
         found.append((0, 0.0, LineWord(0.0, tempo=first)))
     found += [(bar, 0.0, LineWord(0.0, section=name)) for bar, name in words.sections]
-    found += [(bar, 0.0, LineWord(0.0, feel=feel)) for bar, feel in words.feels]
+    found += [(bar, 0.0, LineWord(0.0, swing=mark)) for bar, mark in swing.items()]
     for change in tempo_words(tempo):
         if change.tick < score.end_tick:
             bar = int(tempo.bars_at(change.tick))
@@ -218,4 +224,4 @@ def _words_in_order(score: Score, words: SheetWords) -> Iterator[tuple[int, floa
 
 def _joined(one: LineWord, other: LineWord) -> LineWord:
     """Two words for one place as one."""
-    return LineWord(one.x, one.section or other.section, other.tempo or one.tempo, other.feel or one.feel)
+    return LineWord(one.x, one.section or other.section, other.tempo or one.tempo, other.swing or one.swing)

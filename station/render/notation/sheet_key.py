@@ -13,9 +13,9 @@ from station.music.loudness_marks import FADE, GROW
 from station.music.score import Score
 from station.render.notation.head_places import EDGE_X, HEAD_SIGNS
 from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_letters
-from station.render.notation.staff import FOOT_PIECES, NoteHead, head_of, height, ledger_steps, step_of
+from station.render.notation.staff import NoteHead, head_of, height, ledger_steps, step_of
 from station.render.notation.staff_rows import OPEN_FROM, WIDE_FROM, shown_limbs
-from station.render.notation.written_strokes import written_strokes
+from station.render.notation.written_strokes import feet_of, written_strokes
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -109,7 +109,7 @@ def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
         yield partial(_graces, count=1), "flam"
     if (graced == Ornament.DRAG).any():
         yield partial(_graces, count=2), "drag"
-    if written_strokes(score, np.isin(notes["piece"], [int(piece) for piece in FOOT_PIECES])).is_hidden.any():
+    if written_strokes(score, feet_of(score)).is_hidden.any():
         yield _diddle, "two strokes, one hand"
     if (notes["articulation"] == Articulation.BUZZ).any():
         yield partial(_sign, name="buzz"), "buzz roll"

@@ -27,6 +27,8 @@ Floats = NDArray[np.float64]
 _CLEF_X, _AFTER_CLEF = 0.8, 0.5
 _CLEF_END = _CLEF_X + note_shapes.CLEF_WIDTH
 _BEFORE_DUE = 0.6
+_OVER_LINE_S = 1e-4
+"""What begins so long before its bar, or longer, comes over the bar line and begins there."""
 _SIGNATURE_X = _CLEF_END + note_shapes.SIGNATURE_GAP
 
 
@@ -135,8 +137,8 @@ class LineSetter:
         bar = self._bars[box.index]
         tempo = self._score.tempo_map
         ends = tempo.seconds_at([tempo.bar_start(bar.bar), tempo.bar_start(bar.bar + 1)])
-        times_s = np.append(self._columns_of(bar).times_s, ends[1] - ends[0])
-        return Ruler(times_s, lead + np.append(box.places, box.right))
+        times_s = [-_OVER_LINE_S, *self._columns_of(bar).times_s, ends[1] - ends[0]]
+        return Ruler(np.array(times_s), lead + np.array([box.left, *box.places, box.right]))
 
     def _signatures(self, staff: DrawList, boxes: Sequence[BarBox], lead: float) -> None:
         for box in boxes:

@@ -1,7 +1,7 @@
-"""Words above a line of a sheet: bar numbers, brackets of endings, how often, sections, tempo and feel.
+"""Words above a line of a sheet: bar numbers, brackets of endings, how often, sections, tempo and swing.
 
 Units are staff spaces, y down. Nearest to the staff stand the numbers, each as low as what is below lets it; brackets
-of endings stand over them, and above all one row of sections, tempi and feels, in two where they would meet.
+of endings stand over them, and above all one row of sections, tempi and swing, in two where they would meet.
 """
 
 from collections.abc import Sequence
@@ -11,6 +11,7 @@ from station.core.units import PPQ
 from station.render.notation.bar_lines import Volta, draw_volta
 from station.render.notation.beat_note import draw_beat_note
 from station.render.notation.skyline import Skyline
+from station.render.notation.swing_words import SwingMark, draw_swing_mark
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -42,12 +43,12 @@ class TempoSign:
 
 @dataclass(frozen=True, slots=True)
 class LineWord:
-    """What stands above the line from `x` on, in this order: a section's name, a tempo, a feel; empty what is not."""
+    """What stands above the line from `x` on, in this order: a section's name, a tempo, a swing; empty what is not."""
 
     x: float
     section: str = ""
     tempo: TempoSign | None = None
-    feel: str = ""
+    swing: SwingMark | None = None
 
 
 def draw_number(draw_list: DrawList, skyline: Skyline, x: float, number: str) -> None:
@@ -104,8 +105,8 @@ def _drawn(draw_list: DrawList, word: LineWord, y: float) -> float:
         x += _framed(draw_list, word.section, (x, y)) + _BESIDE
     if word.tempo is not None:
         x = _tempo(draw_list, word.tempo, (x, y)) + _BESIDE
-    if word.feel:
-        x += draw_list.text(word.feel, (x, y), _FEEL) + _BESIDE
+    if word.swing is not None:
+        x += draw_swing_mark(draw_list, (x, y), _FEEL.size, word.swing, INK) + _BESIDE
     return x - _BESIDE - word.x
 
 

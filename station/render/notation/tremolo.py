@@ -20,11 +20,9 @@ from station.render.notation.written_rhythm import beats_of
 from station.render.palette import INK
 from station.render.text.sign_outlines import BEAM_STEP
 
-_HALF_WIDTH, _RISE, _THICK = 0.6, 0.25, 0.4
-"""A slash in staff spaces: as tremolo1 of SMuFL's Bravura, to a tenth."""
-_STEP = 0.8
 _HEAD_ROOM, _FLAG_ROOM, _OVER_WHOLE = 1.0, 2.0, 1.6
-"""What stays free beside a head, what a flag takes of a stem, and how far from a whole note slashes stand."""
+"""What stays free beside a head, what a flag takes of a stem, and how far from a whole note slashes stand, in staff
+spaces (our choice)."""
 
 
 def measured_cells(
@@ -62,6 +60,4 @@ def draw_slashes(
     x, middle = voice.stem_x, (near + far) / 2
     if value.value.base == 1:
         x, middle = 0.0, head + voice.way * _OVER_WHOLE
-    for k in range(value.slashes):
-        y = middle + _STEP * (k - (value.slashes - 1) / 2)
-        anchor.draw_list.line((x - _HALF_WIDTH, y + _RISE), (x + _HALF_WIDTH, y - _RISE), _THICK, INK)
+    anchor.draw_list.sign(f"tremolo_{value.slashes}", (x, middle), INK)

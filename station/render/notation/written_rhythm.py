@@ -6,7 +6,7 @@ one, hands and feet together, which may be the next beat's or the next bar's sta
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from station.core.units import PPQ
 from station.music.score import Score
 from station.render.notation.bar_spelling import beat_groups
-from station.render.notation.divisions import Division, divisions, nearest_slot, slot_ticks
+from station.render.notation.beat_divisions import Division, divisions, nearest_slot, slot_ticks
 from station.render.notation.nearest_division import code_lengths, guesses
 
 _ROUNDED = PPQ // 192
@@ -86,7 +86,7 @@ def _within(ticks: NDArray[np.int64], start: int, end: int) -> tuple[int, ...]:
 
 
 @lru_cache(maxsize=1 << 14)
-def _exact_places(offsets: tuple[int, ...], length: int) -> Mapping[int, int] | None:
+def _exact_places(offsets: tuple[int, ...], length: int) -> dict[int, int] | None:
     """Where a voice's strokes stand that are on a division, roughly on a simple one or well on any; None without."""
     for tried, most in ((guesses(length), _ROUNDED), (divisions(length), _EXACT)):
         for division in tried:
@@ -97,10 +97,13 @@ def _exact_places(offsets: tuple[int, ...], length: int) -> Mapping[int, int] | 
 
 
 def _fits(division: Division, offsets: Sequence[int], length: int, most: int) -> bool:
-    places = slot_ticks(division, length)
-    slots = [nearest_slot(division, length, tick) for tick in offsets]
-    is_near = all(abs(places[slot] - tick) <= most for slot, tick in zip(slots, offsets, strict=True))
-    return is_near and len(set(slots)) == len(slots) and places[-1] not in (places[slot] for slot in slots)
+    places, slots = slot_ticks(division, length), set[int]()
+    for tick in offsets:
+        slot = nearest_slot(division, length, tick)
+        if abs(places[slot] - tick) > most or slot in slots or slot == len(places) - 1:
+            return False
+        slots.add(slot)
+    return True
 
 
 def _moved(score: Score, beats: list[_Beat]) -> dict[int, int]:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from station.music.score import Score
 from station.render.notation.held_rolls import held_until
+from station.render.notation.staff import FOOT_PIECES
 from station.render.notation.tremolo import measured_cells
 from station.render.notation.written_rhythm import written_ticks
 
@@ -30,6 +31,11 @@ class WrittenStrokes:
         """The rolls of one voice that were struck before `tick` and are still held there."""
         held = (self.tick < tick) & (self.until > tick) & (self.is_foot == is_foot)
         return tuple(np.flatnonzero(held).tolist())
+
+
+def feet_of(score: Score) -> NDArray[np.bool_]:
+    """Which strokes are of the feet's voice, shape (n,)."""
+    return np.isin(score.notes["piece"], [int(piece) for piece in FOOT_PIECES])
 
 
 def written_strokes(score: Score, is_foot: NDArray[np.bool_]) -> WrittenStrokes:

@@ -85,6 +85,13 @@ def test_seven_eight_in_two_bars() -> None:
     assert str(part.score.tempo_map.meters[0]) == "7/8"
 
 
+def test_a_track_that_ends_before_its_first_note_is_refused() -> None:
+    cut = STRAIGHT[:18] + (10).to_bytes(4) + STRAIGHT[22:]  # the tempo and the instrument alone
+    assert is_groove_midi(cut)
+    with pytest.raises(BadInput, match=r"groove\.mid"):
+        read_groove_midi(cut, "groove.mid")
+
+
 def test_bars_without_end_are_refused() -> None:
     with pytest.raises(BadInput, match=r"groove\.mid"):
         read_groove_midi(groove_file((1, 35, 85), bar_ends=[200_000 >> 4]), "groove.mid")

@@ -193,10 +193,12 @@ def test_triplet_feel_swings_the_offbeats_and_names_it() -> None:
 def test_swing_of_one_bar_only_is_said() -> None:
     song = _song(2)
     song.measureHeaders[1].tripletFeel = gp.TripletFeel.eighth
-    _beat(song, 0, 36)
-    _beat(song, 1, 36)
+    for bar in range(2):
+        _beat(song, bar, 36, value=8)
+        _beat(song, bar, 38, value=8)
     part = _read(song)
     assert part.swing == Swing()
+    assert [(n.tick, n.swing_ticks) for n in part.score][1::2] == [(PPQ // 2, 0), (4 * PPQ + 2 * PPQ // 3, 0)]
     assert any("from bar 2" in line for line in part.lost)
 
 

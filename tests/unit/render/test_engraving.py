@@ -15,7 +15,7 @@ from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.notation.engraving import Engraver
 from station.render.notation.staff import PLACES, NoteHead, head_of, height, ledger_steps
 from station.render.notation.staff_rows import staff_rows
-from station.render.notation.swing_words import swing_words
+from station.render.notation.swing_words import swing_marks
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import ShapeKind
@@ -293,21 +293,40 @@ def swung(*quarters: float, ratio: float = 1.6) -> list[Note]:
 def test_swung_eighths_are_written_straight_and_stand_where_they_sound() -> None:
     shapes = bar_of(*swung(0, 0.5, 1, 1.5, 2, 3))
     heads = of_sign(shapes, "head_round")
+    heads = heads[heads["centre"][:, 1] > -2.0]  # those of the mark stand above
     late_s = 0.5 * 1.6 / 2.6
     assert sorted(heads["time_s"][:, 0].tolist()) == pytest.approx([0, late_s, 0.5, 0.5 + late_s, 1, 1.5], abs=1e-4)
     assert beams(shapes) == pytest.approx([0.5 + late_s], abs=1e-4), "one beam from the first beat to the late half"
-    for figure in "023456789":
-        assert letters(shapes, figure) == signs(shapes, f"tuplet_{figure}") == 0, "no tuplet"
+    assert sum(signs(shapes, f"tuplet_{figure}") for figure in range(10)) == 0, "no tuplet"
 
 
 def test_swing_is_said_where_it_begins_and_where_it_ends() -> None:
     straight = [Note(round(q * PPQ), Piece.SNARE) for q in (0, 0.5, 2)]
     bars = [straight, swung(0, 0.5), swung(1, 1.5), swung(0, 2), straight, straight]
     notes = [replace(note, tick=note.tick + bar * BAR) for bar, some in enumerate(bars) for note in some]
-    assert swing_words(score_of(*notes)) == {1: "swing", 4: "straight"}, "the bar of plain beats says nothing"
-    assert swing_words(score_of(*straight)) == {}
+    found = swing_marks(score_of(*notes))
+    assert {bar: round(mark.ratio, 2) for bar, mark in found.items()} == {1: 1.6, 4: 1.0}, "a plain bar says nothing"
+    assert swing_marks(score_of(*straight)) == {}
     said = Engraver(score_of(*notes), ATLAS)
     assert [letters(said.bar(bar), "w") for bar in range(6)] == [0, 1, 0, 0, 0, 0]
+
+
+def test_a_swing_that_nothing_straight_comes_before_is_said_at_the_start() -> None:
+    bars = [swung(0, 1), swung(0, 0.5, ratio=2.0), swung(0, 0.5, ratio=3.0)]
+    notes = [replace(note, tick=note.tick + bar * BAR) for bar, some in enumerate(bars) for note in some]
+    found = swing_marks(score_of(*notes))
+    assert {bar: (round(mark.ratio, 2), mark.unit_ticks) for bar, mark in found.items()} == {
+        0: (2.0, PPQ // 2),
+        2: (3.0, PPQ // 2),
+    }
+
+
+def test_swung_sixteenths_are_known_by_the_half_beat_that_is_not_late() -> None:
+    late = round(PPQ / 2 * 1.4 / 2.4) - PPQ // 4
+    places = [(0, 0), (PPQ // 4, late), (PPQ // 2, 0), (3 * PPQ // 4, late)]
+    score = score_of(*(Note(tick + off, Piece.SNARE, swing_ticks=off) for tick, off in places))
+    (mark,) = swing_marks(score).values()
+    assert (mark.ratio, mark.unit_ticks) == (pytest.approx(1.4, abs=0.01), PPQ // 4)
 
 
 # --- loudness ---------------------------------------------------------------------------------------------------------
@@ -332,7 +351,7 @@ def test_a_hairpin_opens_evenly_over_its_bars() -> None:
     engraver = Engraver(swell((0, "p"), (2, "<"), (6, "f")), ATLAS)
     first, second = (hairpin_openings(engraver.bar(bar)) for bar in (0, 1))
     assert first[0][0] == pytest.approx(1.0), "it begins on beat 3"
-    assert second[0][0] == pytest.approx(2.0)
+    assert second[0][0] == pytest.approx(2.0, abs=0.01), "at the bar line, or what no eye tells from it"
     assert first[0][1] < 0.05, "closed at first"
     assert first[-1][1] == pytest.approx(0.6, abs=0.05), "half way at the bar line: 1.2 spaces at the end"
     assert second[0][1] == pytest.approx(first[-1][1], abs=0.05)

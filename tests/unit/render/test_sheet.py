@@ -13,6 +13,7 @@ from station.core.pieces import Piece
 from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.drills.reading.lesson_file import parse_lesson
+from station.music.loudness_marks import LoudnessMark
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.files.pdf_file import pdf
@@ -22,7 +23,8 @@ from station.render.palette import INK, INK_FAINT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 from station.render.text.paper import Filled, Ink, OutlineAtlas, PaperSpot, filled
-from station.scenes.sheets import lesson_labels, pdf_of
+from station.render.text.sign_outlines import HAIRPIN_LINE
+from station.scenes.sheets import lesson_labels
 
 A4 = PAPERS["a4"]
 WORDS = SheetWords("Title", "Author", 80.0)
@@ -192,34 +194,70 @@ def test_a_new_meter_stands_before_its_notes_and_at_the_end_of_a_line_before_it(
         ]
         tempo_map = TempoMap.build([], [MeterChange(0, 4, 4), MeterChange(start, 9, 8)])
         pages = sheet(Score.from_notes([*first, *late], tempo_map), SheetWords("T", sections=((len(counts), "B"),)), A4)
-        return sum(meter_figures(page, "9") for page in pages)
+        return sum(figures(page, "meter_9") for page in pages)
 
     assert nines(9) == 1, "within the only line"
     assert nines(13, 14, 15, 16) == 2, "a courtesy at the end of the second line"
 
 
-def meter_figures(page: Ink, figure: str) -> int:
-    """How often a figure of time signatures is on the page."""
+def figures(page: Ink, name: str) -> int:
+    """How often a sign of the music font is on the page."""
+    return len(sign_places(page, name))
+
+
+def sign_places(page: Ink, name: str) -> list[tuple[float, float]]:
+    """How large a sign of the music font is on the page, in points, and how far right, wherever it stands."""
     atlas = OutlineAtlas()
-    shape = np.concatenate(atlas.outlines[round(atlas.sign(f"meter_{figure}").uv[0])])
+    shape = np.concatenate(atlas.outlines[round(atlas.sign(name).uv[0])])
     forms = [k for k, contours in enumerate(page.outlines) if contours and len(np.concatenate(contours)) == len(shape)]
     same = [k for k in forms if np.allclose(np.concatenate(page.outlines[k]), shape)]
-    return int(np.isin(page.numbers, same).sum())
+    return sorted((m[0], m[4]) for m in page.matrices[np.isin(page.numbers, same)].tolist())
 
 
-def test_swing_is_printed_straight() -> None:
-    late = round(PPQ * 0.6)
-    straight, swung = (
-        Score.from_notes([Note(0, Piece.SNARE), Note(tick, Piece.SNARE, swing_ticks=more)], TempoMap.constant(120))
-        for tick, more in ((PPQ // 2, 0), (late, late - PPQ // 2))
+def test_a_hairpin_goes_on_over_a_bar_line_and_a_new_meter() -> None:
+    strokes = [Note(k * PPQ, Piece.SNARE) for k in range(8)]
+    tempo_map = TempoMap.build([], [MeterChange(0, 4, 4), MeterChange(4 * PPQ, 9, 8)])
+    score = replace(Score.from_notes(strokes, tempo_map), loudness=(LoudnessMark(PPQ, "<"), LoudnessMark(7 * PPQ, "f")))
+    (page,) = sheet(score, SheetWords("T"), A4)
+    space = max(SPACES)
+    lines = [
+        shape.contours[0] for shape in page if np.ptp(shape.contours[0][:, 1]) == pytest.approx(space * HAIRPIN_LINE)
+    ]
+    spans = sorted((float(line[:, 0].min()), float(line[:, 0].max())) for line in lines)
+    assert len(spans) > 32, "its level steps, two at a time"
+    reached = spans[0][1]
+    for left, right in spans:
+        assert left <= reached + 0.01
+        reached = max(reached, right)
+
+
+def swung_at(ratio: float) -> Score:
+    late = round(PPQ * ratio / (ratio + 1))
+    return Score.from_notes(
+        [Note(0, Piece.SNARE), Note(late, Piece.SNARE, swing_ticks=late - PPQ // 2)], TempoMap.constant(120)
     )
-    bars, words = (0, 0), SheetWords(title="T")
-    assert pdf_of(swung, bars, words, "a4") == pdf_of(straight, bars, words, "a4")
 
 
-def test_a_section_called_after_its_feel_says_it_once() -> None:
-    text = 'title = "T"\n[[grid]]\nname = "a"\nsnare = "oo -- -- --"\n[[grid]]\nname = "swing"\nswing_ratio = 1.5\n'
+@pytest.mark.parametrize(("ratio", "heads"), [(1.5, 2), (2.0, 4), (3.0, 2)])
+def test_swing_is_printed_straight_under_its_mark(ratio: float, heads: int) -> None:
+    """The heads of the staff and of its key stand where straight ones do; those of the mark are smaller."""
+    straight, swung = (
+        sign_places(sheet(score, SheetWords(title="T"), A4)[0], "head_round")
+        for score in (swung_at(1), swung_at(ratio))
+    )
+    assert swung[heads:] == pytest.approx(straight)
+    assert all(size < 0.75 * straight[0][0] for size, _ in swung[:heads])
+
+
+def test_a_swing_of_two_is_a_triplet_in_its_mark() -> None:
+    def notes(ratio: float) -> int:
+        return figures(sheet(swung_at(ratio), SheetWords(title="T"), A4)[0], "flag_8")
+
+    assert (notes(2.0), notes(1.5)) == (1, 0), "the flag of its short note"
+
+
+def test_a_section_is_called_by_its_name_alone() -> None:
+    text = 'title = "T"\n[[grid]]\nname = "a"\nsnare = "oo -- -- --"\n[[grid]]\nswing_ratio = 1.5\n'
     lesson = parse_lesson(f'{text}snare = "oo -- -- --"', "t", "t").lesson
     assert lesson
-    words = lesson_labels(lesson, (0, 1))
-    assert (words.sections, words.feels) == (((0, "a"),), ((1, "swing 1.5 : 1"),))
+    assert lesson_labels(lesson, (0, 1)).sections == ((0, "a"),)

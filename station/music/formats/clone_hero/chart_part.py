@@ -163,10 +163,9 @@ def _with_motions(chart: DrumChart, strokes: Sequence[Note]) -> list[Note]:
         last = bisect_right(motions, stroke.tick + slack, key=lambda timed: timed[0])
         near = [(i, *motions[i]) for i in range(first, min(last, first + _MOST_MOTIONS)) if i not in used]
         chosen = _best(near, stroke)
-        if chosen is not None:
-            used.add(chosen)
-            stroke = _moved(stroke, motions[chosen][1])
-        found.setdefault((stroke.tick, stroke.piece), stroke)
+        used |= set() if chosen is None else {chosen}
+        played = stroke if chosen is None else _moved(stroke, motions[chosen][1])
+        found.setdefault((played.tick, played.piece), played)
     return _opened(chart, found.values())
 
 

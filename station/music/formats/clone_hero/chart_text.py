@@ -23,21 +23,22 @@ from station.music.formats.clone_hero.drum_chart import (
 )
 from station.music.formats.clone_hero.mix_events import flips_of
 
-MOST_CHART_BYTES = 16 << 20
-"""Our choice: a long song with all instruments in all difficulties has half a megabyte."""
+MOST_CHART_BYTES = 8 << 20
+_MOST_LINES = 300_000
+"""Our choice: YARG's check of all instruments in all difficulties has half a megabyte and 37,000 lines."""
 _MOST_DIGITS = 12
 _DEFAULT_RESOLUTION = 192
 """What Feedback's charts had before the entry (Moonscraper's default)."""
-_US_TIMES_MILLI_BPM = 60_000_000_000
+US_TIMES_MILLI_BPM = 60_000_000_000
 _SLOWEST, _FASTEST = 1_000, 1_000_000_000
 """Thousandths of a beat a minute that are read: 1 to 1,000,000 (our choice; songs end with tempos beyond music)."""
-_MOST_METER_BEATS = 64
+MOST_METER_BEATS = 64
 _MOST_UNIT_EXPONENT = 7
 
-_ACCENT, _GHOST, _CYMBAL = 33, 39, 64
+ACCENT_MARK, GHOST_MARK, CYMBAL_MARK = 33, 39, 64
 """What is added to a lane's number for its marks."""
-_SECOND_KICK, _FLAM = 32, 109
-_ROLLS = (65, 66)
+SECOND_KICK, FLAM_MARK = 32, 109
+ROLL_LANE, _TWO_LANES = 65, 66
 _HEAD = re.compile(r"\[(.*)\]")
 _NAMES = tuple((d, f"{d.name.title()}Drums") for d in reversed(Difficulty))
 
@@ -64,6 +65,8 @@ def is_chart(data: bytes) -> bool:
 
 def read_chart(data: bytes, source: str) -> DrumChart:
     """The drums of a `.chart` file; raises `BadInput` with the line of a fault."""
+    if data.count(b"\n") + data.count(b"\r") > 2 * _MOST_LINES:
+        raise BadInput(source, "", f"more than {_MOST_LINES} lines")
     sections = _sections(_text(data))
     if not any(name in sections for name in ("Song", "SyncTrack")):
         raise BadInput(source, "line 1", "not a .chart file: it has neither [Song] nor [SyncTrack]")
@@ -133,9 +136,10 @@ def _entry(line: str) -> tuple[str, str]:
 
 def _events(lines: list[tuple[int, str]]) -> Iterator[_Line]:
     for number, line in lines:
-        key, _, value = line.partition("=")
+        place, _, value = line.partition("=")
+        key = place.strip()
         kind, _, rest = value.strip().partition(" ")
-        if _is_number(key.strip()) and kind:
+        if _is_number(key) and kind:
             yield _Line(int(key), kind, rest.strip(), number)
 
 
@@ -168,7 +172,7 @@ def _tempos(sync: list[_Line], source: str) -> Iterator[tuple[int, int]]:
         numbers = line.numbers()
         if not numbers or not _SLOWEST <= numbers[0] <= _FASTEST:
             raise BadInput(source, f"line {line.number}", f"a tempo of {line.value[:20]!r} thousandths of a beat")
-        yield line.tick, round(_US_TIMES_MILLI_BPM / numbers[0])
+        yield line.tick, round(US_TIMES_MILLI_BPM / numbers[0])
 
 
 def _meters(sync: list[_Line], source: str) -> Iterator[tuple[int, int, int]]:
@@ -176,7 +180,7 @@ def _meters(sync: list[_Line], source: str) -> Iterator[tuple[int, int, int]]:
         if line.kind != "TS":
             continue
         beats, exponent, *_ = [*line.numbers(), 2, 2] if len(line.numbers()) == 1 else [*line.numbers(), 0, 0]
-        if not 1 <= beats <= _MOST_METER_BEATS or exponent > _MOST_UNIT_EXPONENT:
+        if not 1 <= beats <= MOST_METER_BEATS or exponent > _MOST_UNIT_EXPONENT:
             raise BadInput(source, f"line {line.number}", f"a meter of {line.value[:20]!r}")
         yield line.tick, beats, 1 << exponent
 
@@ -211,23 +215,23 @@ def _notes(track: list[_Line], source: str) -> tuple[ChartNote, ...]:
 def _notes_at(tick: int, marks: dict[int, int]) -> Iterator[ChartNote]:
     for lane in Lane:
         if lane in marks:
-            is_cymbal = lane + _CYMBAL in marks and lane in (Lane.YELLOW, Lane.BLUE, Lane.ORANGE_GREEN)
-            is_flam = _FLAM in marks and lane is not Lane.KICK
+            is_cymbal = lane + CYMBAL_MARK in marks and lane in (Lane.YELLOW, Lane.BLUE, Lane.ORANGE_GREEN)
+            is_flam = FLAM_MARK in marks and lane is not Lane.KICK
             yield ChartNote(tick, lane, is_cymbal, _dynamic(lane, marks), is_flam, length=marks[lane])
-    if _SECOND_KICK in marks:
-        yield ChartNote(tick, Lane.KICK, is_second_kick=True, length=marks[_SECOND_KICK])
+    if SECOND_KICK in marks:
+        yield ChartNote(tick, Lane.KICK, is_second_kick=True, length=marks[SECOND_KICK])
 
 
 def _dynamic(lane: Lane, marks: dict[int, int]) -> Dynamic:
-    if lane is not Lane.KICK and lane + _ACCENT in marks:
+    if lane is not Lane.KICK and lane + ACCENT_MARK in marks:
         return Dynamic.ACCENT
-    return Dynamic.GHOST if lane is not Lane.KICK and lane + _GHOST in marks else Dynamic.NORMAL
+    return Dynamic.GHOST if lane is not Lane.KICK and lane + GHOST_MARK in marks else Dynamic.NORMAL
 
 
 def _rolls(track: list[_Line]) -> Iterator[Span]:
     for line in track:
         numbers = line.numbers() if line.kind == "S" else []
-        if len(numbers) > 1 and numbers[0] in _ROLLS:
+        if len(numbers) > 1 and numbers[0] in (ROLL_LANE, _TWO_LANES):
             yield Span(line.tick, line.tick + numbers[1])
 
 

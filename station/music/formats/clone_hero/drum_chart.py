@@ -14,8 +14,10 @@ from station.core.pieces import Dynamic, Limb, Piece
 
 MOST_QUARTERS = 20_000
 """Where the last note may stand (our choice: five hours at 66)."""
-MOST_CHART_NOTES = 60_000
-"""Our choice: an hour of 16 a second."""
+MOST_CHART_NOTES = 40_000
+"""Our choice: an hour of 11 a second; 30 µs each to read."""
+MOST_SECTIONS = 2_000
+"""Our choice: a name every five seconds of three hours."""
 MOST_RESOLUTION = 1_000_000
 """Ticks a quarter note (our choice: games use 192 or 480)."""
 
@@ -116,6 +118,8 @@ def check_size(chart: DrumChart, source: str) -> None:
         raise BadInput(source, "", f"{chart.resolution} ticks a quarter note; expected 1 to {MOST_RESOLUTION}")
     if len(chart.notes) > MOST_CHART_NOTES:
         raise BadInput(source, "", f"{len(chart.notes)} drum notes; expected at most {MOST_CHART_NOTES}")
+    if len(chart.sections) > MOST_SECTIONS:
+        raise BadInput(source, "", f"{len(chart.sections)} sections; expected at most {MOST_SECTIONS}")
     if chart.notes and max(n.tick for n in chart.notes) > MOST_QUARTERS * chart.resolution:
         raise BadInput(source, "", f"its last note is more than {MOST_QUARTERS} quarter notes from the beginning")
 

@@ -89,14 +89,15 @@ def read_notes_midi(data: bytes, source: str) -> DrumChart:
         if meter.beats > _MOST_METER_BEATS or meter.unit > _SHORTEST_UNIT:
             raise BadInput(source, f"tick {meter.tick}", f"a meter of {meter.beats}/{meter.unit}")
     texts = [(text.tick, text.text) for text in track.texts]
+    has_five_lanes = any(n.lane is Lane.FIFTH for n in notes) and not _spans(track, tuple(_TOMS.values()))
     return DrumChart(
         midi.division.ticks,
         notes,
         tuple((t.tick, t.us_per_quarter) for t in sequence.tempos),
         tuple((m.tick, m.beats, m.unit) for m in sequence.meters),
         tuple(_sections(midi)),
-        any(n.lane is Lane.FIFTH for n in notes) and not _spans(track, tuple(_TOMS.values())),
-        flips_of(texts, difficulty, track.end_tick),
+        has_five_lanes,
+        () if has_five_lanes else flips_of(texts, difficulty, track.end_tick),
         _rolls(track, difficulty),
         tuple(_motions(track)),
         _spans(track, (_OPEN_HAT,)),

@@ -7,10 +7,10 @@ gives just these ticks is found, and the strokes are put where that grid has the
 """
 
 import re
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from math import floor
+from itertools import accumulate, cycle, islice
 
 from station.core.errors import BadInput
 from station.music.drum_part import DrumPart
@@ -32,26 +32,32 @@ _HEAD = re.compile(rb"MThd\0\0\0\x06\0\0\0\x01\0\x80MTrk.{4}\0\xff\x51\x03...\0\
 _TRACK_AT = 22
 _BAR_MARK = b"\x80\x3c"
 _NOTE_ON, _NOTE_OFF, _MARK_NUMBER = 0x99, 0x80, 60
-_STRAIGHT, _TRIPLETS = Fraction(16), Fraction(10_666, 1000)
-"""Ticks of a 32nd and of a 48th of a whole note, as GrooveScribe counts them."""
+_STRAIGHT, _TRIPLETS = 16_000, 10_666
+"""Thousandths of a tick in a 32nd and in a 48th of a whole note, as GrooveScribe counts them."""
+_TICK = 1000
 _SWUNG_CELLS = (1, 2, 4)
 """32nds in a cell of the divisions that it swings."""
 _PERCENTS = sorted(range(1, MOST_SWING + 1), key=lambda percent: (percent % 10 > 0, percent % 5 > 0, percent))
 """Several give the same whole ticks: round numbers are likelier (our choice)."""
 _LONGEST_BAR = 16 * 4 * 128
 """Ticks of GrooveScribe's longest bar, 32/2."""
-_MOST_BARS = 1000
-"""GrooveScribe makes ten (our choice, which bounds the memory)."""
+_MOST_BARS, _MOST_NOTES = 100, 20_000
+"""GrooveScribe makes ten bars (our choice, which bounds the search)."""
 _REST = "-"
 
 
 @dataclass(frozen=True, slots=True)
 class _Grid:
-    """The cells of a bar: `division` of them in a whole note when straight, `lengths` in ticks, over and over."""
+    """The cells of a bar: `division` of them in a whole note when straight, their `lengths` in turn, over and over."""
 
     division: int
-    lengths: tuple[Fraction, ...]
+    lengths: tuple[int, ...]
     swing: int = 0
+
+    def starts(self) -> list[int]:
+        """Where the cells of the longest bar begin, in thousandths of a tick."""
+        count = 2 + len(self.lengths) * _LONGEST_BAR * _TICK // sum(self.lengths)
+        return list(accumulate(islice(cycle(self.lengths), count), initial=0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +105,7 @@ def _bars(data: bytes, source: str) -> list[_Bar]:
     events = parse_events(data, _TRACK_AT, _TRACK_AT + int.from_bytes(data[18:22], "big"), source)
     columns = events.columns
     bars: list[_Bar] = []
-    start, notes = int(columns.tick[0]), list[tuple[int, int, int]]()
+    start, notes = int(columns.tick[0]) if len(columns.tick) else 0, list[tuple[int, int, int]]()
     rows = zip(*(c.tolist() for c in (columns.tick, columns.status, columns.first, columns.second)), strict=True)
     for tick, status, number, velocity in rows:
         if status == _NOTE_ON and velocity:
@@ -107,7 +113,14 @@ def _bars(data: bytes, source: str) -> list[_Bar]:
         elif (status, number) == (_NOTE_OFF, _MARK_NUMBER):
             bars.append(_Bar(start, tick, tuple(notes)))
             start, notes = tick, []
-    if not bars or notes or len(bars) > _MOST_BARS or any(bar.end - bar.start > _LONGEST_BAR for bar in bars):
+    too_many = sum(len(bar.notes) for bar in bars) > _MOST_NOTES
+    if (
+        not bars
+        or notes
+        or len(bars) > _MOST_BARS
+        or too_many
+        or any(bar.end - bar.start > _LONGEST_BAR for bar in bars)
+    ):
         raise BadInput(source, "", "its bars are none of GrooveScribe's")
     return bars
 
@@ -118,12 +131,10 @@ def _bars(data: bytes, source: str) -> list[_Bar]:
 def _on_a_grid(bars: Sequence[_Bar]) -> tuple[_Grid, list[_Cells], tuple[str, ...]]:
     """The first grid that gives just these ticks, and the cells of all notes; else the nearest 32nds, and told."""
     for grid in _grids():
-        cells = [_cells(bar, grid) for bar in bars]
-        found = [bar for bar in cells if bar is not None]
-        if len(found) == len(bars) and len({bar.count for bar in found}) == 1:
-            return grid, found, ()
-    grid = _Grid(32, (_STRAIGHT,))
-    return grid, [_nearest(bar) for bar in bars], ("times that no groove has: moved to the nearest 32nds",)
+        cells = _all_cells(bars, grid)
+        if cells is not None and len({bar.count for bar in cells}) == 1:
+            return grid, cells, ()
+    return _Grid(32, (_STRAIGHT,)), [_nearest(bar) for bar in bars], ("times that no groove has, moved to 32nds",)
 
 
 def _grids() -> Iterator[_Grid]:
@@ -131,45 +142,49 @@ def _grids() -> Iterator[_Grid]:
     yield _Grid(48, (_TRIPLETS,))
     for cells in _SWUNG_CELLS:
         for percent in _PERCENTS:
-            change = Fraction(percent, 100)
-            pair = (cells * _STRAIGHT * (1 + change), cells * _STRAIGHT * (1 - change))
-            yield _Grid(32 // cells, pair, percent)
+            change = cells * _STRAIGHT * percent // 100
+            yield _Grid(32 // cells, (cells * _STRAIGHT + change, cells * _STRAIGHT - change), percent)
 
 
-def _cells(bar: _Bar, grid: _Grid) -> _Cells | None:
-    """The cells of a bar's notes; None where the grid gives other ticks.
+def _all_cells(bars: Sequence[_Bar], grid: _Grid) -> list[_Cells] | None:
+    """The cells of all notes; None where the grid gives other ticks."""
+    starts, found = grid.starts(), []
+    for bar in bars:
+        cells = _cells(bar, starts, grid.swing > 0)
+        if cells is None:
+            return None
+        found.append(cells)
+    return found
+
+
+def _cells(bar: _Bar, starts: Sequence[int], swings: bool) -> _Cells | None:
+    """The cells of a bar's notes; None where cells that begin at `starts` give other ticks.
 
     GrooveScribe adds up the cells from one event to the next, and cuts the sum; from the last one to the bar's end it
-    takes a tick off before.
+    takes a tick off before. Its sums of swung cells are fractions of two, and may fall short of a whole tick.
     """
     at, cell, found = bar.start, 0, []
     for tick, *_ in bar.notes:
-        steps = _steps(tick - at, grid, cell, 0)
-        if steps is None:
+        reached = _reached(starts, cell, (tick - at) * _TICK, swings)
+        if reached is None:
             return None
-        at, cell = tick, cell + steps
+        at, cell = tick, reached
         found.append(cell)
-    rest = _steps(bar.end - at, grid, cell, 1)
-    return None if rest is None else _Cells(tuple(found), cell + rest)
+    end = _reached(starts, cell, (bar.end - at + 1) * _TICK, swings)
+    return None if end is None else _Cells(tuple(found), end)
 
 
-def _steps(ticks: int, grid: _Grid, cell: int, less: int) -> int | None:
-    """How many cells from `cell` on last `ticks` when cut to whole ones, `less` taken off before."""
-    if not ticks and not less:
-        return 0
-    length, steps = Fraction(0), 0
-    while length - less <= ticks:
-        length += grid.lengths[(cell + steps) % len(grid.lengths)]
-        steps += 1
-        exact = length - less
-        if floor(exact) == ticks or (exact == ticks + 1 and grid.swing):  # its sums of fractions may fall short
-            return steps
-    return None
+def _reached(starts: Sequence[int], cell: int, length: int, swings: bool) -> int | None:
+    """The cell that begins `length` after `cell`, or less than a tick later; None if there is none."""
+    wanted = starts[cell] + length
+    found = bisect_left(starts, wanted, cell)
+    last = wanted + _TICK if swings else wanted + _TICK - 1
+    return found if found < len(starts) and starts[found] <= last else None
 
 
 def _nearest(bar: _Bar) -> _Cells:
-    cells = tuple(round(Fraction(tick - bar.start) / _STRAIGHT) for tick, *_ in bar.notes)
-    return _Cells(cells, max(round(Fraction(bar.end + 1 - bar.start) / _STRAIGHT), 1))
+    cells = tuple(round((tick - bar.start) * _TICK / _STRAIGHT) for tick, *_ in bar.notes)
+    return _Cells(cells, max(round((bar.end + 1 - bar.start) * _TICK / _STRAIGHT), 1))
 
 
 def _meter(cells: int, division: int) -> MeterChange:

@@ -14,6 +14,7 @@ from urllib.parse import quote, unquote
 
 from station.core.errors import BadInput
 from station.core.units import PPQ
+from station.core.utf8 import one_line
 from station.music.formats.groovescribe.groove_letters import LETTERS
 from station.music.tempo import MeterChange
 
@@ -160,11 +161,6 @@ def _fields(link: str) -> dict[str, str]:
 def _words(value: str) -> str:
     """A title or name, in one line."""
     return one_line(unquote(value.replace("+", " "), errors="replace"))
-
-
-def one_line(words: str) -> str:
-    """`words` in one line without control characters, as a title is shown."""
-    return " ".join("".join(c if c.isprintable() else " " for c in words).split())
 
 
 def _whole(value: str) -> int | None:

@@ -21,7 +21,7 @@ from station.music.formats.groovescribe.groove_query import WEB_PAGE, Groove, pa
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.swing import Swing
-from station.music.tempo import MeterChange, TempoChange, TempoMap
+from station.music.tempo import TempoChange, TempoMap
 
 _REST = "-"
 _LIMBS = {"R": Limb.RIGHT_HAND, "r": Limb.RIGHT_HAND, "L": Limb.LEFT_HAND, "l": Limb.LEFT_HAND}
@@ -50,13 +50,7 @@ def part_of_groove(groove: Groove, all_toms: bool = False) -> DrumPart:
     end = groove.bars * groove.meter.bar_ticks
     score = Score.from_notes(notes, tempo_map, end, groove.title)
     lost = (*groove.lost, *_unread(groove, silent))
-    return DrumPart(score, groove.author, groove.comments, beat_ticks(groove.meter), swing, lost=lost)
-
-
-def beat_ticks(meter: MeterChange) -> int:
-    """The beat that is counted: the bar's group where all are alike (a dotted quarter in 6/8), else the meter's."""
-    lengths = {end - start for start, end in meter.pulses}
-    return lengths.pop() if len(lengths) == 1 else meter.beat_ticks
+    return DrumPart(score, groove.author, groove.comments, groove.meter.usual_beat_ticks, swing, lost=lost)
 
 
 def swing_of(percent: int, unit_ticks: int) -> Swing:
@@ -105,7 +99,7 @@ def _place(groove: Groove, cell: int, swing: Swing) -> tuple[int, int]:
 
 def _buzz_end(groove: Groove, lines: dict[str, str], cell: int) -> int:
     """The cell where a buzz that begins in `cell` ends."""
-    beat = max(beat_ticks(groove.meter) // groove.cell_ticks, 1)
+    beat = max(groove.meter.usual_beat_ticks // groove.cell_ticks, 1)
     bar = cell // groove.cells_per_bar * groove.cells_per_bar
     last = min(bar + ((cell - bar) // beat + 1) * beat, bar + groove.cells_per_bar)
     taken = (i for i in range(cell + 1, last) if any(lines[n][i] in LETTERS[n] for n in HANDS if n in lines))

@@ -4,17 +4,19 @@ There is no link at all for a part of more than ten bars, of several meters, or 
 What a letter does not say is told with its bars: of each stroke the nearest letter is written.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from types import MappingProxyType
 
 import numpy as np
 
 from station.core.errors import BadInput
-from station.core.pieces import CLOSED, HALF_OPEN, OPEN, Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.core.pieces import Articulation, Limb
 from station.core.units import PPQ
+from station.core.utf8 import one_line
 from station.music.drum_part import DrumPart
-from station.music.formats.groovescribe.groove_letters import HANDS, LETTER_OF, LETTERS, GrooveStroke
+from station.music.formats.groovescribe.groove_letters import HANDS, LETTERS
+from station.music.formats.groovescribe.groove_nearest import SENTENCES, nearest_letter
 from station.music.formats.groovescribe.groove_query import (
     DIVISIONS,
     LEAST_TEMPO,
@@ -25,12 +27,11 @@ from station.music.formats.groovescribe.groove_query import (
     UNITS,
     Groove,
     groove_url,
-    one_line,
 )
 from station.music.formats.groovescribe.groove_reader import part_of_groove, swing_of
+from station.music.formats.lost_bars import LostBars
 from station.music.formats.music_format import Feature, Loss, WrittenFile
 from station.music.score import Note, Score
-from station.music.swing import TRIPLETS
 from station.music.tempo import MeterChange, TempoChange
 
 KEEPS: Mapping[Feature, str] = MappingProxyType(
@@ -53,53 +54,12 @@ KEEPS: Mapping[Feature, str] = MappingProxyType(
     }
 )
 
-_NEAREST: Mapping[Piece, Piece] = MappingProxyType(
-    {
-        Piece.RIDE_2: Piece.RIDE,
-        Piece.CRASH_2: Piece.CRASH_1,
-        Piece.SPLASH: Piece.CRASH_1,
-        Piece.TOM_2: Piece.TOM_1,
-        Piece.TOM_3: Piece.FLOOR_TOM_1,
-        Piece.TOM_4: Piece.FLOOR_TOM_1,
-        Piece.FLOOR_TOM_2: Piece.FLOOR_TOM_1,
-        Piece.TAMBOURINE: Piece.PERCUSSION,
-        Piece.CLAP: Piece.PERCUSSION,
-    }
-)
-_ZONES = {
-    Piece.RIDE: Zone.BOW,
-    Piece.HIHAT: Zone.BOW,
-    Piece.CRASH_1: Zone.EDGE,
-    Piece.CHINA: Zone.EDGE,
-    Piece.HIHAT_PEDAL: Zone.PEDAL,
-}
 _HAND_LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L"}
 _REST = "-"
 _FIRST = "csbrmXxoONnfdgb"
 """Of two letters on one line the first of these is written: a crash before a ride, that before the hi-hat."""
 _SAME_RATIO = 1e-9
 """Below any difference that a file writes."""
-
-
-@dataclass(slots=True)
-class _Losses:
-    """What is lost, by feature and sentence, each with its bars from 1."""
-
-    bars: dict[tuple[Feature, str], list[int]] = field(default_factory=dict)
-
-    def add(self, feature: Feature, text: str, bar: int | None = None) -> None:
-        known = self.bars.setdefault((feature, text), [])
-        if bar is not None and bar + 1 not in known:
-            known.append(bar + 1)
-
-    def told(self) -> tuple[Loss, ...]:
-        return tuple(Loss(feature, _with_bars(text, bars)) for (feature, text), bars in self.bars.items())
-
-
-def _with_bars(text: str, bars: list[int]) -> str:
-    if not bars:
-        return text
-    return f"bar{'s' if len(bars) > 1 else ''} {', '.join(map(str, sorted(bars)))}: {text}"
 
 
 def write_groove(part: DrumPart) -> WrittenFile:
@@ -110,7 +70,7 @@ def write_groove(part: DrumPart) -> WrittenFile:
 
 def groove_of(part: DrumPart) -> tuple[Groove, tuple[Loss, ...]]:
     """The groove that is nearest to `part`, and what it has not; raises `BadInput`."""
-    losses = _Losses()
+    losses = LostBars()
     bars = _bars(part)
     score, division, percent = _timed(part, losses)
     meter = score.tempo_map.meters[0]
@@ -157,13 +117,16 @@ def _name(part: DrumPart) -> str:
     return part.score.title or "part"
 
 
-def _timed(part: DrumPart, losses: _Losses) -> tuple[Score, int, int]:
+def _timed(part: DrumPart, losses: LostBars) -> tuple[Score, int, int]:
     """The strokes on the cells of a division, that division, and the percent of its swing."""
     ratio, unit = part.swing.ratio, part.swing.unit_ticks
     if not part.swing.stands_in_words:
-        if ratio == TRIPLETS:
-            losses.add(Feature.SWING, "swing of 2:1 is written out in triplets")
-        return part.score, _division(part, part.score), 0
+        score = part.score
+        if score.notes["swing_ticks"].any():  # of some sections alone
+            score = score.as_written
+            for feature in (Feature.SWING, Feature.TIMES):
+                losses.add(feature, "swing of some bars is left out: a groove has one swing throughout")
+        return score, _division(part, score), 0
     score = part.score.as_written
     percent = min(round(100 * (ratio - 1) / (ratio + 1)), MOST_SWING)
     swung = Groove(meter=score.tempo_map.meters[0], division=4 * PPQ // unit, swing=percent)
@@ -196,7 +159,7 @@ def _fits(score: Score, meter: MeterChange, division: int) -> bool:
     return whole_bar and not (score.notes["tick"] % (4 * PPQ // division)).any()
 
 
-def _tempo(score: Score, losses: _Losses) -> int:
+def _tempo(score: Score, losses: LostBars) -> int:
     bpm = score.tempo_map.bpm_at(0)
     used = min(max(round(bpm), LEAST_TEMPO), MOST_TEMPO)
     if score.tempo_map.tempos[0] != TempoChange.from_bpm(0, used):
@@ -214,7 +177,7 @@ def _tempo(score: Score, losses: _Losses) -> int:
 # --- the letters ------------------------------------------------------------------------------------------------------
 
 
-def _lines(score: Score, groove: Groove, losses: _Losses) -> tuple[dict[str, str], str]:
+def _lines(score: Score, groove: Groove, losses: LostBars) -> tuple[dict[str, str], str]:
     """The letters of all lines that have any (H, S and K always), and the stickings."""
     size = groove.cells_per_bar * groove.bars
     lines = {name: [_REST] * size for name in LETTERS}
@@ -223,7 +186,7 @@ def _lines(score: Score, groove: Groove, losses: _Losses) -> tuple[dict[str, str
         if note.lead_ms > 0:
             continue
         cell, bar = note.tick // groove.cell_ticks, note.tick // groove.meter.bar_ticks
-        name, letter = _letter(note, bar, losses)
+        name, letter = nearest_letter(note, bar, losses)
         lines[name][cell] = _joined(name, lines[name][cell], letter, note, bar, losses)
         if name in HANDS:
             hands.setdefault(cell, []).append(note.limb)
@@ -231,23 +194,7 @@ def _lines(score: Score, groove: Groove, losses: _Losses) -> tuple[dict[str, str
     return written, _stickings(hands, groove, losses)
 
 
-def _letter(note: Note, bar: int, losses: _Losses) -> tuple[str, str]:
-    """The line and letter nearest to a stroke."""
-    meant = GrooveStroke(note.piece, note.zone, note.articulation, note.dynamic, note.openness, note.ornament)
-    said = meant
-    for feature, nearer in _STEPS:
-        if said in LETTER_OF:
-            break
-        changed = nearer(said)
-        if changed != said:
-            losses.add(feature, _SENTENCES[feature], bar)
-        said = changed
-    if note.choke_ticks:
-        losses.add(Feature.CHOKES, _SENTENCES[Feature.CHOKES], bar)
-    return LETTER_OF[said]
-
-
-def _joined(name: str, there: str, letter: str, note: Note, bar: int, losses: _Losses) -> str:
+def _joined(name: str, there: str, letter: str, note: Note, bar: int, losses: LostBars) -> str:
     """What a cell of a line says when `letter` comes to what is `there`."""
     if there in (_REST, letter):
         return letter
@@ -258,7 +205,7 @@ def _joined(name: str, there: str, letter: str, note: Note, bar: int, losses: _L
     return min(there, letter, key=_FIRST.index)
 
 
-def _stickings(hands: Mapping[int, list[Limb]], groove: Groove, losses: _Losses) -> str:
+def _stickings(hands: Mapping[int, list[Limb]], groove: Groove, losses: LostBars) -> str:
     """A letter a cell where one hand strikes; "" where no hand is said at all."""
     letters = [_REST] * (groove.cells_per_bar * groove.bars)
     for cell, limbs in hands.items():
@@ -271,7 +218,7 @@ def _stickings(hands: Mapping[int, list[Limb]], groove: Groove, losses: _Losses)
     return "".join(letters) if any(letter != _REST for letter in letters) else ""
 
 
-def _check_lengths(score: Score, written: Groove, losses: _Losses) -> None:
+def _check_lengths(score: Score, written: Groove, losses: LostBars) -> None:
     """Tells the bars where strokes come back at another time, and buzzes with another length."""
     back = part_of_groove(written).score
     for feature, places in (
@@ -279,7 +226,7 @@ def _check_lengths(score: Score, written: Groove, losses: _Losses) -> None:
         (Feature.BUZZES, (_buzzes(score), _buzzes(back))),
     ):
         for tick, *_ in sorted(places[0] - places[1]):
-            losses.add(feature, _SENTENCES[feature], tick // written.meter.bar_ticks)
+            losses.add(feature, SENTENCES[feature], tick // written.meter.bar_ticks)
 
 
 def _times(score: Score) -> set[tuple[int, ...]]:
@@ -289,81 +236,3 @@ def _times(score: Score) -> set[tuple[int, ...]]:
 def _buzzes(score: Score) -> set[tuple[int, ...]]:
     rows = score.notes[score.notes["articulation"] == Articulation.BUZZ]
     return set(zip(rows["tick"].tolist(), rows["duration_ticks"].tolist(), strict=True))
-
-
-# --- nearer and nearer to a letter ------------------------------------------------------------------------------------
-
-
-def _known_piece(stroke: GrooveStroke) -> GrooveStroke:
-    return replace(stroke, piece=_NEAREST.get(stroke.piece, stroke.piece))
-
-
-def _plain_articulation(stroke: GrooveStroke) -> GrooveStroke:
-    if stroke.piece is Piece.HIHAT_PEDAL:
-        return replace(stroke, zone=Zone.PEDAL, articulation=Articulation.CHICK, openness=CLOSED)
-    if stroke.articulation is Articulation.RIM_SHOT:
-        return replace(stroke, zone=Zone.HEAD, articulation=Articulation.NORMAL)
-    return stroke
-
-
-def _no_buzz(stroke: GrooveStroke) -> GrooveStroke:
-    if stroke.articulation is not Articulation.BUZZ or stroke.piece is Piece.SNARE:
-        return stroke
-    return replace(stroke, articulation=Articulation.NORMAL, ornament=Ornament.NONE)
-
-
-def _usual_zone(stroke: GrooveStroke) -> GrooveStroke:
-    if stroke.articulation is Articulation.CROSS_STICK:
-        return replace(stroke, zone=Zone.RIM)
-    return replace(stroke, zone=_ZONES.get(stroke.piece, Zone.HEAD))
-
-
-def _open_or_closed(stroke: GrooveStroke) -> GrooveStroke:
-    if stroke.piece is Piece.HIHAT:
-        return replace(stroke, openness=OPEN if (stroke.openness or CLOSED) >= HALF_OPEN else CLOSED)
-    return stroke if stroke.piece is Piece.HIHAT_PEDAL else replace(stroke, openness=None)
-
-
-def _no_diddle(stroke: GrooveStroke) -> GrooveStroke:
-    is_diddle = stroke.ornament in (Ornament.DIDDLE, Ornament.ROLL) and stroke.articulation is not Articulation.BUZZ
-    return replace(stroke, ornament=Ornament.NONE) if is_diddle else stroke
-
-
-def _no_grace(ornament: Ornament) -> Callable[[GrooveStroke], GrooveStroke]:
-    def nearer(stroke: GrooveStroke) -> GrooveStroke:
-        is_plain_snare = stroke.piece is Piece.SNARE and stroke.articulation is Articulation.NORMAL
-        return stroke if stroke.ornament is not ornament or is_plain_snare else replace(stroke, ornament=Ornament.NONE)
-
-    return nearer
-
-
-_STEPS: tuple[tuple[Feature, Callable[[GrooveStroke], GrooveStroke]], ...] = (
-    (Feature.PIECES, _known_piece),
-    (Feature.FOOT_SPLASHES, lambda s: _plain_articulation(s) if s.piece is Piece.HIHAT_PEDAL else s),
-    (Feature.RIM_SHOTS, _plain_articulation),
-    (Feature.BUZZES, _no_buzz),
-    (Feature.ZONES, _usual_zone),
-    (Feature.OPENNESS, _open_or_closed),
-    (Feature.DIDDLES, _no_diddle),
-    (Feature.FLAMS, _no_grace(Ornament.FLAM)),
-    (Feature.DRAGS, _no_grace(Ornament.DRAG)),
-    (Feature.DYNAMICS, lambda s: replace(s, dynamic=Dynamic.NORMAL)),
-)
-"""In this order, until there is a letter: so an accented flam stays a flam, an accented diddle an accent."""
-
-_SENTENCES: Mapping[Feature, str] = MappingProxyType(
-    {
-        Feature.PIECES: "pieces that GrooveScribe has no line for are written as the nearest",
-        Feature.FOOT_SPLASHES: "splashes of the hi-hat foot become chicks",
-        Feature.RIM_SHOTS: "rim shots become plain strokes",
-        Feature.BUZZES: "buzz rolls of another length, or of another drum than the snare",
-        Feature.ZONES: "rims, edges and bells but the ride's",
-        Feature.OPENNESS: "a half-open hi-hat becomes open or closed",
-        Feature.DIDDLES: "diddles become single strokes",
-        Feature.FLAMS: "flams of other pieces than the snare",
-        Feature.DRAGS: "drags of other pieces than the snare",
-        Feature.DYNAMICS: "accents and ghosts that have no letter become plain strokes",
-        Feature.CHOKES: "chokes are left out",
-        Feature.TIMES: "strokes that come back at another time",
-    }
-)

@@ -1,9 +1,9 @@
 """PyGuitarPro's parsers for `.gp3`, `.gp4` and `.gp5` with bounds around them.
 
 The library trusts the counts that a file states, searches a bar's beats from the end for every new one and compares
-whole beats where a note is tied: hostile bytes take hours. Here counts are bounded, searches are look-ups, and of all
-tracks but those of drums only tempo changes stay in memory. It also raises on some legal files (a brush of speed 0);
-what only guitars have is not interpreted.
+whole beats where a note is tied: a megabyte of hostile bytes takes it many minutes. Here counts are bounded, searches
+are look-ups, and of all tracks but those of drums only tempo changes stay in memory. It also raises on some legal files
+(a brush of speed 0); what only guitars have is not interpreted.
 
 This module imports PyGuitarPro (LGPL-3.0, unchanged, from the registry): import it where such a file is read.
 """
@@ -21,7 +21,7 @@ from guitarpro.iobase import GPFileBase
 from guitarpro.models import Beat, BeatStroke, Song
 
 from station.core.errors import BadInput
-from station.music.formats.guitar_pro.tab_song import MOST_TAB_BARS, MOST_TAB_BEATS
+from station.music.formats.guitar_pro.tab_song import MOST_TAB_BARS, MOST_TAB_BEATS, MOST_TAB_NOTES
 
 _MOST_TRACKS = 256
 """Guitar Pro 5 has up to 127."""
@@ -90,7 +90,7 @@ def _guarded(base: Any) -> Any:
             self.jumps: list[tuple[str, int]] = []
             self.tempos: list[tuple[int, Fraction, int]] = []
             self._bar = 0
-            self._beat_count = 0
+            self._beat_count = self._note_count = 0
             self._last_values: dict[tuple[int, int | None, int], int] = {}
 
         @property
@@ -138,6 +138,8 @@ def _guarded(base: Any) -> Any:
             return voice.beats[-1]
 
         def readNote(self, note: Any, string: Any, track: Any) -> Any:  # noqa: N802
+            self._note_count += 1
+            _check(self._note_count, MOST_TAB_NOTES, "notes")
             super().readNote(note, string, track)
             self._last_values[track.number, self._currentVoiceNumber, note.string] = note.value
             return note

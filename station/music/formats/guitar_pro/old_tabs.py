@@ -6,63 +6,37 @@ drummer stands in `tab_part`; let ring, dead notes, slides, bends and what else 
 
 # ruff: noqa: ANN401  PyGuitarPro has no types
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any, TypeVar
 
 from station.core.errors import BadInput
 from station.core.pieces import Dynamic
 from station.core.units import PPQ
 from station.music.formats.guitar_pro.guarded_parser import ParsedTabs, is_drum_track, parse_tabs
-from station.music.formats.guitar_pro.tab_song import (
-    FASTEST_TAB_BPM,
-    METER_UNITS,
-    MOST_METER_BEATS,
-    SLOWEST_TAB_BPM,
-    Jump,
-    Sign,
-    TabBar,
-    TabBeat,
-    TabNote,
-    TabSong,
+from station.music.formats.guitar_pro.tab_song import TabBar, TabBeat, TabNote, TabSong
+from station.music.formats.guitar_pro.tab_words import (
+    FEEL_OF,
+    JUMP_OF,
+    SIGN_OF,
+    STRAIGHT_FEEL,
+    bpm_to_us,
+    checked_meter,
+    within,
 )
 from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY
-from station.music.swing import TRIPLETS, Swing
-from station.music.tempo import MeterChange
 
 _QUARTER = 960
 """PyGuitarPro's units a quarter note."""
 _Meaning = TypeVar("_Meaning")
-_US_PER_MINUTE = 60_000_000
 _SHORTEST = 256
 """No note is shorter than 1/256."""
 _TIE = 2
 """PyGuitarPro's `NoteType.tie`."""
 _ENDING_BITS = 8
 
-SIGN_OF: Mapping[str, Sign] = MappingProxyType(
-    {
-        "coda": Sign.CODA,
-        "doublecoda": Sign.DOUBLE_CODA,
-        "segno": Sign.SEGNO,
-        "segnosegno": Sign.SEGNO_SEGNO,
-        "fine": Sign.FINE,
-    }
-)
-_FROM = {"dacapo": None, "dasegno": Sign.SEGNO, "dasegnosegno": Sign.SEGNO_SEGNO}
-_UNTIL = {"": None, "alcoda": Sign.CODA, "aldoublecoda": Sign.DOUBLE_CODA, "alfine": Sign.FINE}
-JUMP_OF: Mapping[str, Jump] = MappingProxyType(
-    {
-        **{start + end: Jump(target, until) for start, target in _FROM.items() for end, until in _UNTIL.items()},
-        "dacoda": Jump(Sign.CODA, is_to_coda=True),
-        "dadoublecoda": Jump(Sign.DOUBLE_CODA, is_to_coda=True),
-    }
-)
-"""Directions by their names in small letters without spaces; `.gp` has the same names."""
-
-_FEELS = {0: Swing(), 1: Swing(TRIPLETS, PPQ // 2), 2: Swing(TRIPLETS, PPQ // 4)}
+_FEELS = {0: STRAIGHT_FEEL, 1: FEEL_OF["triplet8th"], 2: FEEL_OF["triplet16th"]}
 
 
 def read_old_tabs(data: bytes, source: str) -> TabSong:
@@ -81,25 +55,6 @@ def read_old_tabs(data: bytes, source: str) -> TabSong:
         tuple(_Bars(parsed, track, source).bars()),
         tuple(f"another drum track: {name}" for name in others),
     )
-
-
-def bpm_to_us(bpm: float, source: str, bar: int) -> int:
-    """µs a quarter note at `bpm`; raises `BadInput` at `bar` (from 0) where no music is so fast or slow."""
-    if not SLOWEST_TAB_BPM <= bpm <= FASTEST_TAB_BPM:
-        raise BadInput(source, f"bar {bar + 1}", f"a tempo of {bpm:g} quarter notes a minute")
-    return round(_US_PER_MINUTE / bpm)
-
-
-def checked_meter(beats: int, unit: int, source: str, bar: int) -> MeterChange:
-    """The meter; raises `BadInput` at `bar` (from 0) for what is none."""
-    if not 1 <= beats <= MOST_METER_BEATS or unit not in METER_UNITS:
-        raise BadInput(source, f"bar {bar + 1}", f"a meter of {beats}/{unit}")
-    return MeterChange(0, beats, unit)
-
-
-def within(beats: Iterable[TabBeat], meter: MeterChange) -> Iterator[TabBeat]:
-    """The beats that begin within the bar: what a file has beyond its end is never heard."""
-    return (beat for beat in beats if 0 <= beat.tick < meter.bar_ticks)
 
 
 def _stroke_count(track: Any) -> int:

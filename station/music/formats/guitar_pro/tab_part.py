@@ -37,11 +37,11 @@ def part_of_song(song: TabSong, source: str) -> DrumPart:
     order = play_order(song.bars, source)
     if sum(_stroke_count(song.bars[i]) for i in order) > MOST_TAB_STROKES:
         raise BadInput(source, "", f"more than {MOST_TAB_STROKES} strokes as it is played")
-    strokes = [_bar_strokes(bar) for bar in song.bars]
+    swing, lost = _swing(song.bars)
+    strokes = [_bar_strokes(bar, swing) for bar in song.bars]
     starts = _starts(song.bars, order)
     notes = [replace(n, tick=max(n.tick + at, 0)) for i, at in zip(order, starts, strict=False) for n in strokes[i]]
     score = Score.from_notes(notes, _tempo_map(song.bars, order, starts), starts[-1], song.title)
-    swing, lost = _swing(song.bars)
     return DrumPart(
         score,
         song.author,
@@ -113,14 +113,14 @@ def _partly(swung: Sequence[int]) -> str:
     return f"the swing of some bars only (from bar {swung[0]}): their strokes stand where they sound"
 
 
-def _swung(bar: TabBar, beat: TabBeat) -> tuple[int, int]:
-    """Where the beat is played, in ticks of the bar, and how much of that notation leaves to the word swing."""
+def _swung(bar: TabBar, beat: TabBeat, swing: Swing) -> tuple[int, int]:
+    """Where the beat is played, in ticks of the bar, and how much of that notation leaves to the part's `swing`."""
     feel = bar.feel
     is_offbeat = beat.tick % (2 * feel.unit_ticks) == feel.unit_ticks
     if feel.ratio == STRAIGHT or beat.is_tuplet or not is_offbeat or beat.length_ticks < feel.unit_ticks:
         return beat.tick, 0
     tick = feel.swung(beat.tick, bar.meter)
-    return tick, tick - beat.tick if feel.stands_in_words and feel.ratio >= MIN_RATIO else 0
+    return tick, tick - beat.tick if feel == swing and feel.stands_in_words else 0
 
 
 # --- strokes ---------------------------------------------------------------------------------------------------------
@@ -134,7 +134,7 @@ def _stroke_count(bar: TabBar) -> int:
     )
 
 
-def _bar_strokes(bar: TabBar) -> list[Note]:
+def _bar_strokes(bar: TabBar, swing: Swing) -> list[Note]:
     """The strokes of a bar; what two voices write alike is one, the louder."""
     loudest: dict[tuple[int, int], tuple[TabBeat, TabNote]] = {}
     for beat in bar.beats:
@@ -142,13 +142,12 @@ def _bar_strokes(bar: TabBar) -> list[Note]:
             known = loudest.get((beat.tick, note.number))
             if known is None or (note.dynamic, note.velocity) > (known[1].dynamic, known[1].velocity):
                 loudest[beat.tick, note.number] = (beat, note)
-    return [stroke for beat, note in loudest.values() for stroke in _strokes(bar, beat, note)]
+    return [stroke for beat, note in loudest.values() for stroke in _strokes(note, beat, *_swung(bar, beat, swing))]
 
 
-def _strokes(bar: TabBar, beat: TabBeat, note: TabNote) -> Iterator[Note]:
+def _strokes(note: TabNote, beat: TabBeat, tick: int, swing_ticks: int) -> Iterator[Note]:
     if note.is_tied and not note.tremolo_ticks:
         return
-    tick, swing_ticks = _swung(bar, beat)
     main = _stroke(note.number, tick, note)
     if main.piece in CHOKEABLE and note.number in CHOKED:
         main = replace(main, choke_ticks=beat.length_ticks)

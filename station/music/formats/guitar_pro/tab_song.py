@@ -13,10 +13,10 @@ from station.music.tempo import MeterChange
 
 MOST_TAB_BARS = 10_000
 """Written bars, and bars as they are played (our choice: eight hours)."""
-MOST_TAB_BEATS = 80_000
-"""Beats of all tracks together, about 25 µs each to read (our choice: 400 bars of ten busy tracks)."""
-MOST_TAB_STROKES = 60_000
-"""Strokes as they are played (our choice: an hour of 16 a second)."""
+MOST_TAB_BEATS, MOST_TAB_NOTES = 50_000, 60_000
+"""Beats and notes of all tracks together, about 20 µs each to read (our choice: 400 bars of ten tracks)."""
+MOST_TAB_STROKES = 40_000
+"""Strokes as they are played (our choice: an hour of 11 a second)."""
 METER_UNITS = (1, 2, 4, 8, 16, 32, 64, 128)
 MOST_METER_BEATS = 64
 SLOWEST_TAB_BPM, FASTEST_TAB_BPM = 1.0, 2000.0

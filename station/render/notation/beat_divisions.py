@@ -41,10 +41,19 @@ class Part:
         return self.start + (self.end - self.start) * slot / self.slots
 
 
-Division = tuple[Part, ...]
+@dataclass(frozen=True, slots=True, eq=False)
+class Division:
+    """One way to divide a beat: its parts in order. Each is made once, and is itself its identity."""
+
+    parts: tuple[Part, ...]
+
+    @property
+    def tuplet(self) -> int:
+        """The number of a tuplet that is the whole beat; 0 where it is plain, or in several parts."""
+        return self.parts[0].number if len(self.parts) == 1 else 0
 
 
-@lru_cache
+@lru_cache(maxsize=1 << 10)
 def divisions(length: int) -> tuple[Division, ...]:
     """The divisions of a beat `length` ticks long, the simplest first.
 
@@ -62,7 +71,7 @@ def divisions(length: int) -> tuple[Division, ...]:
     return tuple(fitting) or (_whole(max(round(8 * length / PPQ), 1), 32),)
 
 
-@lru_cache
+@lru_cache(maxsize=1 << 10)
 def tuplets_over(length: int, counts: tuple[int, ...]) -> tuple[Division, ...]:
     """Tuplets of these counts over several beats, `length` a quarter times a power of two; each doubled comes after."""
     beat = Fraction(4 * PPQ, length)
@@ -73,14 +82,14 @@ def tuplets_over(length: int, counts: tuple[int, ...]) -> tuple[Division, ...]:
 @lru_cache(maxsize=1 << 12)
 def slot_ticks(division: Division, length: int) -> tuple[int, ...]:
     """The tick of every slot of a beat `length` ticks long, and the beat's end."""
-    return (*(round(part.slot_at(k) * length) for part in division for k in range(part.slots)), length)
+    return (*(round(part.slot_at(k) * length) for part in division.parts for k in range(part.slots)), length)
 
 
 def nearest_slot(division: Division, length: int, tick: int) -> int:
     """The slot nearest to a tick of the beat; the number of slots where its end is nearest."""
     places = slot_ticks(division, length)
-    after = bisect_left(places, tick)
-    return min(range(max(after - 1, 0), min(after + 1, len(places))), key=lambda slot: abs(places[slot] - tick))
+    after = min(bisect_left(places, tick), len(places) - 1)
+    return after - 1 if after and tick - places[after - 1] <= places[after] - tick else after
 
 
 # --- beats ------------------------------------------------------------------------------------------------------------
@@ -119,15 +128,17 @@ def _mixed(parts: int, plain: tuple[int, ...], tuplets: tuple[int, ...], beat: F
         return
     for counts in product((*plain, *tuplets), repeat=parts):
         if any(count in tuplets for count in counts):
-            yield tuple(
-                _shifted(_tuplet(n, beat) if n in tuplets else _whole(n, int(beat) * n), k, parts)
-                for k, n in enumerate(counts)
+            yield Division(
+                tuple(
+                    _shifted(_tuplet(n, beat) if n in tuplets else _whole(n, int(beat) * n), k, parts)
+                    for k, n in enumerate(counts)
+                )
             )
 
 
 def _shifted(division: Division | None, k: int, parts: int) -> Part:
     assert division is not None, "no part of a beat is too short for its tuplet"
-    (part,) = division
+    (part,) = division.parts
     return Part(Fraction(k, parts), Fraction(k + 1, parts), part.slots, part.base, part.number, part.of)
 
 
@@ -149,4 +160,4 @@ def _some(*found: Division | None) -> Iterator[Division]:
 
 
 def _whole(slots: int, base: int, number: int = 0, of: int = 0) -> Division:
-    return (Part(Fraction(0), Fraction(1), slots, base, number, of),)
+    return Division((Part(Fraction(0), Fraction(1), slots, base, number, of),))

@@ -6,9 +6,11 @@ number name the layer and `r` and a number the take: see docs/sound.md.
 """
 
 import re
+from collections.abc import Sequence
 from typing import NamedTuple
 
-from station.sound.sound_names import SoundName
+from station.core.note_map import GENERAL_MIDI
+from station.core.sound_names import SoundName, choose_sound
 
 _HAT = r"\b(hi ?hats?|hats?|hh|hho|hhc|hhp)\b"
 _TOM = r"\b(toms?|tt|rack)\b"
@@ -91,6 +93,22 @@ def sound_named(name: str) -> SoundName | None:
         if all(re.search(pattern, spoken) for pattern in patterns):
             return _numbered(sound, spoken)
     return None
+
+
+_FIRST_NOTE = 36
+"""Hydrogen numbers the MIDI notes of instruments from here on where nobody chose them: then they mean nothing."""
+
+
+def are_chosen(midi_notes: Sequence[int | None]) -> bool:
+    """Whether somebody gave the instruments of a Hydrogen kit these notes, in the kit's order."""
+    return list(midi_notes) != list(range(_FIRST_NOTE, _FIRST_NOTE + len(midi_notes)))
+
+
+def sound_of_instrument(name: str, kind: str, midi_note: int | None) -> SoundName | None:
+    """The sound that an instrument of a Hydrogen kit is: by its name, its kind, else its note in General MIDI."""
+    by_words = sound_named(name) or sound_named(kind)
+    strike = GENERAL_MIDI.get(midi_note) if midi_note is not None else None
+    return choose_sound(strike).sound if by_words is None and strike is not None else by_words
 
 
 def _numbered(sound: SoundName, spoken: str) -> SoundName:

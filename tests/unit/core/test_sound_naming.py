@@ -1,7 +1,7 @@
 import pytest
 
-from station.sound.samples.sound_naming import file_named, sound_named
-from station.sound.sound_names import SoundName
+from station.core.sound_names import SoundName
+from station.core.sound_naming import file_named, sound_named
 
 # what a drummer reads in the names; those with "GM" stand in the table of instruments of a well-known rock kit
 NAMES = [

@@ -4,7 +4,15 @@ import pytest
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
-from station.sound.sound_names import SUBSTITUTES, TIP_TIMBRE, SoundChoice, SoundName, choose_sound, hihat_step
+from station.core.sound_names import (
+    SUBSTITUTES,
+    TIP_TIMBRE,
+    SoundChoice,
+    SoundName,
+    choose_sound,
+    hihat_step,
+    strike_of_sound,
+)
 
 # What a drummer would say each stroke is: written by hand from the names of the pieces.
 STROKES = [
@@ -73,3 +81,8 @@ def test_every_way_of_substitution_is_short_and_never_leads_to_itself() -> None:
     for name, others in SUBSTITUTES.items():
         assert name not in others
         assert len(set(others)) == len(others)
+
+
+@pytest.mark.parametrize("sound", list(SoundName))
+def test_every_sound_has_a_stroke_that_asks_for_it(sound: SoundName) -> None:
+    assert choose_sound(strike_of_sound(sound)).sound is sound

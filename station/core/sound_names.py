@@ -169,6 +169,36 @@ _SPECIAL: Mapping[Piece, Callable[[NoteMeaning], SoundChoice]] = MappingProxyTyp
 )
 
 
+def strike_of_sound(sound: SoundName) -> NoteMeaning:
+    """The plainest stroke that asks for `sound`."""
+    return _STRIKES[sound]
+
+
+def _of_piece(piece: Piece) -> NoteMeaning:
+    return NoteMeaning(piece, Zone.EDGE if piece in _CRASHES and piece is not Piece.RIDE_2 else Zone.HEAD)
+
+
+_STRIKES: Mapping[SoundName, NoteMeaning] = MappingProxyType(
+    {
+        **{SoundName[p.name]: _of_piece(p) for p in Piece if p.name in SoundName.__members__},
+        **{SoundName[f"{p.name}_RIM"]: NoteMeaning(p, Zone.RIM) for p in TOMS},
+        **{
+            step: NoteMeaning(Piece.HIHAT, Zone.BOW, openness=i / (len(HIHAT_STEPS) - 1))
+            for i, step in enumerate(HIHAT_STEPS)
+        },
+        SoundName.SNARE_RIM_SHOT: NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.RIM_SHOT),
+        SoundName.SNARE_CROSS_STICK: NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK),
+        SoundName.SNARE_BUZZ: NoteMeaning(Piece.SNARE, Zone.HEAD, Articulation.BUZZ),
+        SoundName.HIHAT_CHICK: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, 0.0),
+        SoundName.HIHAT_FOOT_SPLASH: NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.SPLASH, 1.0),
+        SoundName.RIDE_BOW: NoteMeaning(Piece.RIDE, Zone.BOW),
+        SoundName.RIDE_BELL: NoteMeaning(Piece.RIDE, Zone.BELL),
+        SoundName.RIDE_EDGE: NoteMeaning(Piece.RIDE, Zone.EDGE),
+        SoundName.RIDE_2: NoteMeaning(Piece.RIDE_2, Zone.BOW),
+    }
+)
+
+
 def hihat_step(openness: float) -> int:
     """The index into `HIHAT_STEPS` nearest to `openness` (values beyond 0 … 1 are taken as the ends)."""
     last = len(HIHAT_STEPS) - 1
