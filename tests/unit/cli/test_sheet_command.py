@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from station.cli.command_line import main
-from station.cli.input.read_scores import load_score
+from station.cli.input.read_scores import load_part
 from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.drills.writing.lesson_part import part_of
@@ -67,7 +67,7 @@ def test_a_midi_file_that_swings_is_written_straight_under_its_mark(tmp_path: Pa
     """A one drop at 3:2: its late eighths are three fifths into the beat, and no quintuplets."""
     path = tmp_path / "one-drop.mid"
     path.write_bytes(midi_of("reggae-one-drop"))
-    score = on_grid(load_score(str(path)))
+    score = on_grid(load_part(str(path))).score
     assert {bar: round(mark.ratio, 2) for bar, mark in swing_marks(score).items()} == {0: 1.5}
     assert set((score.as_written.notes["tick"] % (PPQ // 2)).tolist()) == {0}
 
@@ -75,5 +75,5 @@ def test_a_midi_file_that_swings_is_written_straight_under_its_mark(tmp_path: Pa
 def test_a_score_on_the_grid_stays(tmp_path: Path) -> None:
     path = tmp_path / "rock.mid"
     path.write_bytes(midi_of("rock-1"))
-    before = load_score(str(path))
-    assert on_grid(before).notes["tick"].tolist() == before.notes["tick"].tolist()
+    before = load_part(str(path))
+    assert on_grid(before).score.notes["tick"].tolist() == before.score.notes["tick"].tolist()
