@@ -52,8 +52,10 @@ class LineWord:
 
 
 def draw_number(draw_list: DrawList, skyline: Skyline, x: float, number: str) -> None:
-    """A bar's number above its left bar line."""
-    _low(draw_list, skyline, (x, x + draw_list.width(number, _NUMBER)), number, _NUMBER)
+    """A bar's number over the middle of its left bar line."""
+    width = draw_list.width(number, _NUMBER)
+    left = max(x - width / 2, 0.0)
+    _low(draw_list, skyline, (left, left + width), number, _NUMBER)
 
 
 def draw_times(draw_list: DrawList, skyline: Skyline, x: float, times: int) -> None:
@@ -64,7 +66,7 @@ def draw_times(draw_list: DrawList, skyline: Skyline, x: float, times: int) -> N
 
 def _low(draw_list: DrawList, skyline: Skyline, ends_x: tuple[float, float], text: str, style: TypeStyle) -> None:
     """A line of text as low as it goes."""
-    y = min(_LOWEST, skyline.top_over(*ends_x) - _AIR)
+    y = min(_LOWEST, skyline.top_over(ends_x[0] - _AIR, ends_x[1] + _AIR) - _AIR)
     draw_list.text(text, (ends_x[1] if style.align else ends_x[0], y), style)
     skyline.add(ends_x[0], ends_x[1], y - _CAPITAL * style.size, y)
 
