@@ -7,6 +7,7 @@ by `rsvg-convert` (librsvg), which must be installed. The pictures lie beside th
 
 import re
 import subprocess
+import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -71,7 +72,7 @@ def main() -> None:
         subprocess.run(
             ["rsvg-convert", f"--zoom={_ZOOM}", "-b", "white", "-o", str(path)], input=svg.encode(), check=True
         )
-        print(path.name, excerpt.lesson, excerpt.shows)
+        sys.stdout.write(f"{path.name}: {excerpt.shows}\n")
 
 
 def beside(excerpt: Excerpt) -> str:

@@ -21,6 +21,12 @@ _SHARED = Path(__file__).parents[3].parent / "shared" / "data" / "charts" / "mus
 _NUMBERS = {"kick": 36, "snare": 38, "stick": 37, "hat": 42, "open": 46, "foot": 44, "crash": 49, "ride": 51}
 
 
+_PITCHED = (
+    b"<score-partwise><part id='P'><measure><note><pitch><step>C</step><octave>4</octave></pitch><duration>1</duration>"
+    b"</note></measure></part></score-partwise>"
+)
+
+
 def _score(
     *measures: str, names: str = "", head: str = "", time: str = "<beats>4</beats><beat-type>4</beat-type>"
 ) -> bytes:
@@ -47,7 +53,8 @@ def _score(
 def _note(name: str, duration: int, more: str = "", kind: str = "quarter", before: str = "", voice: int = 1) -> str:
     return (
         f"<note>{before}<unpitched><display-step>C</display-step><display-octave>5</display-octave></unpitched>"
-        f'<duration>{duration}</duration><instrument id="{name}"/><voice>{voice}</voice><type>{kind}</type>{more}</note>'
+        f'<duration>{duration}</duration><instrument id="{name}"/><voice>{voice}</voice><type>{kind}</type>{more}'
+        "</note>"
     )
 
 
@@ -235,8 +242,8 @@ def test_timewise_is_the_same_music() -> None:
 
 def test_compressed_files() -> None:
     container = (
-        '<container><rootfiles><rootfile full-path="score.xml"/><rootfile full-path="s.pdf" media-type="application/pdf"'
-        "/></rootfiles></container>"
+        '<container><rootfiles><rootfile full-path="score.xml"/><rootfile full-path="s.pdf"'
+        ' media-type="application/pdf"/></rootfiles></container>'
     )
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w") as archive:
@@ -247,10 +254,9 @@ def test_compressed_files() -> None:
 
 
 def test_notes_without_instruments_are_known_by_their_line() -> None:
-    part = _read(
-        _note("unknown", 24).replace("<display-step>C</display-step><display-octave>5", "<display-step>F</display-step><display-octave>4")
-        + _note("unknown", 24, "<notehead>x</notehead>").replace("<display-step>C", "<display-step>G")
-    )  # fmt: skip
+    low = _note("unknown", 24).replace(">C</display-step><display-octave>5", ">F</display-step><display-octave>4")
+    cross = _note("unknown", 24, "<notehead>x</notehead>").replace("<display-step>C", "<display-step>G")
+    part = _read(low + cross)
     assert _struck(part) == [(0, Piece.KICK), (2, Piece.HIHAT)]
 
 
@@ -258,15 +264,14 @@ def test_notes_without_instruments_are_known_by_their_line() -> None:
     ("data", "place", "fault"),
     [
         (b"<html/>", "line 1", "score-partwise"),
-        (_score("<attributes><time><senza-misura/></time></attributes>" + _rest(48) + _note("kick", 4)), "bar 1", "meter"),
+        (_score("<attributes><time><senza-misura/></time></attributes>" + _note("kick", 48)), "bar 1", "meter"),
         (_score(_note("kick", 48)).replace(b"<duration>48", b"<duration>1e9"), "bar 1", "duration"),
         (_score(_note("kick", 48)).replace(b"<divisions>12", b"<divisions>0"), "bar 1", "divisions"),
         (_score(_note("kick", 48)).replace(b"<beats>4", b"<beats>0"), "bar 1", "beats"),
         (_score(_note("kick", 48)).replace(b"<duration>48", b"<duration>999999999"), "bar 1", "longer"),
         (_score(), "", "no part"),
         (_score(_rest(48)).replace(b"percussion", b"G"), "", "no drums"),
-        (b"<score-partwise><part id='P'><measure><note><pitch><step>C</step></pitch></note></measure></part></score-partwise>",
-         "", "pitched"),
+        (_PITCHED, "", "pitched"),
         (b"PK\x03\x04 no zip", "", "zip"),
     ],
 )  # fmt: skip
