@@ -24,17 +24,19 @@ def differences(before: DrumPart, after: DrumPart, features: Collection[Feature]
     """What of `features` came back otherwise, a line each; empty if all came back.
 
     Strokes are told apart as main strokes and grace strokes. Where neither flams nor drags are asked for, strokes of
-    `after` that sound where grace strokes of `before` do are those, and not looked at. Where times are not asked for,
-    strokes are paired piece by piece in their order.
+    `after` that sound where grace strokes of `before` do are those, and not looked at; a format without tempo has none.
+    Where times are not asked for, strokes are paired piece by piece in their order.
     """
     found = [f"{feature.value}: {fault}" for feature in Feature if feature in features and feature in _OF_PART
              if (fault := _OF_PART[feature](before, after))]  # fmt: skip
     by_time = Feature.TIMES in features
     ours, theirs = _main(before.score.notes, by_time), _main(after.score.notes, by_time)
-    if not {Feature.FLAMS, Feature.DRAGS} & set(features):
+    if Feature.TEMPO in features and not {Feature.FLAMS, Feature.DRAGS} & set(features):
         theirs = _without_graces_of(before, after, theirs)
-    if len(ours) != len(theirs):
-        return [*found, f"{Feature.TIMES.value}: {len(ours)} strokes became {len(theirs)}"]
+    if len(ours) != len(theirs):  # strokes that the writer left out are told as lost times
+        return [*found, f"{Feature.TIMES.value}: {len(ours)} strokes became {len(theirs)}"] * (
+            Feature.TIMES in features
+        )
     for feature, same in _OF_STROKES.items():
         if feature in features and not (equal := same(ours, theirs)).all():
             found.append(f"{feature.value}: {_first(before, ours, theirs, ~equal)}")

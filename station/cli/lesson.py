@@ -1,6 +1,6 @@
 """`station lesson`: list, show, check, write, import and export lessons."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from station.cli import lesson_list
@@ -22,6 +22,7 @@ from station.cli.options.option_fields import (
 from station.core.errors import BadInput
 from station.core.files import write_whole
 from station.music.formats.format_table import endings, writer_for
+from station.music.formats.groovescribe.groove_formats import is_groove_url
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,15 +56,16 @@ class NewOptions:
 class ImportOptions:
     """Of what a lesson is made, and where it is written."""
 
-    source: str = argument("SOURCE", "a MIDI file, or a take", str)
+    source: str = argument("SOURCE", "a music file, a take, or the link of a GrooveScribe groove", str)
     out: Path = required("FILE", "the file to write", Path)
     overwrite: bool = flag("write FILE even if there is one already")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ExportOptions(LessonOptions):
-    """Where a lesson is written."""
+class ExportOptions:
+    """What is written, and where."""
 
+    score: str = argument("SCORE", "a lesson, a music file or a take (.capture)", str)
     out: Path = required("FILE", "the file to write", Path)
 
 
@@ -129,23 +131,19 @@ def _check_free(out: Path, overwrite: bool) -> None:
 
 
 def _import(options: ImportOptions) -> int:
-    from station.drills.quantise import lesson_of, quantise_score
-    from station.drills.writing.lesson_writer import write_lesson
+    from station.drills.transcription.transcribe import transcribe
 
     if is_lesson(options.source):
-        raise BadInput(options.source, "", f"expected a music file ({endings()}) or a take (.capture)")
+        raise BadInput(options.source, "", f"expected a music file ({endings()}), a take (.capture) or a groove's link")
     out = options.out
     _check_free(out, options.overwrite)
-    source = existing(options.source)
-    part = load_part(str(source))
-    if not len(part.score):
-        raise BadInput(source, "", "there is no drum note in it")
-    fitted = quantise_score(part.score)
-    lesson = lesson_of(fitted.score, out.stem, part.score.title or source.stem, fitted.velocities)
-    write_whole(out, write_lesson(lesson).encode())
-    if fitted.moved or fitted.left_out:
-        moved = f"{_counted(fitted.moved, 'stroke')} moved onto the grid, by at most {fitted.furthest_ms:.0f} ms"
-        say(f"{moved}; {fitted.left_out} left out that two hands and two feet cannot play")
+    stem = out.stem if is_groove_url(options.source) else existing(options.source).stem
+    part = load_part(options.source)
+    titled = replace(part, score=replace(part.score, title=part.score.title or stem))
+    found = transcribe(titled, out.stem, options.source)
+    write_whole(out, found.lesson.text.encode())
+    for remark in found.remarks:
+        say(remark)
     for line in part.lost:
         say(f"lost     {line}")
     say(f"lesson   {out}")
@@ -153,12 +151,9 @@ def _import(options: ImportOptions) -> int:
 
 
 def _export(options: ExportOptions) -> int:
-    from station.cli.input.find_own_lesson import find_any_lesson
-    from station.drills.writing.lesson_part import part_of
-
     known = writer_for(options.out)
     assert known.write is not None, "writer_for finds those that write"
-    written = known.write(part_of(find_any_lesson(options.lesson)))
+    written = known.write(load_part(options.score))
     write_whole(options.out, written.data)
     for loss in written.lost:
         say(f"lost     {loss.text}")
@@ -182,6 +177,6 @@ COMMAND = Verbs(
         ("new", "a lesson to start from, or a drill of a family", Command(NewOptions, _new)),
         ("schema", "print the JSON Schema of lessons, for editors", Command(NoOptions, _schema)),
         ("import", "write a lesson from a music file or a take", Command(ImportOptions, _import)),
-        ("export", "write a lesson as a music file", Command(ExportOptions, _export)),
+        ("export", "write a lesson, a take or another music file as a music file", Command(ExportOptions, _export)),
     )
 )

@@ -12,3 +12,8 @@ def utf8_text(data: bytes, source: str | Path, expected: str) -> str:
     except UnicodeDecodeError as fault:
         line = data[: fault.start].count(b"\n") + 1
         raise BadInput(source, f"line {line}", f"not UTF-8 text; expected {expected}, saved as UTF-8") from fault
+
+
+def one_line(words: str) -> str:
+    """`words` in one line without control characters, as a title is shown."""
+    return " ".join("".join(c if c.isprintable() else " " for c in words).split())

@@ -2,6 +2,7 @@
 
 In: TOML files of teachers, or scores to make lessons of. Out: `Lesson` and `Course` values, and files written back.
 `lesson` is the value, `grid` and `reading` read it, `writing` gives its text back, `families` makes drills by seed,
-`quantise` brings a take onto the grid, `library` finds what ships and what is the user's own, `difficulty` measures.
+`transcription` makes lessons of takes and imports, `library` finds what ships and what is the user's own, `difficulty`
+measures.
 Read `lesson` first.
 """

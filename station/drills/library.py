@@ -18,6 +18,7 @@ from station.drills.lesson import Lesson
 from station.drills.lesson_row import LessonRow, rows_below
 from station.drills.reading.lesson_file import read_lesson
 from station.drills.rudiments import find_rudiment
+from station.music.formats.format_table import is_music_file
 
 FIRST_LESSON = "rock-1"
 """What a newcomer meets first."""
@@ -39,7 +40,6 @@ __all__ = [
 ]
 
 _ENDING = ".toml"
-_MIDI_ENDINGS = (".mid", ".midi")
 _NAMES_SHOWN = 5
 
 
@@ -131,7 +131,7 @@ def own_lessons(courses: Iterable[Course], shipped: Collection[str]) -> dict[str
 
 def _is_path(path: Path) -> bool:
     """Whether it is written as a file, there or not, rather than as a name."""
-    return len(path.parts) > 1 or path.suffix.lower() in (_ENDING, *_MIDI_ENDINGS)
+    return len(path.parts) > 1 or path.suffix.lower() == _ENDING or is_music_file(path.name)
 
 
 def _is_file(path: Path) -> bool:

@@ -184,6 +184,16 @@ def _swing_span(within: set[int]) -> int | None:
     return None
 
 
+def diddle_pairs(score: Score) -> list[tuple[int, int]]:
+    """First and second row of each diddle and of each cell of an open roll: they pair up in order, piece by piece."""
+    notes, pairs = score.notes, list[tuple[int, int]]()
+    two = ~score.is_grace & np.isin(notes["ornament"], _OF_TWO) & (notes["articulation"] != Articulation.BUZZ)
+    for piece in np.unique(notes["piece"][two]):
+        rows = np.flatnonzero(two & (notes["piece"] == piece)).tolist()
+        pairs += zip(rows[::2], rows[1::2], strict=False)
+    return pairs
+
+
 def second_of_doubles(score: Score) -> Flags:
     """Second strokes of doubles, by what is written: diddles and open rolls, and what the sticking makes doubles.
 
@@ -191,9 +201,7 @@ def second_of_doubles(score: Score) -> Flags:
     quick strokes of one hand, alone in their slots, beside a stroke of the other.
     """
     notes, flags = score.notes, np.zeros(len(score), bool)
-    two = ~score.is_grace & np.isin(notes["ornament"], _OF_TWO) & (notes["articulation"] != Articulation.BUZZ)
-    for piece in np.unique(notes["piece"][two]):
-        flags[np.flatnonzero(two & (notes["piece"] == piece))[1::2]] = True
+    flags[[second for _, second in diddle_pairs(score)]] = True
     hands = ~score.is_grace & np.isin(notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND))
     rows = np.flatnonzero(hands)
     at_ns = score.onset_ns[rows]

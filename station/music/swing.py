@@ -6,11 +6,14 @@ r = 2 is the triplet feel, 3 the dotted eighth, 1 straight. Pairs begin with the
 each group.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 
+import numpy as np
+
 from station.core.units import PPQ
+from station.music.score import Score
 from station.music.tempo import MeterChange
 
 STRAIGHT, TRIPLETS = 1.0, 2.0
@@ -46,12 +49,28 @@ class Swing:
 
     @property
     def stands_in_words(self) -> bool:
-        """Whether notation writes it as a word over straight cells.
+        """Whether notation writes it as a mark over straight cells: any swing (but see `triplets_spelled_out`)."""
+        return self.ratio != STRAIGHT
 
-        Triplets say a ratio of 2 exactly, and in such a lesson some are triplets indeed. No other ratio can be written
-        in notes that anyone reads.
-        """
-        return self.ratio not in (STRAIGHT, TRIPLETS)
+
+def triplets_spelled_out(score: Score) -> Score:
+    """The score with its swing written in triplets in the bars that have triplets of their own besides.
+
+    There a mark over straight cells would write strokes apart that sound at once. Only a ratio of 2 is a triplet.
+    """
+    notes = score.notes
+    within = notes["tick"] - np.array([score.tempo_map.bar_start(bar) for bar in range(score.bar_count)])[score.bar]
+    is_swung, is_sixth = notes["swing_ticks"] > 0, within % (PPQ // 6) == 0
+    spelled = is_swung & False
+    for bar in np.unique(score.bar[is_sixth & ~is_swung & (within % (PPQ // 2) != 0)]):
+        inside = (score.bar == bar) & is_swung
+        spelled |= inside & is_sixth[inside].all()
+    if not spelled.any():
+        return score
+    rows = notes.copy()
+    rows["swing_ticks"][spelled] = 0
+    rows.setflags(write=False)
+    return replace(score, notes=rows)
 
 
 @lru_cache

@@ -6,6 +6,7 @@ Tempo is kept as MIDI keeps it, in whole microseconds a quarter note, so that a 
 longer than a nanosecond at any legal tempo, ticks -> ns -> ticks is the identity.
 """
 
+from bisect import bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -82,6 +83,12 @@ class MeterChange:
         groups = self.felt_groups if self.unit >= 8 else (1,) * self.beats
         ends = [end * self.beat_ticks for end in accumulate(groups)]
         return tuple(zip([0, *ends[:-1]], ends, strict=True))
+
+    @property
+    def usual_beat_ticks(self) -> int:
+        """The beat that is counted where nobody says: a dotted quarter in 6/8 and its like, else a quarter."""
+        is_compound = self.unit == 8 and not self.groups and len(self.felt_groups) < self.beats
+        return 3 * self.beat_ticks if is_compound else PPQ
 
     def __str__(self) -> str:
         beats = "+".join(map(str, self.groups)) or str(self.beats)
@@ -194,6 +201,11 @@ class TempoMap:
         i = max(int(np.searchsorted(starts, tick, side="right")) - 1, 0)
         return _US_PER_MINUTE / int(rates[i])
 
+    def us_per_quarter_at(self, tick: int) -> int:
+        """Microseconds a quarter note at `tick`."""
+        starts, rates, _, _ = self._segments
+        return int(rates[max(int(np.searchsorted(starts, tick, side="right")) - 1, 0)])
+
     def scaled(self, factor: float) -> "TempoMap":
         """The same music played `factor` times as fast."""
         return TempoMap(
@@ -211,22 +223,28 @@ class TempoMap:
             bars.append(bars[-1] + -(-(after.tick - before.tick) // before.bar_ticks))
         return tuple(bars)
 
+    @cached_property
+    def _meter_columns(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+        """Start tick, length of a bar, and first bar of every meter."""
+        starts = np.array([m.tick for m in self.meters], np.int64)
+        lengths = np.array([m.bar_ticks for m in self.meters], np.int64)
+        return starts, lengths, np.array(self._meter_bars, np.int64)
+
     def meter_at(self, tick: int) -> MeterChange:
         """The meter in force at `tick`."""
-        return self.meters[max(sum(m.tick <= tick for m in self.meters) - 1, 0)]
+        return self.meters[max(bisect_right(self.meters, tick, key=_tick) - 1, 0)]
 
     def bar_start(self, bar: int) -> int:
         """First tick of bar `bar` (from 0)."""
-        i = max(sum(first <= bar for first in self._meter_bars) - 1, 0)
+        i = max(bisect_right(self._meter_bars, bar) - 1, 0)
         return self.meters[i].tick + (bar - self._meter_bars[i]) * self.meters[i].bar_ticks
 
     def bars_at(self, ticks: ArrayLike) -> NDArray[np.int64]:
         """Index of the bar that holds each tick."""
         t = np.asarray(ticks, np.int64)
-        starts = np.array([m.tick for m in self.meters], np.int64)
+        starts, lengths, first_bars = self._meter_columns
         i = np.maximum(np.searchsorted(starts, t, side="right") - 1, 0)
-        lengths = np.array([m.bar_ticks for m in self.meters], np.int64)
-        bars: NDArray[np.int64] = np.array(self._meter_bars, np.int64)[i] + (t - starts[i]) // lengths[i]
+        bars: NDArray[np.int64] = first_bars[i] + (t - starts[i]) // lengths[i]
         return bars
 
     def position_at(self, tick: int) -> BarPosition:
@@ -248,7 +266,7 @@ class TempoMap:
 
     def section(self, start: int, end: int) -> "TempoMap":
         """The map of [start, end) moved to tick 0."""
-        tempos = [TempoChange(0, self._rate_at(start))] + [
+        tempos = [TempoChange(0, self.us_per_quarter_at(start))] + [
             TempoChange(t.tick - start, t.us_per_quarter) for t in self.tempos if start < t.tick < end
         ]
         at_start = self.meter_at(start)
@@ -256,10 +274,6 @@ class TempoMap:
             replace(m, tick=m.tick - start) for m in self.meters if start < m.tick < end
         ]
         return TempoMap.build(tempos, meters)
-
-    def _rate_at(self, tick: int) -> int:
-        starts, rates, _, _ = self._segments
-        return int(rates[max(int(np.searchsorted(starts, tick, side="right")) - 1, 0)])
 
 
 def _tick(change: TempoChange | MeterChange) -> int:

@@ -19,7 +19,6 @@ from station.render.gpu.edge_smoothing import EdgeSmoother
 from station.render.gpu.gl import RenderTarget, give_back
 from station.render.gpu.moving_parts import DoublePlace, frames_of
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
-from station.render.notation.engraving import bottom_of
 from station.render.notation.score_view import ScoreForm, ScorePlace, ScoreView, shows_staff
 from station.render.palette import INK_FAINT, NIGHT, Theme, over_picture, themed
 from station.render.quality import QUALITIES, Quality
@@ -120,7 +119,7 @@ class Painter:
         left, low, width, height = area
         score_height = round(height * SCORE_SHARE) if with_score else 0
         scene_area = (left, low + score_height, width, height - score_height)
-        place = ScorePlace(0.0, float(scene_area[3]), float(width), float(score_height), bottom_of(snapshot.score))
+        place = ScorePlace(0.0, float(scene_area[3]), float(width), float(score_height), self._score.reach(snapshot))
         scene = self._scene_of(snapshot)
         camera = camera or named(NamedView.SHOULDER, stage_of(snapshot))
         frames = frames_of(snapshot, arrangement.double, self.theme)

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from station.core.units import PPQ
 from station.drills.lesson import Lesson, tidy_bpm
 from station.music.score import Score
-from station.music.swing import STRAIGHT, Swing
 from station.render.files.pdf_file import pdf
 from station.render.notation.sheet import PAPERS, SheetWords, sheet
 
@@ -23,7 +22,6 @@ def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
         author=lesson.author,
         beats_a_minute=round(beats, 1),
         beat_ticks=lesson.beat_ticks,
-        feel=_feel(lesson.swing_of_bar(first)) if lesson.swing_of_bar(first).ratio != STRAIGHT else "",
         about=" ".join(lesson.about.split()),
         sections=tuple(_sections(lesson, bars)),
         repeat=loop if first <= lesson.loop[0] and lesson.loop[1] <= last else None,
@@ -32,20 +30,11 @@ def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
 
 
 def _sections(lesson: Lesson, bars: Bars) -> Iterator[tuple[int, str]]:
-    """Where sections begin, by the sheet's bars, with their names and, where it changes there, their feel."""
+    """Where sections that have a name begin, by the sheet's bars."""
     first, last = bars
-    feel = _feel(lesson.swing_of_bar(first))
     for section in lesson.sections:
-        if first <= section.first_bar <= last:
-            before, feel = feel, _feel(section.swing)
-            changed = feel if feel != before else ""
-            name = "" if section.name and changed.startswith(section.name) else section.name  # "swing" says its name
-            if label := "   ".join(filter(None, (name, changed))):
-                yield section.first_bar - first, label
-
-
-def _feel(swing: Swing) -> str:
-    return "straight" if swing.ratio == STRAIGHT else f"swing {swing.ratio:.3g} : 1"
+        if first <= section.first_bar <= last and section.name:
+            yield section.first_bar - first, section.name
 
 
 def score_labels(score: Score, bars: Bars, name: str) -> SheetWords:
@@ -58,4 +47,4 @@ def score_labels(score: Score, bars: Bars, name: str) -> SheetWords:
 def pdf_of(score: Score, bars: Bars, words: SheetWords, paper: str, with_sticking: bool = True) -> bytes:
     """The sheet as a PDF file on `paper`, one of `PAPERS`."""
     size = PAPERS[paper]
-    return pdf(sheet(score.bars(*bars).as_written, words, size, with_sticking), size, words.title, words.author)
+    return pdf(sheet(score.bars(*bars), words, size, with_sticking), size, words.title, words.author)

@@ -3,7 +3,7 @@
 Frames are float32 of shape (n, 2), left and right, at the kit's sample rate; the stroke falls on frame 0. A layer's
 takes are recorded (or made) as loud as velocity 127 would be; `Sound.levels` then sets the level of every velocity, so
 that loudness rises smoothly while the timbre changes from layer to layer. Where a kit lacks a sound, the substitute of
-`station.sound.sound_names` plays, and the lookup never fails for a kit that has kick, snare and closed hi-hat.
+`station.core.sound_names` plays, and the lookup never fails for a kit that has kick, snare and closed hi-hat.
 """
 
 from collections.abc import Mapping
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.note_map import NoteMeaning
-from station.sound.sound_names import SUBSTITUTES, SoundName, choose_sound
+from station.core.sound_names import SUBSTITUTES, SoundName, choose_sound
 
 Frames = NDArray[np.float32]
 """Stereo sound: float32 of shape (n, 2), full scale ±1."""

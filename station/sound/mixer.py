@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece
+from station.core.sound_names import SoundName
 from station.sound.bus_levels import BusLevels, sides_of
 from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import MAX_VELOCITY, DrumKit, Frames, Sound, level_of
 from station.sound.limiter import soft_clip
-from station.sound.sound_names import SoundName
 from station.sound.track import Track, TrackPlayer
 from station.sound.voice import Voice
 

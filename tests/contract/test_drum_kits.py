@@ -8,12 +8,12 @@ import pytest
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
+from station.core.sound_names import SoundName
 from station.sound.buses import Bus
 from station.sound.click_sounds import click_sounds
 from station.sound.drum_kit import DrumKit, Frames
 from station.sound.mixer import Mixer
 from station.sound.samples.load_kit import read_kit
-from station.sound.sound_names import SoundName
 from station.sound.synth.synth_cache import cached_kit
 from tests.fakes.sound_files import instrument, kit_xml, layer, stroke, tar
 

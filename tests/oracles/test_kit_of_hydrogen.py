@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
+from station.core.sound_names import SoundName
 from station.sound.samples.hydrogen_kit import pieces_of
 from station.sound.samples.hydrogen_xml import parse_kit
 from station.sound.samples.load_kit import load_kit
-from station.sound.sound_names import SoundName
 from tests.fakes.sound_files import stroke
 from tests.oracles.folder import oracles
 

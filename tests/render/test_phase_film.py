@@ -7,6 +7,7 @@ import av
 import numpy as np
 import pytest
 
+from station.core.sound_names import SoundName
 from station.core.units import NS_PER_S
 from station.render.files.video_file import VideoFormat
 from station.render.flat_picture import flat_pictures
@@ -15,7 +16,6 @@ from station.scenes.phase_film import RING_S, cues_of, sound_of, write_phase_fil
 from station.scenes.phase_view import PAGE, WalkingScene, trace_of
 from station.scenes.soundtrack import Sounds, Soundtrack
 from station.sound.drum_kit import DrumKit, Layer, Sound
-from station.sound.sound_names import SoundName
 from station.sync.sonification.sonified import Sonified, sonified
 from station.sync.sonification.trigger_table import PRESETS
 from station.sync.walking.trial import Trial, gait_model

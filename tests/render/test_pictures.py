@@ -18,13 +18,14 @@ from station.motion.kinematics.figure import Joint, figure_of
 from station.motion.kinematics.pose import RIGHT, Pose
 from station.motion.kit.kit import load_kit
 from station.music.judgement import Label
-from station.music.score import Note
+from station.music.score import Note, Score
 from station.render.camera import Camera
 from station.render.framing import named
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.gpu.moving_parts import DoublePlace
-from station.render.notation.score_view import AFTER_S, BEFORE_S, ScoreForm, ScorePlace
+from station.render.notation.score_view import AFTER_S, BEFORE_S, ScoreForm, ScorePlace, lead_spaces
 from station.render.notation.staff import PLACES, height
+from station.render.notation.staff_rows import staff_rows
 from station.render.painter import SCORE_SHARE, Arrangement, Painter
 from station.render.palette import BRAND, MISSED, Theme
 from station.render.picture import PictureMaker, Shot, draw_png
@@ -33,6 +34,7 @@ from station.render.report.report_layout import page_for
 from station.render.report.report_picture import draw_report_png
 from station.render.report.result_facts import ResultWords, result_facts
 from station.render.snapshot import Hud, LimbParting, SeenStrike, Snapshot, StudentShown, TimingCue, no_marks
+from station.render.text.atlas import Atlas
 from tests.unit.render.scores import rock, score_of
 from tests.unit.render.test_png_file import decode
 
@@ -245,7 +247,7 @@ def test_what_is_kept_follows_the_colours_and_the_form_of_the_score() -> None:
     assert np.median(day[..., 0]) == pytest.approx(0xF6, abs=2)
     assert np.median(night[..., 0]) < 0x20
     assert np.array_equal(night, again)
-    place = ScorePlace(0.0, 0.0, float(SIZE[0]), float(SIZE[1] - SCORE_TOP))
+    place = ScorePlace(0.0, 0.0, float(SIZE[0]), float(SIZE[1] - SCORE_TOP), staff_rows(SCORE).reach)
     line = round(place.middle_line) - 2
     between = np.s_[line - 1 : line + 2, 8:20]  # left of the clef
     assert night[between].max() > highway[between].max() + 30
@@ -253,8 +255,13 @@ def test_what_is_kept_follows_the_colours_and_the_form_of_the_score() -> None:
 
 # --- the score --------------------------------------------------------------------------------------------------------
 
-PLACE = ScorePlace(0, SCORE_TOP, SIZE[0], SIZE[1] - SCORE_TOP)
-CLEF = 7.0 * PLACE.space
+
+def place_of(score: Score) -> ScorePlace:
+    return ScorePlace(0, SCORE_TOP, SIZE[0], SIZE[1] - SCORE_TOP, staff_rows(score).reach)
+
+
+PLACE = place_of(SCORE)
+CLEF = lead_spaces(SCORE, Atlas()) * PLACE.space
 PER_S = (SIZE[0] - CLEF) / (BEFORE_S + AFTER_S)
 LINE_X = CLEF + BEFORE_S * PER_S
 
@@ -275,9 +282,12 @@ def test_the_play_line_stands_in_the_middle_of_the_music(draw: Draw) -> None:
 def test_a_note_is_at_the_play_line_when_it_is_due(draw: Draw, position_s: float) -> None:
     """The kick of beat one, the snare of two: a bright head at the line, and none a little earlier."""
     score = score_of(Note(0, Piece.SNARE), Note(107520, Piece.SNARE), Note(2 * 107520, Piece.SNARE))
-    row = round(PLACE.middle_line + height(PLACES[Piece.SNARE].step) * PLACE.space)
+    place = place_of(score)
+    row = round(place.middle_line + height(PLACES[Piece.SNARE].step) * place.space)
     snapshot = Snapshot(score, position_s, KIT, FIGURE)
-    beside = round(LINE_X + 0.5 * PLACE.space)  # the head's right half, clear of the line itself
+    clef = lead_spaces(score, Atlas()) * place.space
+    line_x = clef + BEFORE_S * (SIZE[0] - clef) / (BEFORE_S + AFTER_S)
+    beside = round(line_x + 0.4 * place.space)  # the head's right half, clear of the line itself
     assert draw(snapshot)[row, beside].min() > 170
     assert draw(replace(snapshot, position_s=position_s - 0.2))[row, beside].min() < 170
 

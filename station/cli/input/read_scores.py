@@ -11,6 +11,7 @@ from station.core.counts import is_count
 from station.core.errors import BadInput
 from station.music.drum_part import DrumPart
 from station.music.formats.format_table import is_music_file, read_part
+from station.music.formats.groovescribe.groove_formats import is_groove_url, read_url
 from station.music.formats.smf.midi_part import MIDI
 from station.music.performance import Performance
 from station.music.score import Score
@@ -30,8 +31,8 @@ def is_midi(name: str) -> bool:
 
 
 def is_lesson(name: str) -> bool:
-    """Whether `name` means a lesson, and not music in another file."""
-    return not is_music_file(name) and not is_capture(name)
+    """Whether `name` means a lesson, and not music in another file or in a link."""
+    return not is_music_file(name) and not is_capture(name) and not is_groove_url(name)
 
 
 def existing(name: str) -> Path:
@@ -43,7 +44,9 @@ def existing(name: str) -> Path:
 
 
 def load_part(name: str) -> DrumPart:
-    """The part that `name` means: a music file or a take by its ending, else a lesson by name or path."""
+    """The part that `name` means: a groove's link, a music file or a take by its ending, else a lesson."""
+    if is_groove_url(name):
+        return read_url(name)
     if is_capture(name):
         from station.cli.input.read_takes import take_as_score
 

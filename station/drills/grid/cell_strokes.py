@@ -18,7 +18,17 @@ from station.core.pieces import CYMBALS, Articulation, Dynamic, Limb, Ornament, 
 from station.core.toml_places import KeyPath
 from station.drills.grid.grid import Bar
 from station.drills.grid.stroke_settings import StrokeSettings
-from station.drills.grid.tab_symbols import CHOKE, HOLD, RESTS, SYMBOLS, TabSymbol, family_of, not_a_letter
+from station.drills.grid.tab_symbols import (
+    BEYOND,
+    BEYOND_SYMBOLS,
+    CHOKE,
+    HOLD,
+    RESTS,
+    SYMBOLS,
+    TabSymbol,
+    family_of,
+    not_a_letter,
+)
 from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY, OTHER_HAND
 from station.music.score import NOTE_DTYPE
 from station.music.swing import STRAIGHT, Swing
@@ -39,7 +49,7 @@ class Origin:
 class CellPlace:
     """A moment of the music in ticks: its cell, `straight`, and where it is `played`, swing and all.
 
-    `swing_ticks` is how much later it is played than notation writes it (`Swing.stands_in_words`).
+    `swing_ticks` is how much later it is played than notation writes it: straight under a mark, whatever the ratio.
     """
 
     straight: int
@@ -64,7 +74,7 @@ class BarClock:
             return CellPlace(tick, tick)
         bar = self.bars[bisect_right(self.bars, tick, key=lambda b: b.tick) - 1]
         played = bar.tick + self.swing.swung(tick - bar.tick, bar)
-        return CellPlace(tick, played, played - tick if self.swing.stands_in_words else 0)
+        return CellPlace(tick, played, played - tick)
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +137,8 @@ def line_strokes(
     bars: Iterable[tuple[int, Bar]], line: "GridLine", clock: BarClock, report: Callable[[int, str], None]
 ) -> list[WrittenCell]:
     """The strokes of one line, its bars each with the tick of its start; faults go to `report`."""
-    symbols = SYMBOLS[family_of(line.piece)]
+    family = family_of(line.piece)
+    symbols = {**SYMBOLS[family], BEYOND: BEYOND_SYMBOLS[family]}
     strokes: list[WrittenCell] = []
     open_end: CellPlace | None = None  # where a buzz that may go on has come to
     is_known = True  # what the line struck last; not after a faulty bar
@@ -155,7 +166,7 @@ def line_strokes(
                 )
                 is_known = True
             else:
-                report(cell.char, not_a_letter(cell.letter, family_of(line.piece)))
+                report(cell.char, not_a_letter(cell.letter, family))
                 is_known = False
         if not bar.sound:
             open_end, is_known = None, False
@@ -198,6 +209,14 @@ def _choke(
         report(char, f"{CHOKE} grabs the cymbal that this line struck before, and there is no stroke that still rings")
     else:
         strokes[-1] = replace(strokes[-1], until=here)
+
+
+def parted(strokes: Iterable[WrittenCell]) -> tuple[list[WrittenCell], list[WrittenCell]]:
+    """The strokes that are asked of the player, and those beyond them."""
+    found: tuple[list[WrittenCell], list[WrittenCell]] = ([], [])
+    for stroke in strokes:
+        found[stroke.letter.is_beyond].append(stroke)
+    return found
 
 
 # --- all lines of a section ------------------------------------------------------------------------------------------

@@ -60,8 +60,8 @@ class LineText:
     bars: list[str]
 
 
-def write_lines(lines: list[LineText], bar_count: int, setting: GridSetting) -> None:
-    """Fill `bars` of every line; `line_layout` sets the blanks.
+def write_lines(lines: list[LineText], bar_count: int, setting: GridSetting, first_bar: int = 0) -> None:
+    """Fill `bars` of every line; `line_layout` sets the blanks. `first_bar` of the music is the lines' first.
 
     Raises `BadInput` where a bar's strokes lie on no cell of any skeleton.
     """
@@ -71,7 +71,8 @@ def write_lines(lines: list[LineText], bar_count: int, setting: GridSetting) -> 
         for line, marks in zip(lines, needed, strict=True):
             skeleton = common or _skeleton(marks, setting, max(TUPLET_CELLS))
             if not skeleton:
-                raise BadInput(line.name, f"bar {bar + 1}", "strokes lie between the cells that the grid can write")
+                place = f"bar {first_bar + bar + 1}"
+                raise BadInput(line.name, place, "strokes lie between the cells that the grid can write")
             line.bars.append(_filled(skeleton, marks, setting))
 
 

@@ -15,10 +15,10 @@ from station.drills.grid.grid_lines import LINES, RawLine, lines_of_table, plain
 from station.drills.grid.grid_timing import GridTiming
 from station.drills.grid.line_group import joined_strokes, parsed
 from station.drills.grid.sticking_line import STICKING
-from station.drills.grid.tab_symbols import CHOKE, HOLD, RESTS, SYMBOLS, family_of
+from station.drills.grid.tab_symbols import BEYOND, CHOKE, HOLD, RESTS, SYMBOLS, family_of
 from station.music.tempo import MeterChange
 
-_NOTHING_STRUCK = RESTS + HOLD + CHOKE + "%()|"
+_NOTHING_STRUCK = RESTS + HOLD + CHOKE + BEYOND + "%()|"
 _BEAT = MeterChange(0, 1, 4)
 """A buzz on the landing lasts a quarter."""
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from station.core.toml_faults import Faults, wrong
-from station.drills.grid.cell_strokes import BarClock, WrittenCell, line_strokes
+from station.drills.grid.cell_strokes import BarClock, WrittenCell, line_strokes, parted
 from station.drills.grid.grid import Bar, GridFrame, Report, parse_line
 from station.drills.grid.grid_lines import RawLine
 from station.drills.grid.sticking_line import apply_sticking
@@ -107,4 +107,5 @@ def joined_strokes(
         return strokes
     bars = range(len(starts))
     unsure = frozenset(bar for bar in bars if not are_all or any(line.is_unsure(bar) for line in lines))
-    return apply_sticking(zip(starts, under.bars, strict=False), strokes, under.reporter(faults), unsure)
+    asked, beyond = parted(strokes)
+    return [*beyond, *apply_sticking(zip(starts, under.bars, strict=False), asked, under.reporter(faults), unsure)]

@@ -8,12 +8,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Ornament, Piece, word
 from station.drills.grid.grid_writer import GridMark, LineText
 from station.drills.grid.sticking_line import BOTH, HANDS, RIGHT_FIRST, STICKING
-from station.drills.grid.tab_symbols import ALIASES, FOOT_OF, LETTER_OF, LINE_ORDER, TabSymbol, family_of
+from station.drills.grid.tab_symbols import ALIASES, BEYOND, FOOT_OF, LETTER_OF, LINE_ORDER, TabSymbol, family_of
 from station.music.grace_strokes import Graces
 from station.music.score import Note, Score
 
@@ -23,17 +24,20 @@ _SHORT_NAME = {piece: name for name, piece in ALIASES.items()}
 
 @dataclass(frozen=True, slots=True)
 class WrittenStroke:
-    """One letter to be: the note that it stands on, and the second stroke of a diddle."""
+    """One letter to be: the note that it stands on, and the second stroke of a diddle; or one beyond the player."""
 
     note: Note
     bar: int
     start: int  # tick of the bar
     second_tick: int | None = None
+    is_beyond: bool = False
 
     @property
     def letter(self) -> str:
         """The letter that plays it; raises `BadInput` if none does."""
         note = self.note
+        if self.is_beyond:
+            return BEYOND
         is_diddle = self.second_tick is not None
         ornament = Ornament.DIDDLE if is_diddle else note.ornament
         meaning = TabSymbol(note.zone, note.articulation, note.dynamic, note.openness, ornament)
@@ -58,10 +62,13 @@ class WrittenStroke:
         )
 
 
-def strokes_by_bar(score: Score) -> dict[int, list[WrittenStroke]]:
-    """The letters to be written for a score, by bar from 0."""
+def strokes_by_bar(score: Score, beyond: NDArray[np.void]) -> dict[int, list[WrittenStroke]]:
+    """The letters to be written for a score, and for what is `beyond` the player in it, by bar from 0."""
     by_bar: dict[int, list[WrittenStroke]] = {}
-    for stroke in _strokes(score):
+    more = Score.from_array(beyond, score.tempo_map, score.end_tick)
+    bars = zip(more, more.bar.tolist(), strict=True)
+    marks = [WrittenStroke(note, bar, score.tempo_map.bar_start(bar), is_beyond=True) for note, bar in bars]
+    for stroke in (*_strokes(score), *marks):
         by_bar.setdefault(stroke.bar, []).append(stroke)
     return by_bar
 
@@ -75,7 +82,7 @@ def lines_of(by_bar: Mapping[int, Sequence[WrittenStroke]], first_bar: int, last
     lines: dict[str, LineText] = {}
     sticking = LineText(STICKING, {}, [])
     for together in by_tick.values():
-        hands = [s for s in together if not _is_foot(s.note.limb) and s.note.piece not in FOOT_OF]
+        hands = [s for s in together if not (s.is_beyond or _is_foot(s.note.limb) or s.note.piece in FOOT_OF)]
         said = _sticking_letter(hands)
         bar = together[0].bar - first_bar
         if said:

@@ -6,6 +6,7 @@ from types import MappingProxyType
 
 from station.core.pieces import Dynamic, Piece
 from station.music.grace_strokes import Graces
+from station.music.stroke_velocities import USUAL_VELOCITIES
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +16,7 @@ class Velocities:
     The defaults are HUMANS' ranges: ghost 20–45, normal 60–95, accent 105–127.
     """
 
-    usual: tuple[int, int, int] = (32, 80, 116)
+    usual: tuple[int, int, int] = USUAL_VELOCITIES
     of_piece: Mapping[Piece, tuple[int, int, int]] = field(default_factory=lambda: MappingProxyType({}))
 
     def of(self, piece: Piece, dynamic: Dynamic) -> int:

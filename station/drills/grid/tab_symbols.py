@@ -6,7 +6,7 @@ drum, `x` cymbal, `O`/`X` accent, `g` ghost, `f` flam, `d` drag, `b` buzz, `#` c
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from types import MappingProxyType
 
@@ -17,17 +17,23 @@ HOLD = "~"
 """Goes on with the buzz roll before it."""
 CHOKE = "#"
 """Grabs the cymbal that the same line struck last."""
+BEYOND = "*"
+"""A stroke of the music that this player cannot make besides: written and kept, neither asked nor played."""
 
 
 @dataclass(frozen=True, slots=True)
 class TabSymbol:
-    """What one letter plays; `ornament` FLAM and DRAG add grace strokes, DIDDLE is two strokes, ROLL is a buzz."""
+    """What one letter plays; `ornament` FLAM and DRAG add grace strokes, DIDDLE is two strokes, ROLL is a buzz.
+
+    What `is_beyond` the player stands in the music only (`BEYOND`).
+    """
 
     zone: Zone
     articulation: Articulation = Articulation.NORMAL
     dynamic: Dynamic = Dynamic.NORMAL
     openness: float | None = None
     ornament: Ornament = Ornament.NONE
+    is_beyond: bool = False
 
 
 class TabFamily(Enum):
@@ -133,6 +139,11 @@ def family_of(piece: Piece) -> TabFamily:
     """The family whose letters `piece` is written with."""
     return _FAMILY.get(piece, TabFamily.SMALL)
 
+
+BEYOND_SYMBOLS: Mapping[TabFamily, TabSymbol] = MappingProxyType(
+    {family: replace(next(iter(table.values())), is_beyond=True) for family, table in SYMBOLS.items()}
+)
+"""What `BEYOND` stands for in a line: the family's first letter, a plain stroke."""
 
 LETTER_OF: Mapping[TabFamily, Mapping[TabSymbol, str]] = MappingProxyType(
     {family: {letter: char for char, letter in table.items()} for family, table in SYMBOLS.items()}

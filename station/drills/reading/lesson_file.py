@@ -22,7 +22,7 @@ from station.core.schema import Reader, checked_values, read, reading, row_of, w
 from station.core.toml_faults import Fault, Faults, Wrong, wrong
 from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ
-from station.drills.grid.cell_strokes import Origin, WrittenCell, expand
+from station.drills.grid.cell_strokes import Origin, WrittenCell, expand, parted
 from station.drills.grid.grid_reader import read_grid
 from station.drills.grid.grid_timing import GridTiming, timing_of
 from station.drills.grid.landing import read_landing
@@ -43,8 +43,11 @@ from station.drills.reading.played_grids import (
     tempos_of,
 )
 from station.drills.reading.unplayable import note_unplayable
+from station.music.formats.format_table import is_music_file
+from station.music.formats.text_score import TEXT_ENDING
 from station.music.loudness_marks import joined_marks
 from station.music.score import NOTE_DTYPE, Score
+from station.music.swing import triplets_spelled_out
 from station.music.tempo import TempoMap
 
 LANDING = "landing"
@@ -72,9 +75,10 @@ def read_lesson(path: Path) -> Lesson:
 def lesson_source(path: Path) -> Source:
     """The lesson file at `path`; raises `BadInput` if it cannot be read or is too long."""
     data = read_regular(path, MAX_FILE_BYTES)
-    if data.startswith(_MIDI):
+    is_music = is_music_file(path.name) and path.suffix.lower() != TEXT_ENDING  # a lesson may be a text
+    if is_music or data.startswith(_MIDI):
         way = f"`station lesson import {path} --out {path.stem}.toml`"
-        raise BadInput(path, "", f"a MIDI file, not a lesson; {way} makes a lesson of it")
+        raise BadInput(path, "", f"a music file, not a lesson; {way} makes a lesson of it")
     return source_of(data, str(path))
 
 
@@ -108,7 +112,8 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     nothing: list[PlayedGrid] = []
     played = faults.attempt(lambda _: laid_out(order, grids), grids, nothing) if grids else nothing
     are_sure = timing.is_sure and len(faults) == before  # else there may be more bars than could be read
-    score, origins = _score(played, written, faults)
+    asked, beyond = parted(stroke for each in played for stroke in each.strokes)
+    score, origins = _score(asked, played, written, faults)
     landing, landing_origins = _landing(values[LANDING], timing, faults)
     lesson = Lesson(
         name=name,
@@ -120,6 +125,7 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
         velocities=timing.velocities,
         cues=faults.attempt(lambda _: cues_of(played), None, ()),
         landing=landing,
+        beyond=Score.from_array(expand(beyond)[0], score.tempo_map).notes,
         **{key: values[key] for key in AS_THEY_ARE},
     )
     lesson = replace(lesson, goals=_goals(values["goals"], lesson, faults))
@@ -174,14 +180,20 @@ def _read_grids(written: Sequence[WrittenGrid], timing: GridTiming, faults: Faul
         grids.append(ReadGrid(each, section, cues))
         bars, strokes = bars + section.bar_count * section.times, strokes + sum(map(len, section.parts))
         check_size(bars, strokes, each)
-    if grids and not any(any(grid.section.parts) for grid in grids) and not faults:
+    if grids and not any(_asks(grid) for grid in grids) and not faults:
         faults.miss(("grid",), "has nothing to play: every cell is a rest")
     return grids
 
 
-def _score(played: Sequence[PlayedGrid], written: Sequence[WrittenGrid], faults: Faults) -> tuple[Score, list[Origin]]:
-    """The score of all that is played, and the letter of the file that wrote each of its rows."""
-    strokes: list[WrittenCell] = [stroke for each in played for stroke in each.strokes]
+def _asks(grid: ReadGrid) -> bool:
+    """Whether any stroke of the grid is the player's."""
+    return any(not stroke.letter.is_beyond for part in grid.section.parts for stroke in part)
+
+
+def _score(
+    strokes: Sequence[WrittenCell], played: Sequence[PlayedGrid], written: Sequence[WrittenGrid], faults: Faults
+) -> tuple[Score, list[Origin]]:
+    """The score of the strokes of all that is played, and the letter of the file that wrote each of its rows."""
     rows, origins = expand(strokes)
     order = np.lexsort((rows["piece"], -rows["lead_ms"], rows["tick"]))
     tempo_map = TempoMap.build(faults.attempt(lambda _: tempos_of(played), None, []), meters_of(played))
@@ -193,7 +205,8 @@ def _score(played: Sequence[PlayedGrid], written: Sequence[WrittenGrid], faults:
     }
     at_home = [Origin(homes[origin.path], origin.char) for origin in origins]
     loudness = joined_marks((s.start_tick, s.grid.section.loudness) for s in played)
-    return Score.from_array(rows[order], tempo_map, end, loudness=loudness), [at_home[i] for i in order]
+    score = Score.from_array(rows[order], tempo_map, end, loudness=loudness)
+    return triplets_spelled_out(score), [at_home[i] for i in order]
 
 
 def _grid_path(origin: Origin) -> tuple[str | int, ...]:

@@ -11,11 +11,12 @@ from station.core.errors import BadInput
 from station.core.pieces import word
 from station.core.toml_write import toml_text
 from station.core.units import PPQ
-from station.drills.grid.grid_writer import GridSetting, frame_of, with_repeats, write_lines
+from station.drills.grid.grid_writer import GridSetting, LineText, frame_of, with_repeats, write_lines
 from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines_of, strokes_by_bar
 from station.drills.grid.stroke_settings import Velocities
-from station.drills.lesson import Lesson, Section, tidy_bpm
+from station.drills.lesson import Lesson, tidy_bpm
 from station.drills.reading.lesson_file import parse_lesson
+from station.drills.writing.lesson_form import FormGrid, LessonForm, form_of
 from station.drills.writing.lesson_text import show
 from station.drills.writing.score_difference import score_difference
 from station.music.grace_strokes import Graces
@@ -25,31 +26,40 @@ from station.music.swing import Swing
 _DYNAMICS = ("ghost", "normal", "accent")
 
 
-def write_lesson(lesson: Lesson) -> str:
-    """The text of a lesson file that reads as `lesson`.
+def write_lesson(lesson: Lesson, form: LessonForm | None = None) -> str:
+    """The text of a lesson file that reads as `lesson`, its grids as `form` says, else one for each section.
 
     Raises `BadInput` for music that the grid cannot write (times between its cells, velocities beside the lesson's
-    dynamics, strokes without a letter): see `quantise.quantise_score`, which brings any score onto the grid.
+    dynamics, strokes without a letter): see `transcription.transcribe`, which makes a lesson of any part.
     """
-    parts = [_head(lesson), _dynamics(lesson.velocities), _graces(lesson.score), _grids(lesson)]
+    form = form or form_of(lesson)
+    parts = [_head(lesson, form), _dynamics(lesson.velocities), _graces(lesson.score), _grids(lesson, form)]
     text = "".join(f"{line}\n" for part in parts for line in part)
     read = parse_lesson(text, lesson.name, lesson.name)
     if read.lesson is None:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {read.faults[0].text}")
     difference = score_difference(lesson.score, read.lesson.score)
+    if not difference and lesson.beyond.tobytes() != read.lesson.beyond.tobytes():
+        difference = "what is beyond the player differs"
     if difference:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {difference}")
     return show(text)
 
 
-def _head(lesson: Lesson) -> list[str]:
-    """What an import can know: the title, tempo, meter, beat and swing, and the loop where it is not all."""
+def _head(lesson: Lesson, form: LessonForm) -> list[str]:
+    """What an import can know: what the file says of itself, tempo, meter, beat, swing, the form, and a loop."""
     lines = [f"title = {toml_text(lesson.title)}"]
+    lines += [f"author = {toml_text(lesson.author)}"] if lesson.author else []
+    lines += [f"level = {lesson.level}"] if lesson.level != 1 else []
+    lines += [f"tags = [{', '.join(map(toml_text, lesson.tags))}]"] if lesson.tags else []
+    lines += [f"about = {toml_text(lesson.about)}"] if lesson.about else []
     lines += [f"tempo_bpm = {number(lesson.beats_a_minute)}", f"meter = {toml_text(lesson.meter)}"]
     lines += [f"beat = {toml_text(note_length(lesson.beat_ticks))}"] if lesson.beat_ticks != PPQ else []
     lines += [f"swing_ratio = {number(lesson.swing.ratio)}"] if lesson.is_swung else []
     if lesson.swing.unit_ticks != Swing().unit_ticks:
         lines += [f"swing_unit = {toml_text(note_length(lesson.swing.unit_ticks))}"]
+    if not form.is_as_written:
+        lines += [f"form = {toml_text(', '.join(form.grids[i].name for i in form.order))}"]
     first, last = lesson.loop
     lines += [f"loop = [{first + 1}, {last + 1}]"] if lesson.loop != (0, lesson.score.bar_count - 1) else []
     return [*lines, ""]
@@ -76,40 +86,57 @@ def _three(values: tuple[int, int, int], usual: tuple[int, int, int]) -> list[st
     return [f"{key} = {v}" for key, v, u in zip(_DYNAMICS, values, usual, strict=True) if v != u]
 
 
-def _grids(lesson: Lesson) -> list[str]:
-    sections = lesson.sections or (Section("", 0, lesson.score.bar_count - 1),)
-    single = len(sections) == 1 and not sections[0].name
-    by_bar = strokes_by_bar(lesson.score)
+def _grids(lesson: Lesson, form: LessonForm) -> list[str]:
+    single = len(form.grids) == 1 and not form.grids[0].name
+    by_bar = strokes_by_bar(lesson.score, lesson.beyond)
     out: list[str] = []
-    for i, section in enumerate(sections):
+    for i, grid in enumerate(form.grids):
         out += ["[grid]" if single else "[[grid]]"]
-        out += [f"name = {toml_text(section.name)}"] if section.name else []
-        out += _changes(lesson, section) if i else []
-        out += [*_lines(lesson, section, by_bar), ""]
+        out += [f"name = {toml_text(grid.name)}"] if grid.name else []
+        out += [] if grid.like is None else [f"like = {toml_text(form.grids[grid.like].name)}"]
+        out += _changes(lesson, grid, form.grids[i - 1 if grid.like is None else grid.like]) if i else []
+        model = None if grid.like is None else form.grids[grid.like]
+        out += [f"times = {grid.times}"] if grid.times != (1 if model is None else model.times) else []
+        out += [*_lines(lesson, grid, model, by_bar), ""]
     return out[:-1]
 
 
-def _changes(lesson: Lesson, section: Section) -> list[str]:
-    """Meter and tempo where they differ from those before the section."""
+def _changes(lesson: Lesson, grid: FormGrid, before: FormGrid) -> list[str]:
+    """Meter and tempo where they differ from those of the grid that it goes on from."""
     tempo_map = lesson.score.tempo_map
-    start = tempo_map.bar_start(section.first_bar)
-    meter, before = tempo_map.meter_at(start), tempo_map.meter_at(start - 1)
-    lines = [f"meter = {toml_text(str(meter))}"] if str(meter) != str(before) else []
-    here = next((t for t in tempo_map.tempos if t.tick == start), None)
-    return lines + ([f"tempo_bpm = {number(tidy_bpm(here.us_per_quarter, lesson.beat_ticks))}"] if here else [])
+    start, earlier = tempo_map.bar_start(grid.first_bar), tempo_map.bar_start(before.first_bar)
+    meter = str(tempo_map.meter_at(start))
+    lines = [f"meter = {toml_text(meter)}"] if meter != str(tempo_map.meter_at(earlier)) else []
+    rate, old = tempo_map.us_per_quarter_at(start), tempo_map.us_per_quarter_at(earlier)
+    return lines + ([f"tempo_bpm = {number(tidy_bpm(rate, lesson.beat_ticks))}"] if rate != old else [])
 
 
-def _lines(lesson: Lesson, section: Section, by_bar: Mapping[int, Sequence[WrittenStroke]]) -> list[str]:
-    """The lines of one section."""
-    start = lesson.score.tempo_map.bar_start(section.first_bar)
+def _lines(
+    lesson: Lesson, grid: FormGrid, model: FormGrid | None, by_bar: Mapping[int, Sequence[WrittenStroke]]
+) -> list[str]:
+    """The lines of one grid; of a variation those that are not its model's."""
+    start = lesson.score.tempo_map.bar_start(grid.first_bar)
     setting = GridSetting(frame_of(lesson.score.tempo_map.meter_at(start), lesson.beat_ticks), lesson.swing)
-    lines = lines_of(by_bar, section.first_bar, section.last_bar)
-    count = section.last_bar - section.first_bar + 1
-    if not lines:
-        return [f'snare = "{"| -" * count} |"']
-    write_lines(lines, count, setting)
-    new = [True] + [any(line.bars[i] != line.bars[i - 1] for line in lines) for i in range(1, count)]
-    return [f'{line.name} = "{with_repeats(line.bars, new)}"' for line in lines]
+    lines, rests = _own_lines(grid, model, by_bar)
+    silent = f"{'| - ' * grid.bars}|"
+    if not lines and model is None:
+        return [f'snare = "{silent}"']
+    write_lines(lines, grid.bars, setting, grid.first_bar)
+    new = [True] + [any(line.bars[i] != line.bars[i - 1] for line in lines) for i in range(1, grid.bars)]
+    written = [f'{line.name} = "{with_repeats(line.bars, new)}"' for line in lines]
+    return [*written, *(f'{name} = "{silent}"' for name in rests)]
+
+
+def _own_lines(
+    grid: FormGrid, model: FormGrid | None, by_bar: Mapping[int, Sequence[WrittenStroke]]
+) -> tuple[list[LineText], list[str]]:
+    """The lines that a grid says itself, and the names of its model's lines that it has not."""
+    lines = lines_of(by_bar, grid.first_bar, grid.first_bar + grid.bars - 1)
+    if model is None:
+        return lines, []
+    theirs = {line.name: line.marks for line in lines_of(by_bar, model.first_bar, model.first_bar + model.bars - 1)}
+    own = [line for line in lines if line.marks != theirs.get(line.name)]
+    return own, sorted(theirs.keys() - {line.name for line in lines})
 
 
 def number(value: float) -> str:

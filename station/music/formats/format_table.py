@@ -5,12 +5,33 @@ from pathlib import Path
 from station.core.errors import BadInput
 from station.core.files import read_regular
 from station.music.drum_part import DrumPart
+from station.music.formats.ascii_tab.tab_writer import ASCII_TAB
+from station.music.formats.clone_hero.clone_hero_format import CHART, NOTES_MIDI
+from station.music.formats.dtx.dtx_writer import DTX
+from station.music.formats.groovescribe.groove_formats import GROOVE_TEXT, GROOVESCRIBE, GROOVESCRIBE_MIDI
+from station.music.formats.guitar_pro.guitar_pro_format import GUITAR_PRO, OLD_GUITAR_PRO
+from station.music.formats.hydrogen.hydrogen_formats import HYDROGEN_PATTERN, HYDROGEN_SONG
 from station.music.formats.music_format import MusicFormat
 from station.music.formats.music_xml.music_xml_format import MUSIC_XML
 from station.music.formats.smf.midi_part import MIDI
 from station.music.formats.text_score import TEXT_SCORE
 
-FORMATS: tuple[MusicFormat, ...] = (MIDI, MUSIC_XML, TEXT_SCORE)
+FORMATS: tuple[MusicFormat, ...] = (
+    NOTES_MIDI,
+    GROOVESCRIBE_MIDI,
+    MIDI,
+    MUSIC_XML,
+    OLD_GUITAR_PRO,
+    GUITAR_PRO,
+    CHART,
+    GROOVESCRIBE,
+    HYDROGEN_SONG,
+    HYDROGEN_PATTERN,
+    DTX,
+    GROOVE_TEXT,
+    ASCII_TAB,
+    TEXT_SCORE,
+)
 """Of several with the same ending, the choosy ones first."""
 
 

@@ -4,22 +4,23 @@ Units are staff spaces, y down; x counts from a note's time, to which an `Anchor
 Gould, "Behind Bars" (2011): beams half a space, a stem right of its head when up.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from station.music.tempo import TempoMap
-from station.render.palette import INK, INK_SOFT
-from station.render.text.draw_list import DrawList, TypeStyle
-from station.render.text.fonts import Face
+from station.render.notation.beaming import BeamSpan
+from station.render.notation.note_shapes import draw_figures, figures_width
+from station.render.notation.staff_rows import TUPLET_SCALE, flag_overhang
+from station.render.palette import INK
+from station.render.text.draw_list import DrawList
+from station.render.text.sign_outlines import BEAM, BEAM_STEP, BRACKET_LINE, STEM, sign_box
 
-STEM, STEM_X = 0.13, 0.56
-"""A stem's thickness, and how far from its head's middle it stands."""
-_BEAM = 0.50
-BEAM_STEP = 0.78
+STEM_X = sign_box("head_round").right - STEM / 2
+"""How far from its head's middle a stem stands."""
 FLAG_STEP = 0.85
 _STUB = 1.1
-_GAP = 0.7
-"""What a bracket leaves free on either side of its number's middle."""
+_GAP, _HOOK = 0.2, 0.5
+"""What a bracket leaves free on either side of its number, and how far its ends reach and hang over."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +39,9 @@ class StaffVoice:
     def stem_x(self) -> float:
         """Where its stems stand beside the middle of a head."""
         return -self.way * STEM_X
+
+
+HANDS, FEET = StaffVoice(-1, 0.0), StaffVoice(1, 2.5)
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,25 +65,26 @@ class Anchor:
 
 
 def draw_flags(anchor: Anchor, tick: int, count: int, voice: StaffVoice, beam_y: float) -> None:
-    """So many flags at the end of the stem at `tick`, which is at `beam_y`."""
+    """So many flags on the stem at `tick`, none beyond its end at `beam_y`."""
     anchor.at(tick)
-    for k in range(count):
-        y = beam_y - voice.way * k * FLAG_STEP
-        anchor.draw_list.sign("flag", (voice.stem_x, y), INK, 0.95, mirrored=not voice.is_up)
+    name = f"flag_{4 << count}" if voice.is_up else f"flag_{4 << count}_down"
+    y = beam_y - voice.way * flag_overhang(count)
+    anchor.draw_list.sign(name, (voice.stem_x - STEM / 2, y), INK)
 
 
-def draw_beams(anchor: Anchor, stems: Sequence[tuple[int, int]], voice: StaffVoice, beam_y: float) -> None:
-    """Beams over `stems`, the tick and the number of beams of each, the outermost at `beam_y`."""
-    for level in range(max(count for _, count in stems)):
-        y = beam_y - voice.way * level * BEAM_STEP - (0.0 if voice.is_up else _BEAM)
-        for first, last in _runs([count > level for _, count in stems]):
-            anchor.at(stems[first][0])
-            if first == last:  # broken off: towards the stroke before, or after where there is none before
-                anchor.draw_list.box((voice.stem_x - (_STUB if first else 0.0), y), (_STUB, _BEAM), INK)
-            else:
-                anchor.until(stems[last][0])
-                anchor.draw_list.box((voice.stem_x - STEM / 2, y), (STEM, _BEAM), INK)
-                anchor.draw_list.span_s = 0.0
+def draw_beams(
+    anchor: Anchor, spans: Sequence[BeamSpan], ticks: Sequence[int], voice: StaffVoice, beam_y: float
+) -> None:
+    """Beams over stems at `ticks`, the outermost at `beam_y`."""
+    for span in spans:
+        y = beam_y - voice.way * span.level * BEAM_STEP - (0.0 if voice.is_up else BEAM)
+        anchor.at(ticks[span.first])
+        if span.stub:
+            anchor.draw_list.box((voice.stem_x - (_STUB if span.stub < 0 else 0.0), y), (_STUB, BEAM), INK)
+        else:
+            anchor.until(ticks[span.last])
+            anchor.draw_list.box((voice.stem_x - STEM / 2, y), (STEM, BEAM), INK)
+            anchor.draw_list.span_s = 0.0
 
 
 def draw_tuplet(
@@ -87,31 +92,22 @@ def draw_tuplet(
 ) -> None:
     """A tuplet's `number` midway between two ticks, its baseline at `y`; the bracket is for one without a beam."""
     start_s, end_s = anchor.seconds(ends[0]), anchor.seconds(ends[1])
+    half = figures_width(str(number), "tuplet") * TUPLET_SCALE / 2
     if with_bracket:
-        _bracket(anchor.draw_list, (start_s, end_s), voice, y - 0.45)
+        middle = y - sign_box("tuplet_0").top * TUPLET_SCALE / 2
+        _bracket(anchor.draw_list, (start_s, end_s), voice, (middle, half + _GAP))
     anchor.draw_list.time_s, anchor.draw_list.span_s = (start_s + end_s) / 2, 0.0
-    anchor.draw_list.text(str(number), (voice.stem_x, y), TypeStyle(1.35, INK, Face.BOLD, 0.5))
+    draw_figures(anchor.draw_list, str(number), (voice.stem_x - half, y), INK, TUPLET_SCALE, "tuplet")
 
 
-def _bracket(draw_list: DrawList, ends_s: tuple[float, float], voice: StaffVoice, y: float) -> None:
-    """A line over a tuplet with a hook at each end, and a gap in the middle for its number."""
-    (start_s, end_s), tip = ends_s, 0.5 * -voice.way
-    centre_s, right = (start_s + end_s) / 2, 0.5 + voice.stem_x
-    for begin_s, x, end_x in ((start_s, -0.5, voice.stem_x - _GAP), (centre_s, voice.stem_x + _GAP, right)):
+def _bracket(draw_list: DrawList, ends_s: tuple[float, float], voice: StaffVoice, middle: tuple[float, float]) -> None:
+    """A line over a tuplet with a hook at each end; `middle`: its height, and half the gap for its number."""
+    (start_s, end_s), tip, (y, gap) = ends_s, _HOOK * -voice.way, middle
+    centre_s, right = (start_s + end_s) / 2, _HOOK + voice.stem_x
+    for begin_s, x, end_x in ((start_s, -_HOOK, voice.stem_x - gap), (centre_s, voice.stem_x + gap, right)):
         draw_list.time_s, draw_list.span_s = begin_s, centre_s - start_s
-        draw_list.box((x, y - 0.05), (end_x - x, 0.1), INK_SOFT)
+        draw_list.box((x, y - BRACKET_LINE / 2), (end_x - x, BRACKET_LINE), INK)
     draw_list.span_s = 0.0
-    for at_s, x in ((start_s, -0.5), (end_s, right)):
+    for at_s, x in ((start_s, -_HOOK + BRACKET_LINE / 2), (end_s, right - BRACKET_LINE / 2)):
         draw_list.time_s = at_s
-        draw_list.line((x, y), (x, y + tip), 0.1, INK_SOFT)
-
-
-def _runs(flags: Sequence[bool]) -> Iterator[tuple[int, int]]:
-    """First and last index of every run of True."""
-    start: int | None = None
-    for i, flag in enumerate([*flags, False]):
-        if flag and start is None:
-            start = i
-        elif not flag and start is not None:
-            yield start, i - 1
-            start = None
+        draw_list.line((x, y), (x, y + tip), BRACKET_LINE, INK)

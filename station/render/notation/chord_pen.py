@@ -1,42 +1,50 @@
 """Draws the chords of one voice at their anchor: heads, stems, signs above them, sticking, and grace notes.
 
-Units are staff spaces, y down, 0 on the staff's middle line. Proportions follow Gould, "Behind Bars" (2011).
+Units are staff spaces, y down, 0 on the staff's middle line. Proportions follow Gould, "Behind Bars" (2011), and the
+music font (`sign_outlines`).
 """
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
+from station.core.pieces import Articulation, Piece
 from station.music.score import Score
-from station.render.notation.beams import BEAM_STEP, FLAG_STEP, STEM, STEM_X, Anchor, StaffVoice
-from station.render.notation.note_shapes import STAFF_LINE, draw_hat_sign, draw_head
-from station.render.notation.rhythm import TimedValue, Value
-from station.render.notation.staff import PLACES, head_of, height, ledger_steps
+from station.render.notation.beams import FLAG_STEP, Anchor, StaffVoice
+from station.render.notation.chord_width import (
+    DOT_GAP,
+    GRACE,
+    GRACE_GAP,
+    GRACE_STEP,
+    LETTER_SIZE,
+    heads_extent,
+    sticking,
+)
+from station.render.notation.head_places import EDGE_X, PlacedHead, placed_heads
+from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_slur
+from station.render.notation.note_values import TimedValue, Value
+from station.render.notation.staff import FOOT_PIECES, height, ledger_steps, step_of
+from station.render.notation.staff_rows import LETTER_LINE, STACK_GAP, StaffRows, stack_height, stacked_signs
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import TypeStyle
 from station.render.text.fonts import Face
+from station.render.text.sign_outlines import BEAM_STEP, LEDGER_LINE, LEDGER_OUT, STEM, sign_box
 
-STICKING_Y = 7.0
-"""Baseline of the R and L below the staff, clear of the accents and numbers below the feet's beams."""
-_GRACE = 0.62
-_GRACE_STEP = 1.0
-_GRACE_GAP = 1.5
 _BUZZ_OFF = 1.4
 """From a stem's end to the middle of a buzz's sign on it, clear of one beam."""
 _BUZZ_BELOW_FLAG = 3.2
-"""And clear of one flag, which is two and a half spaces long."""
+"""And clear of one flag, which is three and a quarter spaces long."""
 _BUZZ_OVER_WHOLE = 1.6
 """And from a whole note's head, which has no stem."""
-_HOLLOW = 2
-"""Heads of notes from a half on are hollow."""
-_BRACKET = 0.55
-"""How much farther a dot or a grace stroke stands from a note in brackets."""
-LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L"}
-OPEN_FROM, _WIDE_FROM = 0.25, 0.75
-"""Openness from which a hat is written half open and open (our choice)."""
+_GRACE_STEM = 2.4
+_GRACE_BEAM, _GRACE_BEAM_STEP = 0.3, 0.5
+"""Beams of grace notes, and from one to the next: those of others, as much smaller as the notes are."""
+_SLASH = ((-0.55, 1.35), (0.75, 0.45))
+"""The ends of the stroke through a single grace note's flag, from its stem's end."""
+_SLUR_OFF, _SLUR_BOW = 0.6, 0.4
+"""How far below its heads a grace note's slur begins, and how deep it hangs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,40 +62,36 @@ class Chord:
     """No stroke, but a roll that goes on: it is tied to the note before it."""
 
 
-def closing_hats(score: Score) -> NDArray[np.bool_]:
-    """Which strokes are the first closed ones after an open hi-hat, shape (n,)."""
-    hats = np.flatnonzero(score.notes["piece"] == Piece.HIHAT)
-    opened = score.notes["openness"][hats] >= OPEN_FROM
-    closing = np.zeros(len(score), np.bool_)
-    closing[hats[1:]] = opened[:-1] & (score.notes["openness"][hats[1:]] < OPEN_FROM)
-    return closing
-
-
 class ChordPen:
-    """Draws chords of `score` at `anchor`; `limbs` (n,) of `Limb` play them, `closing` (n,) close the hi-hat."""
+    """Draws chords of `score` at `anchor`; `limbs` (n,) of `Limb` are written, `closing` (n,) close the hi-hat."""
 
-    def __init__(self, score: Score, limbs: NDArray[np.int8], closing: NDArray[np.bool_], anchor: Anchor) -> None:
+    def __init__(
+        self, score: Score, limbs: NDArray[np.int8], closing: NDArray[np.bool_], anchor: Anchor, rows: StaffRows
+    ) -> None:
         self._notes, self._limbs, self._closing = score.notes, limbs, closing
-        self._anchor, self._draw_list = anchor, anchor.draw_list
+        self._anchor, self._draw_list, self._rows = anchor, anchor.draw_list, rows
 
     def step(self, index: int) -> int:
         """On which step of the staff stroke `index` stands."""
-        return PLACES[Piece(int(self._notes["piece"][index]))].step
+        return step_of(Piece(int(self._notes["piece"][index])))
 
     def draw(self, chord: Chord, stroke: TimedValue, voice: StaffVoice, beam_y: float) -> None:
         """Heads, stem and signs at the anchor; the stem ends at `beam_y`."""
-        heights = [height(self.step(i)) for i in chord.mains]
-        root = max(heights) if voice.is_up else min(heights)
+        heads = self._placed(chord)
         if stroke.value.base > 1:
-            self._draw_list.line((voice.stem_x, root), (voice.stem_x, beam_y), STEM, INK)
-        for i in chord.mains:
-            self._head(i, 0.0, 1.0, is_hollow=stroke.value.base <= _HOLLOW)
-            if stroke.value.dots:
-                dot_x = 1.15 + (_BRACKET if self._is_bracketed(i) else 0.0)
-                self._draw_list.ellipse((dot_x, height(self.step(i) | 1)), (0.2, 0.2), INK)
+            self._stem(heads, voice, beam_y)
+        for head in heads:
+            self._head(head, stroke.value.base)
+        if stroke.value.dots:
+            self._dots(chord, heads, stroke.value.dots)
         if not chord.is_tied:
-            self._above(chord, voice, beam_y)
-            self._sticking(chord)
+            self._stack(chord, voice, self._stack_from(chord, stroke.value, voice, beam_y))
+            self._letters(chord, voice, is_double=stroke.slashes > 0)
+
+    def reach(self, chord: Chord, value: Value, voice: StaffVoice, beam_y: float) -> float:
+        """How far up (hands) or down (feet) the chord's stem and what is stacked on it reach."""
+        y = self._stack_from(chord, value, voice, beam_y)
+        return y if chord.is_tied else y + voice.way * stack_height(self._stacked(chord))
 
     def is_buzz(self, chord: Chord) -> bool:
         """Whether a roll is in the chord."""
@@ -108,78 +112,107 @@ class ChordPen:
             at = voice.stem_x, beam_y - voice.way * (_BUZZ_OFF + BEAM_STEP * levels)
         self._draw_list.sign("buzz", at, INK)
 
-    def _head(self, index: int, x: float, scale: float, is_hollow: bool = False) -> None:
-        row = self._notes[index]
-        piece, zone, how = Piece(int(row["piece"])), Zone(int(row["zone"])), Articulation(int(row["articulation"]))
-        step = PLACES[piece].step
-        y = height(step)
-        for line in ledger_steps(step):
-            self._draw_list.line(
-                (x - 1.05 * scale, height(line)), (x + 1.05 * scale, height(line)), STAFF_LINE, INK_SOFT
-            )
-        draw_head(self._draw_list, head_of(piece, zone, how), (x, y), scale, is_hollow)
-        if self._is_bracketed(index):
-            self._draw_list.sign("bracket_left", (x - 1.0 * scale, y), INK, scale)
-            self._draw_list.sign("bracket_right", (x + 1.0 * scale, y), INK, scale)
-        if how is Articulation.RIM_SHOT:
-            self._draw_list.sign("slash", (x, y), INK, scale)
-        if row["choke_ticks"] > 0:
-            self._draw_list.sign("choke", (x + 1.3, y - 0.7), INK)
+    def heads_at(self, tick: int, voice: StaffVoice) -> list[int]:
+        """The steps of the other voice's heads that stand where a rest of `voice` does, at `tick`."""
+        first, last = np.searchsorted(self._notes["tick"], [tick, tick + 1]).tolist()
+        pieces = [Piece(int(piece)) for piece in self._notes["piece"][first:last]]
+        return [step_of(piece) for piece in pieces if (piece in FOOT_PIECES) == voice.is_up]
 
-    def _is_bracketed(self, index: int) -> bool:
-        """Whether brackets say that the stroke is soft; grace strokes are so by themselves."""
-        row = self._notes[index]
-        return bool(row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0)
+    # --- heads --------------------------------------------------------------------------------------------------------
 
-    def _above(self, chord: Chord, voice: StaffVoice, beam_y: float) -> None:
-        """Hi-hat signs and accents, stacked outward from the stem's end."""
-        notes, way = self._notes, voice.way
-        y = beam_y + way * (0.85 if voice.is_up else 0.65)
-        for kind in self._hat_signs(chord):
-            draw_hat_sign(self._draw_list, kind, (voice.stem_x, y))
-            y += way * 1.15
-        if any(notes["dynamic"][i] == Dynamic.ACCENT for i in chord.mains):
-            self._draw_list.sign("accent", (voice.stem_x * 0.4, y), INK, 0.95)
+    def _at_once(self, chord: Chord) -> list[int]:
+        """The main strokes that stand where the chord does, its own first, those of the other voice after them."""
+        if chord.is_tied:
+            return list(chord.mains)
+        first, last = np.searchsorted(self._notes["tick"], [chord.tick, chord.tick + 1]).tolist()
+        others = (i for i in range(first, last) if self._notes["lead_ms"][i] <= 0 and i not in chord.mains)
+        return [*chord.mains, *others]
 
-    def _hat_signs(self, chord: Chord) -> Iterator[str]:
-        notes = self._notes
-        for i in chord.mains:
-            piece = notes["piece"][i]
-            if piece == Piece.HIHAT and notes["openness"][i] >= OPEN_FROM:
-                yield "open" if notes["openness"][i] >= _WIDE_FROM else "half"
-            elif piece == Piece.HIHAT and self._closing[i]:
-                yield "closed"
-            elif piece == Piece.HIHAT_PEDAL and notes["articulation"][i] == Articulation.SPLASH:
-                yield "open"
+    def _placed(self, chord: Chord) -> list[PlacedHead]:
+        """The heads of the chord, clear of each other and of the other voice's."""
+        return placed_heads(self._notes[self._at_once(chord)])[: len(chord.mains)]
 
-    def _sticking(self, chord: Chord) -> None:
-        """The hands' letters, grace strokes small before the main stroke as drummers write them (lR, llR)."""
-        graces = sorted(chord.graces, key=lambda i: -self._notes["lead_ms"][i])
-        text = "".join(LETTERS.get(Limb(int(self._limbs[i])), "").lower() for i in graces)
-        text += "".join(sorted({LETTERS.get(Limb(int(self._limbs[i])), "") for i in chord.mains}, reverse=True))
-        if text:
-            self._draw_list.text(text, (0.0, STICKING_Y), TypeStyle(1.3, INK_SOFT, Face.BOLD, 0.5))
+    def _stem(self, heads: Sequence[PlacedHead], voice: StaffVoice, beam_y: float) -> None:
+        """From the head that is farthest from its end."""
+        root = min(heads, key=lambda head: head.step) if voice.is_up else max(heads, key=lambda head: head.step)
+        up, down = STEM_FROM.get(root.head, (0.0, 0.0))
+        y = height(root.step) - (up if voice.is_up else down)
+        self._draw_list.line((voice.stem_x, y), (voice.stem_x, beam_y), STEM, INK)
+
+    def _head(self, head: PlacedHead, base: int, scale: float = 1.0) -> None:
+        y = height(head.step)
+        for line in ledger_steps(head.step):
+            half = (head.right - head.left) / 2 * scale + LEDGER_OUT * scale
+            self._draw_list.line((head.x - half, height(line)), (head.x + half, height(line)), LEDGER_LINE, INK_SOFT)
+        draw_head(self._draw_list, head.head, (head.x, y), scale, base)
+        if (pair := head.brackets) is not None:
+            draw_brackets(self._draw_list, (pair.left, pair.right), height(pair.step), pair.scale)
+
+    def _dots(self, chord: Chord, heads: Sequence[PlacedHead], count: int) -> None:
+        """Right of everything, in the space that the head stands in or the one above its line."""
+        right = heads_extent(self._notes[self._at_once(chord)]).right
+        for k in range(count):
+            x = right + DOT_GAP + sign_box("dot").width * (k + 0.5)
+            for step in {head.step | 1 for head in heads}:
+                self._draw_list.sign("dot", (x, height(step)), INK)
+
+    # --- beyond the stem's end ----------------------------------------------------------------------------------------
+
+    def _stacked(self, chord: Chord) -> list[str]:
+        rows = list(chord.mains)
+        return stacked_signs(self._notes[rows], self._closing[rows])
+
+    def _stack_from(self, chord: Chord, value: Value, voice: StaffVoice, beam_y: float) -> float:
+        """Where the stack begins: at the stem's end, or beyond the heads of a note that has none."""
+        if value.base > 1:
+            return beam_y
+        heights = [height(self.step(i)) for i in chord.mains]
+        off = 0.5 + (_BUZZ_OVER_WHOLE if self.is_buzz(chord) else 0.0)
+        return (min(heights) if voice.is_up else max(heights)) + voice.way * off
+
+    def _stack(self, chord: Chord, voice: StaffVoice, y: float) -> None:
+        """Hi-hat signs, chokes and accents from `y` outward, over the head as articulations stand."""
+        for name in self._stacked(chord):
+            tall = sign_box(name).height
+            self._draw_list.sign(name, (0.0, y + voice.way * (STACK_GAP + tall / 2)), INK)
+            y += voice.way * (STACK_GAP + tall)
+
+    def _letters(self, chord: Chord, voice: StaffVoice, is_double: bool) -> None:
+        """The sticking; a diddle's hand twice, as both strokes are its own."""
+        rows = [*chord.graces, *chord.mains]
+        y = self._rows.hands if voice.is_up else self._rows.feet
+        for k, text in enumerate(sticking(self._notes[rows], self._limbs[rows], voice.is_up)):
+            at = 0.0, y + voice.way * LETTER_LINE * k
+            shown = text + text[-1] * is_double
+            self._draw_list.text(shown, at, TypeStyle(LETTER_SIZE, INK, Face.BOLD, 0.5))
+
+    # --- grace notes --------------------------------------------------------------------------------------------------
 
     def draw_graces(self, chord: Chord) -> None:
         """The small notes before it, beamed among themselves and slurred to it."""
         if not chord.graces:
             return
         self._anchor.at(chord.tick)
-        count = len(chord.graces)
-        notes = self._notes
-        gap = _GRACE_GAP + (_BRACKET if any(map(self._is_bracketed, chord.mains)) else 0.0)
-        top = min(height(self.step(i)) for i in chord.graces) - 2.4
+        order = sorted(chord.graces, key=lambda i: -self._notes["lead_ms"][i])
+        heads = [placed_heads(self._notes[[i]])[0] for i in order]
+        last_x = -heads_extent(self._notes[self._at_once(chord)]).left - GRACE_GAP
+        top = min(height(head.step) for head in heads) - _GRACE_STEM
         stems: list[float] = []
-        for k, i in enumerate(sorted(chord.graces, key=lambda i: -notes["lead_ms"][i])):
-            x = -gap - (count - 1 - k) * _GRACE_STEP
-            self._head(i, x, _GRACE)
-            stems.append(x + STEM_X * _GRACE)
-            self._draw_list.line((stems[-1], height(self.step(i))), (stems[-1], top), STEM * 0.8, INK)
-        if count == 1:
-            self._draw_list.sign("flag", (stems[0], top), INK, 0.55)
-            self._draw_list.line((stems[0] - 0.55, top + 1.35), (stems[0] + 0.75, top + 0.45), 0.1, INK)
-        else:
-            for level in range(2):
-                self._draw_list.box((stems[0], top + 0.5 * level), (stems[-1] - stems[0], 0.3), INK)
-        low = max(height(self.step(i)) for i in chord.graces)
-        self._draw_list.sign("slur", (-gap / 2 - 0.1, low + 0.7), INK_SOFT, 0.95)
+        for k, head in enumerate(heads):
+            x = last_x - GRACE_STEP * (len(heads) - 1 - k)
+            self._head(PlacedHead(head.step, head.head, x, is_foot=False), 8, GRACE)
+            stems.append(x + (EDGE_X - STEM / 2) * GRACE)
+            self._draw_list.line((stems[-1], height(head.step)), (stems[-1], top), STEM * 0.8, INK)
+        self._grace_flag(stems[0], top) if len(stems) == 1 else self._grace_beams(stems, top)
+        low = max(height(head.step) for head in heads) + _SLUR_OFF
+        draw_slur(self._draw_list, ((stems[0] - EDGE_X * GRACE, low), (-0.1, low)), _SLUR_BOW)
+
+    def _grace_flag(self, x: float, top: float) -> None:
+        self._draw_list.sign("flag_8", (x - STEM / 2, top), INK, GRACE)
+        (left, low), (right, high) = _SLASH
+        self._draw_list.line((x + left, top + low), (x + right, top + high), 0.1, INK)
+
+    def _grace_beams(self, stems: Sequence[float], top: float) -> None:
+        for level in range(2):
+            at = stems[0], top + _GRACE_BEAM_STEP * level
+            self._draw_list.box(at, (stems[-1] - stems[0], _GRACE_BEAM), INK)

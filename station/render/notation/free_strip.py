@@ -15,6 +15,7 @@ from station.render.palette import BRAND, INK, INK_FAINT, with_opacity
 from station.render.snapshot import Strip
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import DrawList
+from station.render.text.sign_outlines import LEDGER_LINE
 
 _LEAST, _MOST = 0.72, 1.18
 """Size of the head of the softest and of the hardest stroke (our choice: ghost and accent differ at a glance)."""
@@ -53,7 +54,7 @@ def _beats(draw_list: DrawList, beat_s: float, beats: int, window_s: tuple[float
 def _stroke(draw_list: DrawList, hit: np.void) -> None:
     piece = Piece(int(hit["piece"]))
     for step in ledger_steps(PLACES[piece].step):
-        draw_list.box((-1.0, height(step) - note_shapes.STAFF_LINE / 2), (2.0, note_shapes.STAFF_LINE), INK_FAINT)
+        draw_list.box((-1.0, height(step) - LEDGER_LINE / 2), (2.0, LEDGER_LINE), INK_FAINT)
     scale = _LEAST + (_MOST - _LEAST) * int(hit["velocity"]) / 127
     head = head_of(piece, Zone(int(hit["zone"])), Articulation(int(hit["articulation"])))
     note_shapes.draw_head(draw_list, head, (0.0, height(PLACES[piece].step)), scale)

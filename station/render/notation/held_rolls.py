@@ -1,11 +1,8 @@
-"""Rolls that are held over the beats that follow: how far each lasts, which beats one long note fills, and its ties.
+"""Rolls that are held: how far each lasts, and its ties.
 
-In one voice a roll ends where the next stroke begins. Inside its own beat group it is written like a stroke, to the
-next one or the group's end (`rhythm`); what is held beyond that lasts exactly as long as it is held.
+In one voice a roll ends where the next stroke begins, and lasts exactly as long as it is held: one within a beat is
+as short as it sounds, lest it look like a stroke that is left to ring.
 """
-
-from collections.abc import Iterator, Mapping, Sequence
-from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,13 +11,8 @@ from station.core.pieces import Articulation
 from station.core.units import PPQ
 from station.music.score import Score
 from station.render.notation.beams import Anchor, StaffVoice
-from station.render.notation.rhythm import BeatGroup, TimedValue, Value, spell
 from station.render.palette import INK
 
-_LONG: Mapping[int, Value] = MappingProxyType(
-    {2 * PPQ: Value(2), 3 * PPQ: Value(2, 1), 4 * PPQ: Value(1), 6 * PPQ: Value(1, 1)}
-)
-"""The lengths of several beats that one note writes."""
 _STEPS = 24
 """A tie bends in so many level steps, for time stretches level shapes alone (`loudness_row`)."""
 _OFF, _DEPTH, _THICK = 0.75, 0.6, 0.15
@@ -29,42 +21,17 @@ _SHORT_DEPTH = 0.3
 """How deep one hangs that comes from the line before."""
 
 
-def held_until(score: Score, is_foot: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Up to which written tick each stroke is held, shape (n,): its own where it is no roll."""
+def held_until(score: Score, is_foot: NDArray[np.bool_], written: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Up to which tick notation holds each stroke, shape (n,): its own `written` one where it is no roll."""
     notes = score.notes
-    written = notes["tick"] - notes["swing_ticks"]
     straight = dict(zip(notes["tick"].tolist(), written.tolist(), strict=True))
+    late = dict(zip((notes["tick"] % PPQ).tolist(), notes["swing_ticks"].tolist(), strict=True))
     until: NDArray[np.int64] = written.copy()
     for i in np.flatnonzero((notes["articulation"] == Articulation.BUZZ) & (notes["duration_ticks"] > 0)):
         end = int(notes["tick"][i] + notes["duration_ticks"][i])
         later = written[(is_foot == is_foot[i]) & (written > written[i])]
-        until[i] = min([straight.get(end, end), *later.tolist()])
+        until[i] = min([straight.get(end, end - late.get(end % PPQ, 0)), *later.tolist()])
     return until
-
-
-def long_groups(
-    groups: Sequence[tuple[int, int]], holds: Sequence[tuple[int, int]]
-) -> Iterator[tuple[int, int, Value | None]]:
-    """The beat groups of a bar, those that one long note fills joined, with its value; all ticks from the bar's start.
-
-    `holds` are the ticks from which and up to which rolls are held.
-    """
-    i = 0
-    while i < len(groups):
-        start = groups[i][0]
-        until = max((end for begin, end in holds if begin <= start), default=start)
-        ends = {k: end for k, (_, end) in enumerate(groups[i:], i) if end <= until and end - start in _LONG}
-        last = max(ends, default=i)
-        yield start, groups[last][1], _LONG[ends[last] - start] if ends else None
-        i = last + 1
-
-
-def spelled(onsets: Sequence[int], group: tuple[int, int, Value | None], held: int | None) -> BeatGroup:
-    """One group of `long_groups`; `held` is up to which tick what sounds at its start was held before, or None."""
-    start, end, long = group
-    if long is not None:
-        return BeatGroup(start, end, (TimedValue(start, long),), ())
-    return spell(onsets, start, end, held if held is not None and held < end else None)
 
 
 def draw_tie(anchor: Anchor, ticks: tuple[int, int], ends_x: tuple[float, float], head_y: float, way: int) -> None:

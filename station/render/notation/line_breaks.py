@@ -1,121 +1,130 @@
-"""Bars of a score shared out over the lines of a page: how wide each wants to be, and which stand together.
+"""Bars shared out over the lines of a page, and each line spread to its full width.
 
-Widths are staff spaces. A bar wants room for its shortest step between strokes; a line holds one, two, four or eight
-bars where it can, so that phrases stand under each other, and is then spread to its full width.
+Units are staff spaces. All lines are chosen together so that the worst is as good as can be (Knuth and Plass, "Breaking
+Paragraphs into Lines", 1981): a line is good where its springs are near their ease and where it ends with a phrase.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import accumulate
+from math import inf, log
 
 import numpy as np
+from numpy.typing import NDArray
 
-from station.core.units import PPQ
-from station.music.score import Score
+from station.render.notation.bar_columns import BarColumns, stretch_to
 
-_STEP, _GRACE_STEP = 2.4, 1.1
-"""What two strokes after each other take at the least, and each grace stroke between them; our choice, from the
-engraved head's width of 1.3 and what hangs on it."""
-_INSET, REPEAT, _BRACKET = 1.25, 1.5, 0.9
-"""From a bar line to its first beat; what a repeat sign takes besides; what a grace stroke's bracket does."""
-_LEAST_BAR = 9.0
-_FINEST = PPQ // 8
-"""Steps finer than a thirty-second do not widen a bar: played scores have flams that are no rhythm (our choice)."""
-_TOGETHER = (8, 4, 2, 1)
-_MORE = 1.25
-"""A last line may be spread so much more than the one before it (our choice)."""
-_KNOT = PPQ // 4
-"""Between these ticks time runs evenly over the line."""
+_WIDE, _NARROW = log(1.4), log(0.76)
+"""A line stretched or squeezed by so much is as bad as one that ends within a phrase (our choice)."""
+_WITHIN_PHRASE = {4: 0.2, 2: 0.7, 1: 1.5}
+"""What a break costs after a multiple of so many bars of a phrase; with the phrase it costs nothing (our choice)."""
+_PHRASE_INSIDE = 0.8
+"""What each phrase costs that begins within a line (our choice: a section is looked for where lines begin)."""
+_WITHIN_ENDING = 2.0
+"""A bracket over an ending is not to be torn (our choice)."""
+_LONE_BAR = 3.0
+"""What a last line of a single bar costs (our choice)."""
+_OVERFULL = 1e3
+_MOST_BARS = 16
+"""Bars in a line at the most, rests though they are (our choice)."""
+_LAST_FULL, _LAST_STRETCH = 1.35, 1.15
+"""A last line is spread to its end where it needs no more than the first; else it keeps the stretch of the line before
+it, or the second where it is the only one (our choice)."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
+class SetBar:
+    """A bar to be set: its columns, and what a line takes because of it.
+
+    `signature` is what a new meter takes before the notes; `lead` what clef and meter take of a line that begins with
+    the bar, `courtesy` what a line takes at its end for the meter of this bar, if it begins the next one. `in_phrase`
+    counts the bars from its phrase's first, 0. `within_ending`: an ending's bracket reaches over its left bar line.
+    """
+
+    columns: BarColumns
+    lead: float
+    signature: float = 0.0
+    courtesy: float = 0.0
+    in_phrase: int = 0
+    within_ending: bool = False
+
+    @property
+    def inside(self) -> BarColumns:
+        """The columns where the bar does not begin a line: a new meter stands before its notes."""
+        return replace(self.columns, inset=self.columns.inset + self.signature)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class BarBox:
-    """A bar on its line: where its bar line stands, where its first beat does, and where the next bar line."""
+    """Bar number `index` of the bars set, on its line: bar lines at `left` and `right`, its columns at `places` (k,).
 
-    bar: int
+    All are counted from where the line's notes begin, behind clef and meter.
+    """
+
+    index: int
     left: float
-    start: float
     right: float
+    places: NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class Want:
-    """What a bar needs: `inset` from its bar line to its first beat, `width` from there to the next bar line."""
-
-    inset: float
-    width: float
-
-
-def want(score: Score, bar: int, before: float = 0.0) -> Want:
-    """What the bar needs, in staff spaces, where so much stands `before` its notes."""
-    tempo = score.tempo_map
-    start, end = tempo.bar_start(bar), tempo.bar_start(bar + 1)
-    first, last = np.searchsorted(score.notes["tick"], [start, end])
-    notes, is_grace = score.notes[first:last], score.is_grace[first:last]
-    ticks = np.unique([*notes["tick"][~is_grace], *_tails(score, start, end)]).astype(np.int64)
-    steps = np.diff([*ticks.tolist(), end])
-    shortest = max(int(steps.min()), _FINEST) if len(ticks) else end - start
-    graced, counts = np.unique(notes["tick"][is_grace], return_counts=True)
-    step = _STEP + (_GRACE_STEP * (1 + int(counts.max())) if len(counts) else 0.0)
-    inset = _INSET + before
-    if len(graced) and graced[0] == start:
-        inset += _GRACE_STEP * int(counts[0]) + _BRACKET
-    return Want(inset, max(_LEAST_BAR, step * (end - start) / shortest))
-
-
-def _tails(score: Score, start: int, end: int) -> Iterator[int]:
-    """Where rolls that are held over a beat are tied and end in [start, end) ticks."""
-    notes = score.notes[score.notes["duration_ticks"] > 0]
-    for tick, length in zip((notes["tick"] - start).tolist(), notes["duration_ticks"].tolist(), strict=True):
-        first, last = (tick // PPQ + 1) * PPQ, (tick + length - 1) // PPQ * PPQ
-        if first <= last:
-            yield from (start + at for at in (first, last, tick + length) if 0 <= at < end - start)
-
-
-def systems(score: Score, width: float, before: Mapping[int, float] | None = None) -> list[list[BarBox]]:
-    """The lines of the score, each at most `width` staff spaces long; `before` is what stands before a bar's notes."""
-    wanted = [want(score, bar, (before or {}).get(bar, 0.0)) for bar in range(score.bar_count)]
-    found: list[list[BarBox]] = []
-    at, stretch = 0, 1.0
-    while at < len(wanted):
-        count = _count(wanted[at:], width) if at else _count_first(wanted, width)
-        line = wanted[at : at + count]
-        full = (width - sum(bar.inset for bar in line)) / sum(bar.width for bar in line)
-        is_last = bool(found) and at + count == len(wanted)
-        if not is_last or full <= _MORE * stretch:  # a short last line is not spread to the end
-            stretch = full
-        found.append(_laid(line, at, stretch))
-        at += count
+def lines(bars: Sequence[SetBar], width: float) -> list[list[BarBox]]:
+    """The lines of `bars`, each at most `width` long with its lead and courtesy; all but the last are full."""
+    breaks = _breaks(bars, width)
+    found, stretch = list[list[BarBox]](), _LAST_STRETCH
+    for first, after in breaks:
+        columns = [bars[first].columns, *(bar.inside for bar in bars[first + 1 : after])]
+        room = _room(bars, first, after, width)
+        full = stretch_to(columns, room)
+        is_ragged = after == len(bars) and full > _LAST_FULL
+        stretch = min(full, stretch) if is_ragged else full
+        found.append(_boxes(columns, first, stretch, room))
     return found
 
 
-def _count_first(wanted: Sequence[Want], width: float) -> int:
-    """How many bars stand in the first line: all, if it holds them."""
-    return len(wanted) if _fit(wanted, width) else _count(wanted, width)
+def _room(bars: Sequence[SetBar], first: int, after: int, width: float) -> float:
+    """What a line from bar `first` up to `after` has for its bars."""
+    return width - bars[first].lead - (bars[after].courtesy if after < len(bars) else 0.0)
 
 
-def _count(wanted: Sequence[Want], width: float) -> int:
-    """How many of the next bars stand in a line."""
-    return next((k for k in _TOGETHER if k <= len(wanted) and _fit(wanted[:k], width)), 1)
-
-
-def _fit(wanted: Sequence[Want], width: float) -> bool:
-    return sum(bar.inset + bar.width for bar in wanted) <= width
-
-
-def _laid(line: Sequence[Want], first: int, stretch: float) -> list[BarBox]:
+def _boxes(columns: Sequence[BarColumns], first: int, stretch: float, room: float) -> list[BarBox]:
+    squeezed = min(1.0, room / sum(bar.width(stretch) for bar in columns))  # a bar too wide for paper still fits on it
     boxes, left = [], 0.0
-    for bar, wish in enumerate(line, first):
-        right = left + wish.inset + wish.width * stretch
-        boxes.append(BarBox(bar, left, left + wish.inset, right))
-        left = right
+    for index, bar in enumerate(columns, first):
+        places = left + bar.places(stretch) * squeezed
+        boxes.append(BarBox(index, left, float(places[-1]), places[:-1]))
+        left = float(places[-1])
     return boxes
 
 
-def ruler(score: Score, box: BarBox) -> Callable[[float], float]:
-    """Where a second of the score stands in its bar's line, in staff spaces."""
-    tempo = score.tempo_map
-    start, end = tempo.bar_start(box.bar), tempo.bar_start(box.bar + 1)
-    ticks = [*range(start, end, _KNOT), end]
-    places = [box.start + (tick - start) / (end - start) * (box.right - box.start) for tick in ticks]
-    seconds = tempo.seconds_at(ticks)
-    return lambda time_s: float(np.interp(time_s, seconds, places))
+def _breaks(bars: Sequence[SetBar], width: float) -> list[tuple[int, int]]:
+    """First bar of each line and the one after its last."""
+    count = len(bars)
+    eases = list(accumulate((bar.inside.width(1.0) for bar in bars), initial=0.0))
+    leasts = list(accumulate((bar.inside.narrowest for bar in bars), initial=0.0))
+    costs, befores = [0.0] + [inf] * count, [0] * (count + 1)
+    for first in range(count):
+        for after in range(first + 1, min(first + _MOST_BARS, count) + 1):
+            room, more = _room(bars, first, after, width), bars[first].signature
+            least = leasts[after] - leasts[first] - more
+            if least > room and after > first + 1:
+                break
+            ease = eases[after] - eases[first] - more
+            cost = costs[first] + _line_cost(bars, first, after, room / ease) + _OVERFULL * (least > room)
+            if cost < costs[after]:
+                costs[after], befores[after] = cost, first
+    ends = [count]
+    while ends[-1]:
+        ends.append(befores[ends[-1]])
+    return list(zip(ends[:0:-1], ends[-2::-1], strict=True))
+
+
+def _line_cost(bars: Sequence[SetBar], first: int, after: int, stretch: float) -> float:
+    """How bad a line is whose springs are so stretched."""
+    inside = _PHRASE_INSIDE * sum(bar.in_phrase == 0 for bar in bars[first + 1 : after])
+    if after == len(bars):
+        alone = _LONE_BAR if first == after - 1 and first else 0.0
+        return inside + alone + ((log(stretch) / _NARROW) ** 2 if stretch < 1 else 0.0)
+    badness = inside + (log(stretch) / (_WIDE if stretch > 1 else _NARROW)) ** 2
+    bar = bars[after]
+    part = next((cost for bars_, cost in _WITHIN_PHRASE.items() if bar.in_phrase % bars_ == 0), 0.0)
+    return badness + (part if bar.in_phrase else 0.0) + _WITHIN_ENDING * bar.within_ending

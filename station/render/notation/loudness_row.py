@@ -7,22 +7,17 @@ from station.music.loudness_marks import GROW, LoudnessMark
 from station.music.score import Score
 from station.render.notation.beams import Anchor
 from station.render.palette import INK
-from station.render.text.draw_list import TypeStyle
-from station.render.text.fonts import Face
+from station.render.text.sign_outlines import HAIRPIN_LINE, sign_box
 
-LOUDNESS_Y = 9.1
-"""The words' baseline, below the sticking's."""
-ROW_BOTTOM = 9.8
-_WORD = TypeStyle(1.9, INK, Face.BOLD, 0.5)
-_RAISED, _OPENING, _THICK = 0.5, 0.6, 0.13
-"""How far a hairpin's axis lies above the words' baseline, half its width where it is open, its lines' thickness."""
+_RAISED, _OPENING = 0.5, 0.6
+"""How far a hairpin's axis lies above the words' baseline, and half its width where it is open."""
 _STEPS = 32
 """Its lines slope in so many level steps a bar, for time stretches level shapes alone: 0.02 spaces each."""
-_AFTER_WORD, _LETTER = 0.5, 0.55
-"""What it leaves free beside a word, and what half of each letter takes."""
+_AFTER_WORD = 0.5
+"""What it leaves free beside a word."""
 
 
-def draw_loudness(anchor: Anchor, score: Score, bar: tuple[int, int], y: float = LOUDNESS_Y) -> None:
+def draw_loudness(anchor: Anchor, score: Score, bar: tuple[int, int], y: float) -> None:
     """What the row says from one tick of `score` up to another, the words' baseline at `y`."""
     marks, (start, end) = score.loudness, bar
     for i, mark in enumerate(marks):
@@ -31,7 +26,7 @@ def draw_loudness(anchor: Anchor, score: Score, bar: tuple[int, int], y: float =
             _hairpin(anchor, (marks[i - 1] if i else None, mark, after), score.end_tick, bar, y)
         elif start <= mark.tick < end:
             anchor.at(mark.tick)
-            anchor.draw_list.text(mark.sign, (0.0, y), _WORD)
+            anchor.draw_list.sign(f"loud_{mark.sign}", (0.0, y), INK)
 
 
 def _hairpin(
@@ -63,10 +58,10 @@ def _level(anchor: Anchor, ticks: tuple[int, int], ends_x: tuple[float, float], 
     anchor.at(ticks[0])
     anchor.until(ticks[1])
     for y in (axis_y - open_by, axis_y + open_by):
-        anchor.draw_list.box((ends_x[0], y - _THICK / 2), (ends_x[1] - ends_x[0], _THICK), INK)
+        anchor.draw_list.box((ends_x[0], y - HAIRPIN_LINE / 2), (ends_x[1] - ends_x[0], HAIRPIN_LINE), INK)
     anchor.draw_list.span_s = 0.0
 
 
 def _room(mark: LoudnessMark) -> float:
     """What a word takes on each side of its tick, with the gap to a hairpin; nothing where there is none."""
-    return 0.0 if mark.is_hairpin else _AFTER_WORD + _LETTER * len(mark.sign)
+    return 0.0 if mark.is_hairpin else _AFTER_WORD + sign_box(f"loud_{mark.sign}").right

@@ -1,86 +1,121 @@
-"""The fixed shapes of drum notation: heads, hi-hat signs, time signature, clef, staff lines.
+"""The signs of drum notation as they are drawn: heads, hi-hat signs, time signature, clef, staff lines, slurs.
 
-Units are staff spaces, y down, 0 on the staff's middle line. Proportions follow Gould, "Behind Bars" (2011).
+Units are staff spaces, y down, 0 on the staff's middle line. Shapes and thicknesses are those of the music font
+(`sign_outlines`).
 """
 
-from dataclasses import replace
+from collections.abc import Mapping
+from itertools import pairwise
+from types import MappingProxyType
 
 from station.music.tempo import MeterChange
+from station.render.notation.head_places import HEAD_SIGNS
 from station.render.notation.staff import NoteHead
 from station.render.palette import INK, INK_FAINT
-from station.render.text.draw_list import DrawList, TypeStyle
-from station.render.text.fonts import Face
+from station.render.text.draw_list import Colour, DrawList
+from station.render.text.sign_outlines import SLUR_END, SLUR_MIDDLE, STAFF_LINE, sign_box
 
-STAFF_LINE = 0.10
-"""Thickness of a staff line."""
-_HEAD_HALF = (0.66, 0.46)
-_HEAD_TURN = -0.38
-_RING = 0.18
-"""How thick the line round a hollow head is (our choice)."""
-_SIGNATURE, _GROUPS, _WIDEST = 2.75, 2.1, 8.0
-"""The letters of a time signature fill two spaces; one with groups is set smaller, the smaller the more they are."""
-_FIGURE = 0.711
-"""How high a figure of the typeface is, in em."""
+_HALF_HEADS: Mapping[NoteHead, str] = MappingProxyType(
+    {
+        NoteHead.ROUND: "head_half",
+        NoteHead.CROSS: "head_half_cross",
+        NoteHead.DIAMOND: "head_half_diamond",
+        NoteHead.TRIANGLE: "head_half_triangle",
+        NoteHead.RINGED_CROSS: "head_half_ringed_cross",
+    }
+)
+"""Heads of half and of whole notes, where they differ from those of shorter ones."""
+STEM_FROM: Mapping[NoteHead, tuple[float, float]] = MappingProxyType(
+    {
+        NoteHead.ROUND: (0.168, -0.168),
+        NoteHead.SLASHED: (0.164, -0.172),
+        NoteHead.CROSS: (0.444, -0.44),
+        NoteHead.HEAVY_CROSS: (0.44, -0.436),
+        NoteHead.ORNATE_CROSS: (0.316, -0.312),
+        NoteHead.TRIANGLE: (0.5, 0.5),
+    }
+)
+"""How far above a head's middle a stem that points up, and one that points down, begins; 0 for the others. Source:
+Bravura's metadata, `stemUpSE` and `stemDownNW`."""
+_GROUPS, _WIDEST = 0.75, 8.0
+"""A time signature with groups is set smaller, the smaller the more they are (our choice)."""
 SIGNATURE_GAP = 0.8
 """What a time signature leaves free on either side at the least."""
+_SLUR_STEPS = 10
+"""A slur is drawn in so many straight pieces: none leaves the curve by a hundredth of a space."""
 
 
-def draw_head(
-    draw_list: DrawList, head: NoteHead, at: tuple[float, float], scale: float, is_hollow: bool = False
-) -> None:
-    """One note head in the score's ink; round ones may be hollow, as those of half and whole notes are."""
-    if head is NoteHead.ROUND and is_hollow:
-        half = ((_HEAD_HALF[0] - _RING / 2) * scale, (_HEAD_HALF[1] - _RING / 2) * scale)
-        draw_list.ellipse(at, half, INK, _HEAD_TURN, (0.0, _RING * scale, 0.0))
-    elif head is NoteHead.ROUND:
-        draw_list.ellipse(at, (_HEAD_HALF[0] * scale, _HEAD_HALF[1] * scale), INK, _HEAD_TURN)
-    elif head in (NoteHead.CROSS, NoteHead.RINGED_CROSS):
-        draw_list.cross(at, (0.48 * scale, 0.44 * scale), 0.22 * scale, INK)
-        if head is NoteHead.RINGED_CROSS:
-            draw_list.ellipse(at, (0.78 * scale, 0.78 * scale), INK, 0.0, (0.0, 0.13, 0.0))
-    else:
-        draw_list.sign("head_diamond" if head is NoteHead.DIAMOND else "head_triangle", at, INK, scale)
+def draw_head(draw_list: DrawList, head: NoteHead, at: tuple[float, float], scale: float, base: int = 4) -> None:
+    """One note head with its middle at `at`, of a 1/`base` note."""
+    name = "head_whole" if base == 1 and head is NoteHead.ROUND else HEAD_SIGNS[head]
+    if base == 2:
+        name = _HALF_HEADS.get(head, name)
+    draw_list.sign(name, at, INK, scale)
 
 
-def draw_hat_sign(draw_list: DrawList, kind: str, at: tuple[float, float]) -> None:
-    """o, half open, or + in the score's ink."""
-    x, y = at
-    if kind == "closed":
-        draw_list.line((x - 0.45, y), (x + 0.45, y), 0.16, INK)
-        draw_list.line((x, y - 0.45), (x, y + 0.45), 0.16, INK)
-        return
-    draw_list.ellipse(at, (0.40, 0.40), INK, 0.0, (0.0, 0.15, 0.0))
-    if kind == "half":
-        draw_list.line((x - 0.45, y + 0.6), (x + 0.45, y - 0.6), 0.13, INK)
+def draw_brackets(draw_list: DrawList, xs: tuple[float, float], y: float, scale: float = 1.0) -> None:
+    """The brackets of a ghost stroke, their middles at `xs`."""
+    for name, x in zip(("bracket_left", "bracket_right"), xs, strict=True):
+        draw_list.sign(name, (x, y), INK, scale)
+
+
+def draw_slur(draw_list: DrawList, ends: tuple[tuple[float, float], tuple[float, float]], bow: float) -> None:
+    """A slur between two points, whose middle is `bow` lower (negative: higher) than they are."""
+    (x0, y0), (x1, y1) = ends
+    points = []
+    for k in range(_SLUR_STEPS + 1):
+        share = k / _SLUR_STEPS
+        points.append((x0 + (x1 - x0) * share, y0 + (y1 - y0) * share + bow * 4 * share * (1 - share)))
+    for k, (start, end) in enumerate(pairwise(points)):
+        share = (k + 0.5) / _SLUR_STEPS
+        width = SLUR_END + (SLUR_MIDDLE - SLUR_END) * 4 * share * (1 - share)
+        draw_list.line(start, end, width, INK)
 
 
 def time_signature(draw_list: DrawList, meter: MeterChange, left: float) -> None:
     """The beats, in their groups where the meter has them, over their unit, from `left` on."""
     beats, _, unit = str(meter).partition("/")
-    x, style = left + signature_width(draw_list, meter) / 2, _signature_style(draw_list, meter)
-    for text, middle in ((beats, -1.04), (unit, 0.96)):
-        draw_list.text(text, (x, middle + _FIGURE / 2 * style.size), style)
+    width, scale = signature_width(draw_list, meter), _signature_scale(meter)
+    for text, middle in ((beats, -1.0), (unit, 1.0)):
+        draw_figures(draw_list, text, (left + (width - figures_width(text) * scale) / 2, middle), INK, scale)
 
 
 def signature_width(draw_list: DrawList, meter: MeterChange) -> float:
     """How wide the time signature of `meter` is."""
-    style = _signature_style(draw_list, meter)
-    return max(draw_list.width(text, style) for text in str(meter).split("/"))
+    del draw_list
+    return max(figures_width(text) for text in str(meter).split("/")) * _signature_scale(meter)
 
 
-def _signature_style(draw_list: DrawList, meter: MeterChange) -> TypeStyle:
-    style = TypeStyle(_GROUPS if meter.groups else _SIGNATURE, INK, Face.BOLD, 0.5)
-    widest = draw_list.width(str(meter).partition("/")[0], style)
-    return replace(style, size=style.size * min(1.0, _WIDEST / widest))
+def _signature_scale(meter: MeterChange) -> float:
+    scale = _GROUPS if meter.groups else 1.0
+    return min(scale, _WIDEST / figures_width(str(meter).partition("/")[0]))
 
 
-CLEF_WIDTH = 1.35
+def draw_figures(
+    draw_list: DrawList, text: str, left: tuple[float, float], colour: Colour, scale: float = 1.0, kind: str = "meter"
+) -> None:
+    """A row of figures (and +) of a `kind`, meter or tuplet, from `left` on."""
+    x, y = left
+    for name in _figures(text, kind):
+        draw_list.sign(name, (x, y), colour, scale)
+        x += sign_box(name).advance * scale
+
+
+def figures_width(text: str, kind: str = "meter") -> float:
+    """How wide a row of such figures is."""
+    return sum(sign_box(name).advance for name in _figures(text, kind))
+
+
+def _figures(text: str, kind: str) -> list[str]:
+    return [f"{kind}_plus" if character == "+" else f"{kind}_{character}" for character in text if character != " "]
+
+
+CLEF_WIDTH = sign_box("clef").width
 
 
 def clef(draw_list: DrawList, x: float) -> None:
-    """The percussion clef: two thick strokes across the middle of the staff, `CLEF_WIDTH` wide."""
-    for left in (x, x + 0.85):
-        draw_list.box((left, -1.0), (0.5, 2.0), INK)
+    """The percussion clef from `x` on, `CLEF_WIDTH` wide."""
+    draw_list.sign("clef", (x, 0.0), INK)
 
 
 def staff_lines(draw_list: DrawList, width: float) -> None:

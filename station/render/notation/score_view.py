@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from station.core.pieces import Piece
 from station.music.score import Score
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
-from station.render.notation import engraving, note_shapes
+from station.render.notation import note_shapes
 from station.render.notation.engraving import Engraver
 from station.render.notation.free_strip import strip_paper, strip_shapes
 from station.render.notation.highway import LINE_SHARE, NAMES_SHARE, SHOWN_S, Highway, lane_height, lanes
 from station.render.notation.judgement_marks import draw_dynamics, draw_mark, off_db
 from station.render.notation.staff import PLACES, height
+from station.render.notation.staff_rows import staff_rows
 from station.render.palette import BRAND, EXTRA, PANEL_EDGE, PAPER, PAPER_LOW, with_opacity
 from station.render.snapshot import PENDING, Snapshot, Strip
 from station.render.text.atlas import Atlas
@@ -41,25 +42,29 @@ _LEAST_SPACES = 48.0
 """So many staff spaces are as wide as the score: eighths at 150 beats a minute stay apart (our choice)."""
 
 
+_USUAL_REACH = (-8.3, 7.5)
+"""What a staff with sticking and accents takes up and down of its middle line, in staff spaces."""
+
+
 @dataclass(frozen=True, slots=True)
 class ScorePlace:
-    """Where the score lies in the picture, in pixels, y down; its staff reaches `bottom_y` (`engraving.bottom_of`)."""
+    """Where the score lies in the picture, in pixels, y down; how far up and down its staff reaches (`staff_rows`)."""
 
     left: float
     top: float
     width: float
     height: float
-    bottom_y: float = engraving.BOTTOM_Y
+    reach: tuple[float, float] = _USUAL_REACH
 
     @property
     def space(self) -> float:
         """Pixels a staff space: the height holds what is engraved, and the width enough of them to tell notes apart."""
-        return min(self.height / (self.bottom_y - engraving.TOP_Y), self.width / _LEAST_SPACES)
+        return min(self.height / (self.reach[1] - self.reach[0]), self.width / _LEAST_SPACES)
 
     @property
     def middle_line(self) -> float:
         """Where the staff's middle line lies."""
-        return self.top + self.height / 2 - (engraving.TOP_Y + self.bottom_y) / 2 * self.space
+        return self.top + self.height / 2 - sum(self.reach) / 2 * self.space
 
     @property
     def top_y(self) -> float:
@@ -95,7 +100,16 @@ class ScoreView:
         self._paged: Score | None = None
         self._pages: list[ScorePage] = []
         self._led: Score | None = None
+        self._reached: tuple[Score, NDArray[np.int8] | None] | None = None
+        self._reach = _USUAL_REACH
         self._lead = _LEAST_LEAD
+
+    def reach(self, snapshot: Snapshot) -> tuple[float, float]:
+        """How far up and down the staff of the snapshot's score reaches (`staff_rows`)."""
+        if self._reached is None or self._reached[0] is not snapshot.score or self._reached[1] is not snapshot.limbs:
+            self._reached = snapshot.score, snapshot.limbs
+            self._reach = staff_rows(snapshot.score, snapshot.limbs).reach
+        return self._reach
 
     def draw_paper(self, place: ScorePlace, size: tuple[int, int], is_staff: bool) -> None:
         """Draw what a score lies on and what of it never moves, at `place` in a picture of `size`.

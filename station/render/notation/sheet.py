@@ -1,8 +1,9 @@
-"""A score as a sheet for the music stand: title, tempo, author, lines of engraved bars, and a key of what is used.
+"""A score as a sheet for the music stand: title, author, lines of engraved bars, and a key of what is used.
 
 Lengths are points (1/72 inch) where no other unit is named, y down; the staff's are staff spaces, as in `engraving`.
 """
 
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,230 +11,215 @@ import numpy as np
 from station.core.pieces import Limb
 from station.core.units import PPQ
 from station.music.score import Score
-from station.render.notation import engraving, note_shapes
-from station.render.notation.beat_note import draw_beat_note
+from station.music.tempo_words import tempo_words
 from station.render.notation.engraving import Engraver
-from station.render.notation.line_breaks import REPEAT, BarBox, ruler, systems
+from station.render.notation.line_breaks import lines
+from station.render.notation.sheet_bars import sheet_bars
 from station.render.notation.sheet_key import KEY_HEIGHT, draw_key
+from station.render.notation.sheet_line import LineInk, LineSetter
+from station.render.notation.sheet_words import LineWord, TempoSign
+from station.render.notation.swing_words import SwingMark, swing_marks
 from station.render.palette import INK, INK_SOFT
-from station.render.snapshot import BarNumbers
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
-from station.render.text.paper import Filled, OutlineAtlas, PaperSpot, filled
+from station.render.text.paper import Ink, OutlineAtlas, PaperSpot, filled
 
-SPACES = tuple(mm / 25.4 * 72 for mm in (2.75, 2.25, 1.75))
-"""Staff spaces: the largest with which all is on one page, else the least, a staff of 7 mm, which parts are printed in
-(Gould, "Behind Bars", 2011: 6.5 to 7.5 mm); a short loop is read from further off (our choice)."""
+SPACES = tuple(mm / 25.4 * 72 for mm in (2.5, 2.0, 1.75))
+"""Staff spaces: the largest for a loop of few lines, which is read from further off; a staff of 8 mm where all is on
+one page (both our choice); else of 7 mm, in which parts are printed (Gould, "Behind Bars", 2011: 6.5 to 7.5 mm)."""
+_FEW_LINES = 2
+_LEAST_LINE = 8.0
+"""No line of a sheet is less high, in staff spaces: a staff, a stem above it and letters below."""
 MARGIN = 15 / 25.4 * 72
 """What printers leave free, and a thumb."""
 PAPERS = {"a4": (595.28, 841.89), "letter": (612.0, 792.0)}
-LEAD = 6.2
-"""What clef and meter take of a line, in staff spaces, at the least."""
-_CLEF_X, _SIGNATURE_X = 0.8, 0.8 + note_shapes.CLEF_WIDTH + note_shapes.SIGNATURE_GAP
-_TOP, _BELOW = engraving.TOP_Y - 0.6, 0.4
-_SECTION_Y = -9.0
 _TITLE, _TEXT, _SMALL = 22.0, 11.0, 9.5
-_BEAT_NOTE = 9.2
-"""The unit of the note before the tempo: a little taller than its figures (our choice)."""
 _ABOUT_LINES = 3
-_HEAD_HEIGHT = 62.0
+_HEAD_HEIGHT, _RUNNING_HEAD = 50.0, 22.0
+"""What the title and the author take on the first page, and the title on the others."""
+_BETWEEN, _MOST_BETWEEN = 2.2, 5.0
+"""What stands between two lines at the least, and where a full page is spread, at the most, in staff spaces."""
 
 
 @dataclass(frozen=True, slots=True)
 class SheetWords:
     """What stands on a sheet beside its notes.
 
-    `beats_a_minute` of beats `beat_ticks` long; `feel` such as "swing 2 : 1"; `sections` the names of parts by the bar
-    (from 0) where they begin; `repeat` the first and last bar (from 0) of what is to be repeated; `first_bar` what the
-    first bar is called.
+    `beats_a_minute` of beats `beat_ticks` long; `sections` the names of parts by the bar (from 0) where they begin;
+    `repeat` the first and last bar (from 0) of what is to be repeated; `first_bar` what the first bar is called.
     """
 
     title: str
     author: str = ""
     beats_a_minute: float | None = None
     beat_ticks: int = PPQ
-    feel: str = ""
     about: str = ""
     sections: tuple[tuple[int, str], ...] = ()
     repeat: tuple[int, int] | None = None
     first_bar: int = 1
 
 
-@dataclass(frozen=True, slots=True)
-class SheetSetting:
-    """How a sheet is set: the paper's `size` and the staff `space` in points, and whether the hands are written."""
-
-    size: tuple[float, float]
-    space: float
-    with_sticking: bool
-
-
 @dataclass(slots=True)
 class _Page:
-    """A page that fills from `y` down."""
+    """A page that fills from `y` down: its lines, each with its middle line's y."""
 
-    y: float = MARGIN
-    areas: list[Filled] = field(default_factory=list)
-
-
-def sheet(score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool = True) -> list[list[Filled]]:
-    """The pages of `score`, each of `size` (width, height) points."""
-    for space in SPACES:
-        pages = _SheetPage(score, words, SheetSetting(size, space, with_sticking)).pages()
-        if len(pages) == 1:
-            break
-    return pages
+    y: float
+    ink: list[Ink] = field(default_factory=list)
+    lines: list[tuple[float, LineInk]] = field(default_factory=list)
 
 
-class _SheetPage:
-    """The work of one sheet."""
+def sheet(score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool = True) -> list[Ink]:
+    """The pages of `score`, each of `size` (width, height) points; it swings under marks, straight as it is written."""
+    limbs = score.notes["limb"] if with_sticking else np.full_like(score.notes["limb"], Limb.UNKNOWN)
+    pages = _SheetPages(score.with_limbs(limbs), words, size, with_sticking)
+    for space in SPACES[:-1]:
+        if pages.may_be_one(space) and len(found := pages.pages(space)) == 1:
+            return found
+    return pages.pages(SPACES[-1])
 
-    def __init__(self, score: Score, words: SheetWords, setting: SheetSetting) -> None:
-        self._score, self._words, self._size = score, words, setting.size
-        self._space, self._with_sticking = setting.space, setting.with_sticking
+
+class _SheetPages:
+    """The work of one sheet; `space` is a staff space in points throughout."""
+
+    def __init__(self, score: Score, words: SheetWords, size: tuple[float, float], with_sticking: bool) -> None:
+        swing, score = swing_marks(score), score.as_written
+        self._score, self._words, self._size, self._with_sticking = score, words, size, with_sticking
         self._atlas = OutlineAtlas()
-        limbs = score.notes["limb"]
-        shown = limbs if setting.with_sticking else np.full_like(limbs, Limb.UNKNOWN)
-        self._engraver = Engraver(
-            score, self._atlas, shown, BarNumbers(words.first_bar - 1), words.beat_ticks, meter_words=False
-        )
-        self._pages = [_Page()]
-        tempo = score.tempo_map
-        self._new_meters = {
-            int(tempo.bars_at(meter.tick)): meter for meter in tempo.meters if 0 < meter.tick < score.end_tick
-        }
-        self._bottom = engraving.bottom_of(score) + _BELOW
-        widest = note_shapes.signature_width(DrawList(self._atlas), score.tempo_map.meter_at(0))
-        self._lead = max(LEAD, _SIGNATURE_X + widest + note_shapes.SIGNATURE_GAP)
-
-    def pages(self) -> list[list[Filled]]:
-        """Lay out everything."""
-        self._head()
-        named = {bar for bar, _ in self._words.sections}
-        for boxes in systems(self._score, self._width / self._space - self._lead, self._before()):
-            top = _TOP - (2.0 if any(box.bar in named for box in boxes) else 0.0)
-            page = self._room((self._bottom - top) * self._space)
-            self._system(boxes, page, page.y - top * self._space)
-            page.y += (self._bottom - top) * self._space
-        page = self._room(KEY_HEIGHT * self._space)
-        spot = PaperSpot((MARGIN, self._size[1] - MARGIN - KEY_HEIGHT * self._space), self._space)
-        draw_list = DrawList(self._atlas)
-        draw_key(draw_list, self._score, self._width / self._space, self._with_sticking)
-        page.areas += filled(draw_list.shapes(), self._atlas, spot)
-        self._feet()
-        return [page.areas for page in self._pages]
+        bars = sheet_bars(score, _starts(words, swing), words.repeat, words.first_bar)
+        above = _line_words(score, words, swing)
+        self._setter = LineSetter(Engraver(score, self._atlas, as_written=True), bars, above, self._atlas)
+        self._bars = self._setter.set_bars()
 
     @property
     def _width(self) -> float:
         return self._size[0] - 2 * MARGIN
 
-    def _before(self) -> dict[int, float]:
-        """What stands between a bar line and the notes: repeat signs and new meters, by their bars."""
-        letters, found = DrawList(self._atlas), {}
-        if self._words.repeat is not None:
-            found[self._words.repeat[0]] = REPEAT
-        for bar, meter in self._new_meters.items():
-            width = note_shapes.signature_width(letters, meter)
-            found[bar] = found.get(bar, 0.0) + width + note_shapes.SIGNATURE_GAP
-        return found
+    def may_be_one(self, space: float) -> bool:
+        """Whether all may be on one page, and on few lines where they are of the largest size."""
+        count = len(lines(self._bars, self._width / space))
+        return count * _LEAST_LINE * space < self._size[1] and (space < SPACES[0] or count <= _FEW_LINES)
 
-    def _room(self, height: float) -> _Page:
-        """A page that has so much left."""
-        if self._pages[-1].y + height > self._size[1] - MARGIN:
-            self._pages.append(_Page())
-        return self._pages[-1]
+    def pages(self, space: float) -> list[Ink]:
+        """Lay out everything."""
+        found = [
+            self._setter.line(boxes, self._bars, MARGIN, space) for boxes in lines(self._bars, self._width / space)
+        ]
+        pages = self._filled(found, space)
+        self._heads(pages)
+        for page in pages:
+            page.ink += [line.ink.moved(y) for y, line in page.lines]
+        pages[-1].ink.append(self._key(space))
+        return [Ink.joined(page.ink) for page in pages]
 
-    def _print(self, page: _Page, draw_list: DrawList, spot: PaperSpot) -> None:
-        page.areas += filled(draw_list.shapes(), self._atlas, spot)
+    # --- lines on pages -----------------------------------------------------------------------------------------------
 
-    # --- head and feet ------------------------------------------------------------------------------------------------
+    def _filled(self, found: Sequence[LineInk], space: float) -> list[_Page]:
+        """The lines from the top of the first page down, on as many pages as they need with the key below the last."""
+        pages, bottom = [_Page(MARGIN + self._head_height())], self._size[1] - MARGIN
+        gap = _BETWEEN * space
+        for k, line in enumerate(found):
+            key = KEY_HEIGHT * space if k == len(found) - 1 else 0.0
+            if pages[-1].y + line.bottom - line.top + key > bottom:
+                self._spread(pages[-1], space)
+                pages.append(_Page(MARGIN + _RUNNING_HEAD))
+            page = pages[-1]
+            page.lines.append((page.y - line.top, line))
+            page.y += line.bottom - line.top + gap
+        return pages
 
-    def _head(self) -> None:
-        words, page, draw_list = self._words, self._pages[0], DrawList(self._atlas)
-        middle, right = self._width / 2, self._width
+    def _spread(self, page: _Page, space: float) -> None:
+        """Share out over a full page what is left of it."""
+        if len(page.lines) < 2:
+            return
+        left = self._size[1] - MARGIN - (page.y - _BETWEEN * space)
+        more = min(left / (len(page.lines) - 1), (_MOST_BETWEEN - _BETWEEN) * space)
+        page.lines = [(y + k * more, line) for k, (y, line) in enumerate(page.lines)]
+
+    def _key(self, space: float) -> Ink:
+        draw_list = DrawList(self._atlas)
+        draw_key(draw_list, self._score, self._width / space, self._with_sticking)
+        top = self._size[1] - MARGIN - KEY_HEIGHT * space
+        return filled(draw_list.shapes(), self._atlas, PaperSpot((MARGIN, top), space))
+
+    # --- heads and feet -----------------------------------------------------------------------------------------------
+
+    def _head_height(self) -> float:
+        """What stands above the first line."""
+        count = len(self._about(DrawList(self._atlas)))
+        return _HEAD_HEIGHT + (13.0 * count + 6.0 if count else 0.0)
+
+    def _about(self, draw_list: DrawList) -> list[str]:
+        """What the sheet says of itself, in at most so many lines."""
+        if not self._words.about:
+            return []
+        broken = draw_list.broken(self._words.about, TypeStyle(_SMALL, INK_SOFT), self._width)
+        return broken if len(broken) <= _ABOUT_LINES else [*broken[: _ABOUT_LINES - 1], f"{broken[_ABOUT_LINES - 1]} …"]
+
+    def _heads(self, pages: Sequence[_Page]) -> None:
+        """The title above the first page, smaller above the others, and which page of how many where there are more."""
+        for number, page in enumerate(pages, 1):
+            draw_list = DrawList(self._atlas)
+            if number == 1:
+                self._title(draw_list)
+            else:
+                draw_list.text(self._words.title, (0.0, 4.0), TypeStyle(_SMALL, INK_SOFT))
+                draw_list.text(self._words.author, (self._width, 4.0), TypeStyle(_SMALL, INK_SOFT, align=1.0))
+            if len(pages) > 1:
+                foot = self._size[1] - 1.5 * MARGIN
+                text = f"{number} / {len(pages)}"
+                draw_list.text(text, (self._width / 2, foot), TypeStyle(_SMALL, INK_SOFT, align=0.5))
+            page.ink.append(filled(draw_list.shapes(), self._atlas, PaperSpot((MARGIN, MARGIN), 1.0)))
+
+    def _title(self, draw_list: DrawList) -> None:
+        words, middle, right = self._words, self._width / 2, self._width
         title = TypeStyle(_TITLE, INK, Face.BOLD, 0.5)
         size = min(_TITLE, _TITLE * right / max(draw_list.width(words.title, title), 1.0))
         draw_list.text(words.title, (middle, 22.0), TypeStyle(size, INK, Face.BOLD, 0.5))
-        y = 46.0
-        draw_list.text(words.author, (right, y), TypeStyle(_TEXT, INK_SOFT, Face.REGULAR, 1.0))
-        x = self._tempo(draw_list, y) if words.beats_a_minute is not None else 0.0
-        draw_list.text(words.feel, (x, y), TypeStyle(_TEXT, INK))
-        height = _HEAD_HEIGHT
-        about = TypeStyle(_SMALL, INK_SOFT)
-        lines = draw_list.broken(words.about, about, right)
-        if words.about:
-            more = len(lines) > _ABOUT_LINES
-            for k, line in enumerate(lines[:_ABOUT_LINES]):
-                text = f"{line} …" if more and k == _ABOUT_LINES - 1 else line
-                draw_list.text(text, (0.0, height + 2.0 + 13.0 * k), about)
-            height += 13.0 * min(len(lines), _ABOUT_LINES) + 6.0
-        self._print(page, draw_list, PaperSpot((MARGIN, MARGIN), 1.0))
-        page.y += height
-
-    def _tempo(self, draw_list: DrawList, y: float) -> float:
-        """The beat as a note, and how many a minute; returns where it ends."""
-        words = self._words
-        x = draw_beat_note(draw_list, (0.0, y), _BEAT_NOTE, words.beat_ticks, INK)
-        return x + draw_list.text(f"= {words.beats_a_minute:g}", (x, y), TypeStyle(_TEXT, INK, Face.BOLD)) + 16.0
-
-    def _feet(self) -> None:
-        """Which page of how many, where there are more."""
-        if len(self._pages) == 1:
-            return
-        for number, page in enumerate(self._pages, 1):
-            draw_list = DrawList(self._atlas)
-            draw_list.text(self._words.title, (0.0, 0.0), TypeStyle(_SMALL, INK_SOFT))
-            draw_list.text(
-                f"{number} / {len(self._pages)}", (self._width, 0.0), TypeStyle(_SMALL, INK_SOFT, Face.REGULAR, 1.0)
-            )
-            self._print(page, draw_list, PaperSpot((MARGIN, self._size[1] - MARGIN * 0.5), 1.0))
-
-    # --- a line of bars -----------------------------------------------------------------------------------------------
-
-    def _system(self, boxes: list[BarBox], page: _Page, middle_y: float) -> None:
-        draw_list, end = DrawList(self._atlas), self._lead + boxes[-1].right
-        note_shapes.staff_lines(draw_list, end)
-        note_shapes.clef(draw_list, _CLEF_X)
-        if boxes[0].bar == 0:
-            note_shapes.time_signature(draw_list, self._score.tempo_map.meter_at(0), _SIGNATURE_X)
-        names = dict(self._words.sections)
-        first, last = self._words.repeat or (None, None)
-        for box in boxes:
-            x = self._lead + box.left
-            if box.bar in names:
-                draw_list.text(names[box.bar], (x, _SECTION_Y), TypeStyle(1.9, INK, Face.BOLD))
-            if box.bar == first:
-                _repeat(draw_list, x, 1)
-            elif box is not boxes[0] and box.bar - 1 != last:
-                _bar_line(draw_list, x)
-            if box.bar in self._new_meters:
-                left = x + note_shapes.SIGNATURE_GAP + (REPEAT if box.bar == first else 0.0)
-                note_shapes.time_signature(draw_list, self._new_meters[box.bar], left)
-            if box.bar == last:
-                _repeat(draw_list, self._lead + box.right, -1)
-        if boxes[-1].bar != last:
-            is_end = boxes[-1].bar == self._score.bar_count - 1
-            _last_line(draw_list, end) if is_end else _bar_line(draw_list, end - 0.08)
-        self._print(page, draw_list, PaperSpot((MARGIN, middle_y), self._space))
-        for box in boxes:
-            spot = PaperSpot((MARGIN + self._lead * self._space, middle_y), self._space, ruler(self._score, box))
-            bar = self._engraver.bar(box.bar, with_line=False, opens_line=box is boxes[0])
-            page.areas += filled(bar, self._atlas, spot)
+        draw_list.text(words.author, (right, 40.0), TypeStyle(_TEXT, INK_SOFT, Face.REGULAR, 1.0))
+        for k, line in enumerate(self._about(draw_list)):
+            draw_list.text(line, (0.0, _HEAD_HEIGHT + 4.0 + 13.0 * k), TypeStyle(_SMALL, INK_SOFT))
 
 
-def _bar_line(draw_list: DrawList, x: float, width: float = 0.16) -> None:
-    draw_list.line((x, -2.0), (x, 2.0), width, INK)
+def _starts(words: SheetWords, swing: Mapping[int, SwingMark]) -> dict[int, str]:
+    """The bars where something new begins, with what tells it apart: a section's name and how it swings."""
+    names, starts, holds = dict(words.sections), dict[int, str](), swing.get(0)
+    for bar in sorted(names.keys() | swing.keys() - {0}):
+        holds = swing.get(bar, holds)
+        starts[bar] = f"{names.get(bar, '')} {holds}"
+    return starts
 
 
-def _last_line(draw_list: DrawList, x: float) -> None:
-    """A thin and a thick line, the thick one ending at `x`."""
-    _bar_line(draw_list, x - 0.25, 0.5)
-    _bar_line(draw_list, x - 0.85)
+def _line_words(
+    score: Score, words: SheetWords, swing: Mapping[int, SwingMark]
+) -> dict[int, list[tuple[float, LineWord]]]:
+    """What stands above the bars, by bar: how many seconds after its start, and the words."""
+    found: dict[int, list[tuple[float, LineWord]]] = {}
+    for bar, at_s, word in _words_in_order(score, words, swing):
+        before = found.setdefault(bar, [])
+        is_beside = bool(before) and before[-1][0] == at_s
+        before.append((at_s, _joined(before.pop()[1], word) if is_beside else word))
+    return found
 
 
-def _repeat(draw_list: DrawList, x: float, way: int) -> None:
-    """A repeat sign whose thick line begins at `x` and whose dots stand on its right (1) or left (−1)."""
-    _bar_line(draw_list, x + 0.25 * way, 0.5)
-    _bar_line(draw_list, x + 0.85 * way)
-    for y in (-0.5, 0.5):
-        draw_list.ellipse((x + 1.45 * way, y), (0.2, 0.2), INK)
+def _words_in_order(
+    score: Score, words: SheetWords, swing: Mapping[int, SwingMark]
+) -> Iterator[tuple[int, float, LineWord]]:
+    """Bar, seconds from its start, and word, by time."""
+    tempo, found = score.tempo_map, list[tuple[int, float, LineWord]]()
+    first = None if words.beats_a_minute is None else TempoSign(words.beats_a_minute, words.beat_ticks)
+    if first:
+        found.append((0, 0.0, LineWord(0.0, tempo=first)))
+    found += [(bar, 0.0, LineWord(0.0, section=name)) for bar, name in words.sections]
+    found += [(bar, 0.0, LineWord(0.0, swing=mark)) for bar, mark in swing.items()]
+    for change in tempo_words(tempo):
+        if change.tick < score.end_tick:
+            bar = int(tempo.bars_at(change.tick))
+            at_s, start_s = tempo.seconds_at([change.tick, tempo.bar_start(bar)]).tolist()
+            beats = round(change.tempo_bpm * PPQ / words.beat_ticks, 1)
+            found.append((bar, at_s - start_s, LineWord(0.0, tempo=TempoSign(beats, words.beat_ticks, change.way))))
+    yield from sorted(found, key=lambda item: item[:2])
+
+
+def _joined(one: LineWord, other: LineWord) -> LineWord:
+    """Two words for one place as one."""
+    return LineWord(one.x, one.section or other.section, other.tempo or one.tempo, other.swing or one.swing)

@@ -10,19 +10,24 @@ from station.core.labels import piece_name
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.music.loudness_marks import FADE, GROW
 from station.music.score import Score
-from station.render.notation import note_shapes
-from station.render.notation.staff import PLACES, NoteHead, head_of, height, ledger_steps
+from station.render.notation.chord_width import LETTER_SIZE
+from station.render.notation.head_places import EDGE_X, HEAD_SIGNS
+from station.render.notation.note_shapes import draw_brackets, draw_head
+from station.render.notation.staff import NoteHead, head_of, height, ledger_steps, step_of
+from station.render.notation.staff_rows import OPEN_FROM, WIDE_FROM, shown_limbs
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
+from station.render.text.sign_outlines import HAIRPIN_LINE, LEDGER_LINE, LEDGER_OUT, STAFF_LINE, STEM, sign_box
 
 KEY_HEIGHT = 17.6
-_STAFF_Y = 3.6
-_NAMES_Y, _LINE = 8.4, 1.8
-_SIGNS_Y = 13.6
+_STAFF_Y = 4.6
+_NAMES_Y, _LINE = 9.4, 1.8
+_SIGNS_Y = 14.2
 _SLOT = 9.0
 _NAME = 1.45
-_OPEN_FROM, _WIDE_FROM = 0.25, 0.75
+_BRACKETS_X = EDGE_X + sign_box("bracket_left").width / 2 + 0.03
+_GRACE, _GRACE_STEM = 0.62, 1.7
 
 Draw = Callable[[DrawList, tuple[float, float]], None]
 
@@ -35,12 +40,12 @@ def draw_key(draw_list: DrawList, score: Score, width: float, with_sticking: boo
     slot = min(_SLOT, width / len(used))
     _staff(draw_list, len(used) * slot)
     for k, (piece, head, name) in enumerate(used):
-        x, step = (k + 0.5) * slot, PLACES[piece].step
-        y = _STAFF_Y + height(step)
+        x, step = (k + 0.5) * slot, step_of(piece)
+        half = sign_box(HEAD_SIGNS[head]).width / 2 + LEDGER_OUT
         for line in ledger_steps(step):
             ledger = _STAFF_Y + height(line)
-            draw_list.line((x - 1.05, ledger), (x + 1.05, ledger), note_shapes.STAFF_LINE, INK_SOFT)
-        note_shapes.draw_head(draw_list, head, (x, y), 1.0)
+            draw_list.line((x - half, ledger), (x + half, ledger), LEDGER_LINE, INK_SOFT)
+        draw_head(draw_list, head, (x, _STAFF_Y + height(step)), 1.0)
         style = TypeStyle(_NAME, INK, Face.REGULAR, 0.5)
         for row, words in enumerate(draw_list.broken(name, style, slot - 0.6)):
             draw_list.text(words, (x, _NAMES_Y + _LINE * row), style)
@@ -49,8 +54,8 @@ def draw_key(draw_list: DrawList, score: Score, width: float, with_sticking: boo
 
 def _staff(draw_list: DrawList, width: float) -> None:
     for k in range(-2, 3):
-        y = _STAFF_Y + k - note_shapes.STAFF_LINE / 2
-        draw_list.box((0.0, y), (width, note_shapes.STAFF_LINE), INK_SOFT)
+        y = _STAFF_Y + k - STAFF_LINE / 2
+        draw_list.box((0.0, y), (width, STAFF_LINE), INK_SOFT)
 
 
 def notes_used(score: Score) -> Iterator[tuple[Piece, NoteHead, str]]:
@@ -60,11 +65,19 @@ def notes_used(score: Score) -> Iterator[tuple[Piece, NoteHead, str]]:
     for row in rows:
         piece, zone, how = Piece(int(row["piece"])), Zone(int(row["zone"])), Articulation(int(row["articulation"]))
         head = head_of(piece, zone, how)
-        plain = head is PLACES[piece].head
-        special = "cross-stick" if how is Articulation.CROSS_STICK else "bell"
-        found[piece, head] = piece_name(piece) if plain else f"{piece_name(piece)}, {special}"
-    for (piece, head), name in sorted(found.items(), key=lambda item: (PLACES[item[0][0]].step, item[0])):
+        special = _special(piece, zone, how)
+        found[piece, head] = f"{piece_name(piece)}, {special}" if special else piece_name(piece)
+    for (piece, head), name in sorted(found.items(), key=lambda item: (step_of(item[0][0]), item[0])):
         yield piece, head, name
+
+
+def _special(piece: Piece, zone: Zone, how: Articulation) -> str:
+    """What a head other than the piece's usual one says."""
+    if head_of(piece, zone, how) is head_of(piece, Zone.HEAD, Articulation.NORMAL):
+        return ""
+    ways = {Articulation.CROSS_STICK: "cross-stick", Articulation.RIM_SHOT: "rim shot"}
+    zones = {Zone.BELL: "bell", Zone.EDGE: "edge", Zone.BOW: "bow", Zone.RIM: "rim"}
+    return ways.get(how) or zones[zone]
 
 
 def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
@@ -72,23 +85,30 @@ def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
     notes = score.notes
     graced = notes["ornament"][score.is_grace]
     if (notes["dynamic"] == Dynamic.ACCENT).any():
-        yield lambda draw_list, at: draw_list.sign("accent", at, INK, 0.95), "accent: loud"
+        yield partial(_sign, name="accent"), "accent: loud"
     if (notes["dynamic"][~score.is_grace] == Dynamic.GHOST).any():
         yield _ghost, "ghost: very soft"
     yield from _hairpins_used(score)
     yield from _hat_signs_used(notes[notes["piece"] == Piece.HIHAT]["openness"])
+    if ((notes["piece"] == Piece.HIHAT_PEDAL) & (notes["articulation"] == Articulation.SPLASH)).any():
+        yield _splash, "splash with the foot"
     if (graced == Ornament.FLAM).any():
-        yield lambda draw_list, at: _graces(draw_list, at, 1), "flam"
+        yield partial(_graces, count=1), "flam"
     if (graced == Ornament.DRAG).any():
-        yield lambda draw_list, at: _graces(draw_list, at, 2), "drag"
-    if (notes["articulation"] == Articulation.RIM_SHOT).any():
-        yield _rim_shot, "rim shot"
+        yield partial(_graces, count=2), "drag"
     if (notes["articulation"] == Articulation.BUZZ).any():
-        yield lambda draw_list, at: draw_list.sign("buzz", at, INK), "buzz roll"
+        yield partial(_sign, name="buzz"), "buzz roll"
     if (notes["choke_ticks"] > 0).any():
-        yield lambda draw_list, at: draw_list.sign("choke", at, INK), "choke: grab it"
-    if with_sticking and np.isin(notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any():
-        yield _letters, "right and left hand"
+        yield partial(_sign, name="choke"), "choke: grab it"
+    if with_sticking:
+        yield from _letters_used(shown_limbs(score, notes["limb"]))
+
+
+def _letters_used(limbs: NDArray[np.int8]) -> Iterator[tuple[Draw, str]]:
+    if np.isin(limbs, (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any():
+        yield _letters, "above: right and left hand"
+    if np.isin(limbs, (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)).any():
+        yield _letters, "below: right and left foot"
 
 
 def _hairpins_used(score: Score) -> Iterator[tuple[Draw, str]]:
@@ -98,18 +118,18 @@ def _hairpins_used(score: Score) -> Iterator[tuple[Draw, str]]:
 
 
 def _hat_signs_used(openness: NDArray[np.float32]) -> Iterator[tuple[Draw, str]]:
-    is_open = openness >= _OPEN_FROM
+    is_open = openness >= OPEN_FROM
     for kind, used, words in (
-        ("open", openness >= _WIDE_FROM, "hi-hat open"),
-        ("half", is_open & (openness < _WIDE_FROM), "hi-hat half open"),
-        ("closed", is_open[:-1] & ~is_open[1:], "closed again"),
+        ("hat_open", openness >= WIDE_FROM, "hi-hat open"),
+        ("hat_half", is_open & (openness < WIDE_FROM), "hi-hat half open"),
+        ("hat_closed", is_open[:-1] & ~is_open[1:], "closed again"),
     ):
         if used.any():
-            yield partial(_hat_sign, kind=kind), words
+            yield partial(_sign, name=kind), words
 
 
-def _hat_sign(draw_list: DrawList, at: tuple[float, float], kind: str) -> None:
-    note_shapes.draw_hat_sign(draw_list, kind, at)
+def _sign(draw_list: DrawList, at: tuple[float, float], name: str) -> None:
+    draw_list.sign(name, at, INK)
 
 
 def _signs(draw_list: DrawList, signs: list[tuple[Draw, str]], width: float) -> None:
@@ -126,29 +146,29 @@ def _signs(draw_list: DrawList, signs: list[tuple[Draw, str]], width: float) -> 
 
 
 def _ghost(draw_list: DrawList, at: tuple[float, float]) -> None:
-    note_shapes.draw_head(draw_list, NoteHead.ROUND, at, 0.9)
-    for name, side in (("bracket_left", -0.95), ("bracket_right", 0.95)):
-        draw_list.sign(name, (at[0] + side, at[1]), INK, 0.95)
+    draw_head(draw_list, NoteHead.ROUND, at, 1.0)
+    draw_brackets(draw_list, (at[0] - _BRACKETS_X, at[0] + _BRACKETS_X), at[1])
+
+
+def _splash(draw_list: DrawList, at: tuple[float, float]) -> None:
+    draw_head(draw_list, NoteHead.CROSS, (at[0], at[1] - 0.6), 1.0)
+    draw_list.sign("hat_open", (at[0], at[1] + 0.8), INK)
 
 
 def _hairpin(draw_list: DrawList, at: tuple[float, float], sign: str) -> None:
     (x, y), half = at, 1.4 if sign == GROW else -1.4
     for opening in (-0.5, 0.5):
-        draw_list.line((x - half, y), (x + half, y + opening), 0.13, INK)
+        draw_list.line((x - half, y), (x + half, y + opening), HAIRPIN_LINE, INK)
 
 
 def _graces(draw_list: DrawList, at: tuple[float, float], count: int) -> None:
-    note_shapes.draw_head(draw_list, NoteHead.ROUND, (at[0] + 0.9, at[1]), 0.9)
+    draw_head(draw_list, NoteHead.ROUND, (at[0] + 0.9, at[1]), 1.0)
     for k in range(count):
         x = at[0] - 0.5 - 0.9 * k
-        note_shapes.draw_head(draw_list, NoteHead.ROUND, (x, at[1]), 0.55)
-        draw_list.line((x + 0.3, at[1]), (x + 0.3, at[1] - 1.6), 0.1, INK)
-
-
-def _rim_shot(draw_list: DrawList, at: tuple[float, float]) -> None:
-    note_shapes.draw_head(draw_list, NoteHead.ROUND, at, 0.9)
-    draw_list.sign("slash", at, INK, 0.9)
+        draw_head(draw_list, NoteHead.ROUND, (x, at[1]), _GRACE)
+        stem = x + (EDGE_X - STEM / 2) * _GRACE
+        draw_list.line((stem, at[1] - 0.1), (stem, at[1] - _GRACE_STEM), STEM, INK)
 
 
 def _letters(draw_list: DrawList, at: tuple[float, float]) -> None:
-    draw_list.text("R L", (at[0], at[1] + 0.5), TypeStyle(1.3, INK_SOFT, Face.BOLD, 0.5))
+    draw_list.text("R L", (at[0], at[1] + 0.5), TypeStyle(LETTER_SIZE, INK_SOFT, Face.BOLD, 0.5))

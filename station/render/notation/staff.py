@@ -9,7 +9,7 @@ down.
 from dataclasses import dataclass
 from enum import IntEnum
 
-from station.core.pieces import Articulation, Piece, Zone
+from station.core.pieces import CYMBALS, Articulation, Piece, Zone
 
 MIDDLE_LINE = 4
 TOP_LINE = 8
@@ -23,6 +23,10 @@ class NoteHead(IntEnum):
     DIAMOND = 2
     TRIANGLE = 3
     RINGED_CROSS = 4
+    HEAVY_CROSS = 5
+    ORNATE_CROSS = 6
+    HOLLOW_DIAMOND = 7
+    SLASHED = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,22 +54,39 @@ PLACES: dict[Piece, StaffPlace] = {
     Piece.TOM_4: StaffPlace(2),
     Piece.FLOOR_TOM_1: StaffPlace(3),
     Piece.FLOOR_TOM_2: StaffPlace(0),
-    Piece.COWBELL: StaffPlace(7, NoteHead.TRIANGLE),
-    Piece.TAMBOURINE: StaffPlace(10, NoteHead.TRIANGLE),
+    Piece.COWBELL: StaffPlace(10, NoteHead.TRIANGLE),
+    Piece.TAMBOURINE: StaffPlace(11, NoteHead.TRIANGLE),
     Piece.CLAP: StaffPlace(5, NoteHead.TRIANGLE),
     Piece.PERCUSSION: StaffPlace(12, NoteHead.TRIANGLE),
 }
 
 FOOT_PIECES = frozenset({Piece.KICK, Piece.HIHAT_PEDAL})
+_EDGED = CYMBALS - {Piece.RIDE, Piece.RIDE_2}
+"""Cymbals that are struck on the edge as a rule; the others are on the bow."""
+_BELLS = {NoteHead.CROSS: NoteHead.DIAMOND, NoteHead.RINGED_CROSS: NoteHead.HOLLOW_DIAMOND}
+_OTHER_ZONES = {NoteHead.CROSS: NoteHead.HEAVY_CROSS, NoteHead.RINGED_CROSS: NoteHead.ORNATE_CROSS}
+"""The heads of a cymbal's bell, and of its bow or edge where that is not struck as a rule, by its usual head."""
+
+
+def step_of(piece: Piece) -> int:
+    """The step that a piece stands on."""
+    return PLACES[piece].step
 
 
 def head_of(piece: Piece, zone: Zone, articulation: Articulation) -> NoteHead:
-    """The head that a stroke is written with."""
+    """The head that a stroke is written with: no two of one step mean different pieces or zones."""
+    usual = PLACES[piece].head
     if articulation is Articulation.CROSS_STICK:
         return NoteHead.CROSS
+    if articulation is Articulation.RIM_SHOT:
+        return NoteHead.SLASHED
+    if zone is Zone.RIM and articulation is Articulation.NORMAL:
+        return NoteHead.HEAVY_CROSS
     if zone is Zone.BELL:
-        return NoteHead.DIAMOND
-    return PLACES[piece].head
+        return _BELLS.get(usual, usual)
+    if zone is (Zone.BOW if piece in _EDGED else Zone.EDGE):
+        return _OTHER_ZONES.get(usual, usual)
+    return usual
 
 
 def height(step: float) -> float:

@@ -19,7 +19,7 @@ SPREAD = 5
 """Texels on each side of an outline that know their distance; our choice, wide enough for letters at half size."""
 _TEXELS_PER_EM = 44
 _TEXELS_PER_SPACE = 22
-_TALLEST = 90
+_TALLEST = 138
 """No sign takes more texels in height; two shelves of it are kept free for the musical signs."""
 _UNKNOWN = "?"
 

@@ -1,10 +1,11 @@
-"""What `DrawList` collects as polygons on paper: outlines in points (1/72 inch), y down, for a printer of any fineness.
+"""What `DrawList` collects as areas on paper, in points (1/72 inch), y down, for a printer of any fineness.
 
 Where the screen's printer moves a shape by its time, paper asks a ruler where that time stands in the line. Ink on
-paper is black; what is soft on the screen is grey, dark enough to be read on a music stand.
+paper is black; what is soft on the screen is grey, dark enough to be read on a music stand. A sheet has many areas of
+few forms, so an area is an outline's number and the matrix that puts it in its place.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,11 +17,18 @@ from station.render.text.truetype import Contours
 
 Points = NDArray[np.float64]
 """A closed polygon, shape (n, 2)."""
+Floats = NDArray[np.float64]
 
 _ROUND = 40
 """Corners of an ellipse; our choice: a note head's then leave the curve by a thousandth of a millimetre."""
 _SOFTEST = 0.5
 """How dark the faintest ink is (our choice: staff lines that a weak lamp shows)."""
+_TURN = np.linspace(0, 2 * np.pi, _ROUND, endpoint=False)
+_DISC = np.column_stack([np.cos(_TURN), np.sin(_TURN)])
+_SQUARE = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+_ARROW = np.array([(1.0, 0.0), (-1.0, 1.0), (-1.0, -1.0)])
+SQUARE, _DISC_NUMBER, _ARROW_NUMBER = range(3)
+"""The outlines that every atlas begins with: two units wide and high, round (0, 0)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,16 +39,66 @@ class Filled:
     grey: float
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Ink:
+    """Areas in order, n of them: the `numbers` (n,) of their `outlines`, `matrices` (n, 6), `greys` (n,), 0 black.
+
+    A matrix (a, b, c, d, e, f) puts the outline's point (x, y) at (ax + cy + e, bx + dy + f), as in PDF.
+    """
+
+    outlines: Sequence[tuple[Points, ...]]
+    numbers: NDArray[np.int64]
+    matrices: Floats
+    greys: Floats
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    def __iter__(self) -> Iterator[Filled]:
+        for number, matrix, grey in zip(self.numbers.tolist(), self.matrices, self.greys.tolist(), strict=True):
+            turn, place = matrix[:4].reshape(2, 2), matrix[4:]
+            yield Filled(tuple(contour @ turn + place for contour in self.outlines[number]), grey)
+
+    def moved(self, down: float) -> "Ink":
+        """The same areas so many points farther down."""
+        return Ink(self.outlines, self.numbers, self.matrices + np.array([0, 0, 0, 0, 0, down]), self.greys)
+
+    @staticmethod
+    def joined(parts: Sequence["Ink"]) -> "Ink":
+        """All areas of `parts`, which are of one atlas; at least one part."""
+        return Ink(
+            parts[0].outlines,
+            np.concatenate([part.numbers for part in parts]),
+            np.concatenate([part.matrices for part in parts]),
+            np.concatenate([part.greys for part in parts]),
+        )
+
+
 class OutlineAtlas(Atlas):
     """The letters and signs without a texture: a glyph's `uv` says which outline is meant, (number, 0, number, 1)."""
 
     def __init__(self) -> None:
-        self._outlines: list[tuple[Contours, Glyph]] = []
+        self.outlines: list[tuple[Points, ...]] = [(_SQUARE,), (_DISC,), (_ARROW,)]
+        """All outlines by their numbers; those of letters and signs lie round their glyphs' centres, y up."""
+        self._upright: list[float] = [1.0] * len(self.outlines)
+        self._drawn: dict[tuple[int, float, float, float], int] = {}
         super().__init__()
 
-    def outline(self, number: int) -> tuple[Contours, Glyph]:
-        """An outline by its number, and its glyph."""
-        return self._outlines[number]
+    def half_heights(self, numbers: NDArray[np.int64]) -> Floats:
+        """Half of how high outlines are, shape (n,)."""
+        return np.array(self._upright)[numbers]
+
+    def drawn(self, kind: ShapeKind, half: tuple[float, float], width: float) -> int:
+        """The outline of a ring or a cross, whose line does not grow with it."""
+        key = (int(kind), round(half[0], 4), round(half[1], 4), round(width, 4))
+        if key not in self._drawn:
+            self._drawn[key] = self._add((_ring if kind is ShapeKind.ELLIPSE else _cross)(np.array(half), width), 1.0)
+        return self._drawn[key]
+
+    def _add(self, contours: tuple[Points, ...], upright: float) -> int:
+        self.outlines.append(contours)
+        self._upright.append(upright)
+        return len(self.outlines) - 1
 
     def _baked(self, contours: Contours, density: int, advance: float) -> Glyph:
         del density
@@ -48,77 +106,80 @@ class OutlineAtlas(Atlas):
         if contours:
             points = np.concatenate(contours)
             low, high = points.min(axis=0), points.max(axis=0)
-        (x, y), (wide, high_y) = (low + high) / 2, (high - low) / 2
-        number = len(self._outlines)
-        glyph = Glyph((number, 0, number, 1), (float(x), float(y)), (float(wide), float(high_y)), advance)
-        self._outlines.append((contours, glyph))
-        return glyph
+        centre, half = (low + high) / 2, (high - low) / 2
+        number = self._add(tuple(contour - centre for contour in contours), float(half[1]))
+        at = (float(centre[0]), float(centre[1]))
+        return Glyph((number, 0, number, 1), at, (float(half[0]), float(half[1])), advance)
 
 
-@dataclass(frozen=True, slots=True)
-class PaperSpot:
-    """Where ink goes: its `origin` in points, points a `unit`; how many units right of it the `ruler` puts a time."""
-
-    origin: tuple[float, float]
-    unit: float
-    ruler: Callable[[float], float] = lambda _: 0.0
+def _ring(half: Floats, width: float) -> tuple[Points, ...]:
+    return _DISC * (half + width / 2), (_DISC * (half - width / 2))[::-1]
 
 
-def filled(shapes: NDArray[np.void], atlas: OutlineAtlas, spot: PaperSpot) -> Iterator[Filled]:
-    """The areas of `shapes`, in order."""
-    for row in shapes:
-        contours = _contours(row, atlas, spot)
-        if contours:
-            place = np.array(spot.origin)
-            grey = grey_of(int(row["colour"][3]) / 255)
-            yield Filled(tuple(place + contour * spot.unit for contour in contours), grey)
+def _cross(half: Floats, width: float) -> tuple[Points, ...]:
+    return tuple(_stroke(-half * (1, way), half * (1, way), width) for way in (1, -1))
 
 
-def grey_of(opacity: float) -> float:
-    """How light ink of an opacity is on paper, 0 black."""
-    return (1 - _SOFTEST) * (1 - opacity)
-
-
-def _contours(row: np.void, atlas: OutlineAtlas, spot: PaperSpot) -> list[Points]:
-    """A shape's outlines in units from the spot, y down."""
-    begin_s, span_s = (float(t) for t in row["time_s"])
-    half, width = row["half"].astype(float), float(row["style"][1])
-    centre = row["centre"] + np.array([spot.ruler(begin_s), 0.0])
-    more = (spot.ruler(begin_s + span_s) - spot.ruler(begin_s)) / 2 if span_s else 0.0
-    wider = np.array([more, 0.0])
-    centre, half = centre + wider, half + wider
-    kind = ShapeKind(int(row["kind"]))
-    if kind is ShapeKind.GLYPH:
-        return _glyph(row, centre, atlas)
-    if kind is ShapeKind.ELLIPSE:
-        outer = _turned(_ellipse(half + width / 2), row, centre)
-        return [outer, _turned(_ellipse(half - width / 2)[::-1], row, centre)] if width else [outer]
-    if kind is ShapeKind.CROSS:
-        return [_bar(centre - half * (1, way), centre + half * (1, way), width) for way in (1, -1)]
-    corners = [(1, 0), (-1, 1), (-1, -1)] if kind is ShapeKind.TRIANGLE else [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-    return [_turned(np.array(corners) * half, row, centre)]
-
-
-def _glyph(row: np.void, centre: Points, atlas: OutlineAtlas) -> list[Points]:
-    uv = row["uv"]
-    contours, glyph = atlas.outline(round(float(uv[0])))
-    scale, up = float(row["half"][1]) / glyph.half[1], -1.0 if uv[1] < uv[3] else 1.0
-    return [(contour - glyph.centre) * (scale, up * scale) + centre for contour in contours]
-
-
-def _ellipse(half: Points) -> Points:
-    turn = np.linspace(0, 2 * np.pi, _ROUND, endpoint=False)
-    return np.column_stack([half[0] * np.cos(turn), half[1] * np.sin(turn)])
-
-
-def _turned(points: Points, row: np.void, centre: Points) -> Points:
-    cosine, sine = (float(v) for v in row["axis"])
-    turned: Points = points @ np.array([[cosine, sine], [-sine, cosine]]) + centre
-    return turned
-
-
-def _bar(start: Points, end: Points, width: float) -> Points:
+def _stroke(start: Points, end: Points, width: float) -> Points:
     """A thick straight stroke."""
     along = (end - start) / np.hypot(*(end - start))
     aside = np.array([-along[1], along[0]]) * width / 2
     return np.array([start + aside, end + aside, end - aside, start - aside])
+
+
+@dataclass(frozen=True, slots=True)
+class PaperSpot:
+    """Where ink goes: its `origin` in points, points a `unit`; how many units right of it the `ruler` puts times."""
+
+    origin: tuple[float, float]
+    unit: float
+    ruler: Callable[[Floats], Floats] = np.zeros_like
+
+
+def placed(shapes: NDArray[np.void], ruler: Callable[[Floats], Floats]) -> NDArray[np.void]:
+    """The shapes where a ruler puts their times, as wide as it makes them; time moves them no more."""
+    begin_s, span_s = shapes["time_s"].astype(np.float64).T
+    starts, more = ruler(begin_s), np.zeros(len(shapes))
+    wide = span_s != 0
+    more[wide] = (ruler(begin_s[wide] + span_s[wide]) - starts[wide]) / 2
+    found = shapes.copy()
+    found["centre"][:, 0] += starts + more
+    found["half"][:, 0] += more
+    found["time_s"] = 0.0
+    return found
+
+
+def filled(shapes: NDArray[np.void], atlas: OutlineAtlas, spot: PaperSpot) -> Ink:
+    """The areas of `shapes`, in order, their times where the spot's ruler puts them."""
+    shapes = placed(shapes, spot.ruler) if shapes["time_s"].any() else shapes
+    centre, half, axis = (shapes[name].astype(np.float64) for name in ("centre", "half", "axis"))
+    numbers, scale = _outlines(shapes, half, atlas)
+    cosine, sine = axis.T
+    across, upright = scale.T * spot.unit
+    place = np.array(spot.origin) + centre * spot.unit
+    matrices = np.column_stack([cosine * across, sine * across, -sine * upright, cosine * upright, place])
+    seen = np.array([len(contours) > 0 for contours in atlas.outlines])[numbers]
+    greys = grey_of(shapes["colour"][:, 3] / 255)
+    return Ink(atlas.outlines, numbers[seen], matrices[seen], greys[seen])
+
+
+def grey_of(opacity: Floats) -> Floats:
+    """How light ink of an opacity is on paper, 0 black."""
+    return (1 - _SOFTEST) * (1 - opacity)
+
+
+def _outlines(shapes: NDArray[np.void], half: Floats, atlas: OutlineAtlas) -> tuple[NDArray[np.int64], Floats]:
+    """The number of each shape's outline, and how much larger the shape is across and upright, shape (n, 2)."""
+    kind, width, scale = shapes["kind"].astype(np.int64), shapes["style"][:, 1], half.copy()
+    numbers = np.full(len(shapes), SQUARE)
+    numbers[kind == ShapeKind.ELLIPSE] = _DISC_NUMBER
+    numbers[kind == ShapeKind.TRIANGLE] = _ARROW_NUMBER
+    glyphs = kind == ShapeKind.GLYPH
+    uv = shapes["uv"][glyphs]
+    numbers[glyphs] = np.rint(uv[:, 0])
+    size = half[glyphs, 1] / np.maximum(atlas.half_heights(numbers[glyphs]), 1e-9)
+    scale[glyphs] = np.column_stack([size, np.where(uv[:, 1] < uv[:, 3], -size, size)])
+    for i in np.flatnonzero((kind == ShapeKind.CROSS) | ((kind == ShapeKind.ELLIPSE) & (width > 0))):
+        numbers[i] = atlas.drawn(ShapeKind(int(kind[i])), (float(half[i, 0]), float(half[i, 1])), float(width[i]))
+        scale[i] = 1.0
+    return numbers, scale

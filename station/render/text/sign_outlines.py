@@ -1,105 +1,140 @@
-"""Outlines of the musical signs that no text font has, drawn by hand for this project.
+"""Outlines of the musical signs: Bravura's, in a cut that `tools/music_signs.py` makes.
 
-Units are staff spaces (the distance between two staff lines), y up; each sign's origin is named in its line. Paths are
-written in the letters of SVG path data (M, L, C, Z; absolute). Contours of one sign unite, whatever their direction.
+Units are staff spaces (the distance between two staff lines), y up. The code points, where each glyph's origin lies,
+and that an em is four staff spaces: Standard Music Font Layout (SMuFL) 1.4. Some signs are moved here so that their
+origin is their middle, which is how what draws them thinks of them. Licence of the outlines: `music_signs_license.txt`.
 """
 
-from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from station.render.text.truetype import Contours
+from station.render.text.truetype import Contours, TrueType
 
-_CURVE_STEPS = 10
+FONT_FILE = Path(__file__).with_name("music_signs.ttf")
+_SPACES_PER_EM = 4.0
+"""SMuFL 1.4, "Metrics and glyph registration"."""
 
-_BALL = "M {x0} {y} C {x0} {y1} {x1} {y1} {x1} {y} C {x1} {y2} {x0} {y2} {x0} {y} Z"
-
-
-def _ball(x: float, y: float, radius: float) -> str:
-    """A disc; the factor makes two cubic arcs come within 2 % of a circle."""
-    k = 4 / 3 * radius
-    return _BALL.format(x0=x - radius, x1=x + radius, y=y, y1=y + k, y2=y - k)
+STAFF_LINE, STEM, BEAM, BEAM_STEP, THIN_LINE, THICK_LINE = 0.13, 0.12, 0.5, 0.75, 0.16, 0.5
+LEDGER_LINE, LEDGER_OUT, BRACKET_LINE, HAIRPIN_LINE, SLUR_END, SLUR_MIDDLE = 0.16, 0.4, 0.16, 0.16, 0.1, 0.22
+"""Thicknesses that Bravura's metadata advise with its signs (`engravingDefaults`), the step from one beam to the
+next, and how far a ledger line passes a head."""
 
 
-def _short_rest(hooks: int) -> str:
-    """A rest of an eighth (1 hook), sixteenth (2) or thirty-second (3) note; origin on the staff's middle line."""
-    lean, bottom, top = 0.29, -1.0 - (hooks - 1) // 2, 0.70 + hooks // 2
-    x_top = lean * (top - bottom)
-    parts = [f"M {x_top - 0.09} {top} L {x_top} {top} L 0.07 {bottom} L -0.09 {bottom} Z"]
-    for hook in range(hooks):
-        y = top - hook
-        x = x_top - lean * hook
-        ball_x, ball_y = x - 0.72, y - 0.20
-        parts.append(_ball(ball_x, ball_y, 0.25))
-        parts.append(
-            f"M {ball_x - 0.12} {ball_y - 0.21} C {ball_x + 0.2} {ball_y - 0.36} {x - 0.28} {y - 0.36} {x - 0.02} {y}"
-            f" L {x - 0.10} {y - 0.34} C {x - 0.34} {y - 0.56} {ball_x + 0.2} {ball_y - 0.42}"
-            f" {ball_x - 0.12} {ball_y - 0.21} Z"
-        )
-    return " ".join(parts)
+@dataclass(frozen=True, slots=True)
+class Sign:
+    """A sign's code point in SMuFL, and whether its origin is moved to the middle of its width and of its height."""
+
+    code: int
+    middle_x: bool = False
+    middle_y: bool = False
 
 
-SIGNS: dict[str, str] = {
-    # the rest of a quarter note; origin on the middle line
-    "rest_4": "M -0.20 1.50 L 0.42 0.66 C 0.12 0.34 0.14 0.06 0.50 -0.42 L 0.43 -0.50"
-    " C 0.08 -0.30 -0.14 -0.68 0.15 -1.20 L 0.07 -1.28 C -0.58 -0.92 -0.60 -0.28 0.06 -0.34"
-    " L -0.40 0.30 C -0.08 0.62 -0.06 0.90 -0.27 1.43 Z",
-    "rest_8": _short_rest(1),
-    "rest_16": _short_rest(2),
-    "rest_32": _short_rest(3),
-    # a flag on an upward stem; origin at the stem's tip, on its right edge; mirrored for downward stems
-    "flag": "M 0 0 C 0.10 -0.80 1.18 -1.10 0.78 -2.62 L 0.70 -2.60 C 0.84 -1.72 0.46 -1.30 0 -1.02 Z",
-    "accent": "M -0.80 0.48 L 0.80 0.06 L 0.80 -0.06 L -0.80 -0.48 L -0.80 -0.28 L 0.28 0 L -0.80 0.28 Z",
-    # brackets of ghost notes; origin at the crescent's middle
-    "bracket_left": "M 0.12 0.92 C -0.36 0.42 -0.36 -0.42 0.12 -0.92 C -0.14 -0.40 -0.14 0.40 0.12 0.92 Z",
-    "bracket_right": "M -0.12 0.92 C 0.36 0.42 0.36 -0.42 -0.12 -0.92 C 0.14 -0.40 0.14 0.40 -0.12 0.92 Z",
-    # note heads; origin at their middle
-    "head_diamond": "M -0.66 0 L 0 0.58 L 0.66 0 L 0 -0.58 Z",
-    "head_triangle": "M -0.64 -0.48 L 0.64 -0.48 L 0 0.60 Z",
-    "slash": "M -0.85 -0.62 L -0.75 -0.76 L 0.85 0.62 L 0.75 0.76 Z",
-    # one stroke of a tremolo, across a stem
-    "tremolo": "M -0.55 -0.38 L 0.55 0.04 L 0.55 0.38 L -0.55 -0.04 Z",
-    "buzz": "M -0.45 0.50 L 0.45 0.50 L 0.45 0.34 L -0.18 -0.34 L 0.45 -0.34 L 0.45 -0.50 L -0.47 -0.50 L -0.47 -0.34"
-    " L 0.16 0.34 L -0.45 0.34 Z",
-    # the slur from a grace note to its main note, hanging; origin in the middle of its ends
-    "slur": "M -0.70 0 C -0.40 -0.52 0.40 -0.52 0.70 0 C 0.38 -0.34 -0.38 -0.34 -0.70 0 Z",
-    # a choked cymbal; origin at the comma's middle
-    "choke": "M -0.16 -0.52 C 0.06 -0.30 0.10 -0.10 0.02 0.06 C -0.18 0.02 -0.26 0.18 -0.22 0.32 C -0.18 0.52 0.10 0.56"
-    " 0.20 0.34 C 0.32 0.04 0.14 -0.36 -0.10 -0.58 Z",
+def _numbered(name: str, first: int) -> dict[str, Sign]:
+    """Ten figures."""
+    return {f"{name}_{k}": Sign(first + k) for k in range(10)}
+
+
+SIGNS: dict[str, Sign] = {
+    "clef": Sign(0xE069),
+    # figures of time signatures (origin: left, their middle) and of tuplets (left, on the baseline)
+    **_numbered("meter", 0xE080),
+    "meter_plus": Sign(0xE08C),
+    **_numbered("tuplet", 0xE880),
+    # note heads; origin in their middle
+    "head_round": Sign(0xE0A4, True, True),
+    "head_half": Sign(0xE0A3, True, True),
+    "head_whole": Sign(0xE0A2, True, True),
+    "head_cross": Sign(0xE0A9, True, True),
+    "head_heavy_cross": Sign(0xE0F8, True, True),
+    "head_slashed": Sign(0xE0CF, True, True),
+    "head_half_cross": Sign(0xE0A8, True, True),
+    "head_half_diamond": Sign(0xE0D9, True, True),
+    "head_half_triangle": Sign(0xE0C6, True, True),
+    "head_half_ringed_cross": Sign(0xE0B2, True, True),
+    "head_ringed_cross": Sign(0xE0B3, True, True),
+    "head_ornate_cross": Sign(0xE0AA, True, True),
+    "head_diamond": Sign(0xE0DB, True, True),
+    "head_hollow_diamond": Sign(0xE0DD, True, True),
+    "head_triangle": Sign(0xE0C7, True, True),
+    # brackets of ghost notes; origin in their middle
+    "bracket_left": Sign(0xE0F5, True, True),
+    "bracket_right": Sign(0xE0F6, True, True),
+    # flags; origin at the stem's tip, on its left edge
+    **{f"flag_{8 << k}": Sign(0xE240 + 2 * k) for k in range(5)},
+    **{f"flag_{8 << k}_down": Sign(0xE241 + 2 * k) for k in range(5)},
+    # rests; origin in the middle of their width, on the line from which a whole rest hangs or else the middle line
+    **{f"rest_{1 << k}": Sign(0xE4E3 + k, True) for k in range(8)},
+    # on a stem; origin in their middle
+    **{f"tremolo_{k}": Sign(0xE21F + k, True, True) for k in range(1, 6)},
+    "buzz": Sign(0xE22A, True, True),
+    # above or below a note; origin in their middle
+    "accent": Sign(0xE4A0, True, True),
+    "hat_open": Sign(0xE7F8, True, True),
+    "hat_half": Sign(0xE7F7, True, True),
+    "hat_closed": Sign(0xE5E5, True, True),
+    "choke": Sign(0xE805, True, True),
+    # how loud; origin in the middle of their width, on the baseline
+    "loud_ppp": Sign(0xE52A, True),
+    "loud_pp": Sign(0xE52B, True),
+    "loud_p": Sign(0xE520, True),
+    "loud_mp": Sign(0xE52C, True),
+    "loud_mf": Sign(0xE52D, True),
+    "loud_f": Sign(0xE522, True),
+    "loud_ff": Sign(0xE52F, True),
+    "loud_fff": Sign(0xE530, True),
+    "dot": Sign(0xE1E7, True, True),
+    # the beat that a tempo counts; origin left on the baseline
+    "beat_1": Sign(0xECA2),
+    "beat_2": Sign(0xECA3),
+    "beat_4": Sign(0xECA5),
+    "beat_8": Sign(0xECA7),
+    "beat_16": Sign(0xECA9),
+    "beat_dot": Sign(0xECB7),
 }
 
 
+@dataclass(frozen=True, slots=True)
+class SignBox:
+    """What a sign covers, in staff spaces from its origin, y up, and the step from it to the next sign of a row."""
+
+    left: float
+    bottom: float
+    right: float
+    top: float
+    advance: float
+
+    @property
+    def width(self) -> float:
+        """From edge to edge."""
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        """From edge to edge."""
+        return self.top - self.bottom
+
+
+@cache
+def _font() -> TrueType:
+    return TrueType(FONT_FILE)
+
+
+@cache
 def sign(name: str) -> Contours:
-    """The closed polygons (k, 2) of a sign of the table, counter-clockwise."""
-    return tuple(_counter_clockwise(np.array(list(points))) for points in _paths(SIGNS[name].split()))
+    """The closed polygons (k, 2) of a sign of the table; they fill by the non-zero rule."""
+    entry = SIGNS[name]
+    contours = tuple(c * _SPACES_PER_EM for c in _font().outline(chr(entry.code)).contours)
+    points = np.concatenate(contours)
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2 * (entry.middle_x, entry.middle_y)
+    return tuple(contour - middle for contour in contours)
 
 
-def _paths(words: list[str]) -> Iterator[list[tuple[float, float]]]:
-    points: list[tuple[float, float]] = []
-    i = 0
-    while i < len(words):
-        command = words[i]
-        pairs = 3 if command == "C" else 0 if command == "Z" else 1
-        v = [(float(words[i + 1 + 2 * k]), float(words[i + 2 + 2 * k])) for k in range(pairs)]
-        if command == "C":
-            points += _cubic(points[-1], v)
-        elif command == "Z":
-            yield points
-            points = []
-        else:
-            points.append(v[0])
-        i += 1 + 2 * pairs
-
-
-def _cubic(start: tuple[float, float], rest: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    p = np.array([start, *rest])
-    t = np.linspace(0, 1, _CURVE_STEPS + 1)[1:, None]
-    curve = (1 - t) ** 3 * p[0] + 3 * t * (1 - t) ** 2 * p[1] + 3 * t**2 * (1 - t) * p[2] + t**3 * p[3]
-    return [(float(x), float(y)) for x, y in curve]
-
-
-def _counter_clockwise(polygon: NDArray[np.float64]) -> NDArray[np.float64]:
-    x, y = polygon.T
-    area = np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)
-    return polygon if area > 0 else polygon[::-1]
+@cache
+def sign_box(name: str) -> SignBox:
+    """What a sign of the table covers."""
+    points = np.concatenate(sign(name))
+    (left, bottom), (right, top) = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+    return SignBox(left, bottom, right, top, _font().outline(chr(SIGNS[name].code)).advance * _SPACES_PER_EM)

@@ -12,7 +12,8 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 
 from station.core.errors import BadInput
-from station.core.note_map import GENERAL_MIDI
+from station.core.sound_names import HIHAT_STEPS, SoundName
+from station.core.sound_naming import FAMILIES, are_chosen, sound_named, sound_of_instrument
 from station.sound.drum_kit import MAX_VELOCITY, DrumKit, Frames, Layer, Sound
 from station.sound.samples.hydrogen_xml import (
     MAX_XML_BYTES,
@@ -25,8 +26,6 @@ from station.sound.samples.hydrogen_xml import (
 from station.sound.samples.kit_archive import unpacked
 from station.sound.samples.kit_folder import audio_files
 from station.sound.samples.recordings import Recordings, kit_of
-from station.sound.samples.sound_naming import FAMILIES, sound_named
-from station.sound.sound_names import HIHAT_STEPS, SoundName, choose_sound
 
 KIT_FILE = "drumkit.xml"
 ARCHIVE_ENDING = ".h2drumkit"
@@ -35,8 +34,6 @@ MAX_VELOCITY_LAYERS = 64
 STRAIGHT = tuple(velocity / MAX_VELOCITY for velocity in range(MAX_VELOCITY + 1))
 """The level of each velocity in Hydrogen."""
 _FULL = (1.0,) * (MAX_VELOCITY + 1)
-_FIRST_NOTE = 36
-"""Hydrogen numbers the MIDI notes of instruments from here on where nobody chose them: then they mean nothing."""
 
 
 def hydrogen_folder(folder: Path, rate_hz: int) -> DrumKit:
@@ -86,10 +83,11 @@ def built(kit: HydrogenKit, source: str, rate_hz: int, files: Mapping[str, Path 
 def pieces_of(kit: HydrogenKit) -> dict[SoundName, HydrogenInstrument]:
     """The instrument of every sound that the kit has, the first of several that mean the same."""
     sounding = [instrument for instrument in kit.instruments if instrument.components]
-    notes_count = [one.midi_note for one in sounding] == list(range(_FIRST_NOTE, _FIRST_NOTE + len(sounding)))
+    trusts_notes = are_chosen([one.midi_note for one in sounding])
     chosen: dict[SoundName, HydrogenInstrument] = {}
     for instrument in sounding:
-        name = _meant(instrument, not notes_count)
+        note = instrument.midi_note if trusts_notes else None
+        name = sound_of_instrument(instrument.name, instrument.kind, note)
         free = [name] if name not in _FAMILY_OF else [n for n in _FAMILY_OF[name] if n not in chosen]
         if name is not None and free and free[0] is not None:
             wanted = name if name in free else free[0]
@@ -98,12 +96,6 @@ def pieces_of(kit: HydrogenKit) -> dict[SoundName, HydrogenInstrument]:
 
 
 _FAMILY_OF: Mapping[SoundName | None, tuple[SoundName, ...]] = {name: family for family in FAMILIES for name in family}
-
-
-def _meant(instrument: HydrogenInstrument, trusts_note: bool) -> SoundName | None:
-    by_words = sound_named(instrument.name) or sound_named(instrument.kind)
-    strike = GENERAL_MIDI.get(instrument.midi_note) if trusts_note and instrument.midi_note is not None else None
-    return choose_sound(strike).sound if by_words is None and strike is not None else by_words
 
 
 def _by_openness(instruments: Sequence[HydrogenInstrument]) -> dict[SoundName, HydrogenInstrument]:

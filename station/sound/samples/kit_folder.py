@@ -36,13 +36,13 @@ from station.core.schema import (
     text,
     whole,
 )
+from station.core.sound_names import SoundName
+from station.core.sound_naming import FileName, file_named
 from station.core.toml_faults import wrong
 from station.core.toml_source import read_source
 from station.sound.drum_kit import LEVEL_LAW, MAX_VELOCITY, DrumKit, Frames, Layer, Sound, level_of
 from station.sound.samples.audio_file import ENDINGS
 from station.sound.samples.recordings import Recordings, balance_of, even, kit_of
-from station.sound.samples.sound_naming import FileName, file_named
-from station.sound.sound_names import SoundName
 
 TABLE_NAME = "kit.toml"
 MAX_FILES = 4096

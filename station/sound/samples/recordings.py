@@ -7,9 +7,9 @@ from types import MappingProxyType
 import numpy as np
 
 from station.core.errors import BadInput
+from station.core.sound_names import SoundName
 from station.sound.drum_kit import DrumKit, Frames, Sound
 from station.sound.samples.audio_file import read_audio
-from station.sound.sound_names import SoundName
 from station.sound.synth.layers import loudness
 from station.sound.synth.synth_kits import synth_sound
 

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
-from station.sound.sound_names import SoundName
+from station.core.sound_names import SoundName
 from station.sound.synth import cymbal_recipes, drum_recipes, percussion_recipes
 from station.sound.synth.recipe import Cloud, Glide, Noise, Recipe, Row, Tone
 

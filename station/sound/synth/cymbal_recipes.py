@@ -9,7 +9,7 @@ recordings of acoustic cymbals show. Panned as the drummer sits.
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from station.sound.sound_names import HIHAT_STEPS, SoundName
+from station.core.sound_names import HIHAT_STEPS, SoundName
 from station.sound.synth.recipe import Cloud, Noise, Recipe
 
 CYMBAL_LAYERS = (40, 70, 100, 127)

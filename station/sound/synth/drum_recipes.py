@@ -8,7 +8,7 @@ Energies and decays: our choice, within what recordings of acoustic kits show. P
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from station.sound.sound_names import SoundName
+from station.core.sound_names import SoundName
 from station.sound.synth.recipe import Glide, Noise, Recipe, Row, Tone
 
 SHELL_LAYERS = (20, 40, 60, 80, 100, 127)

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
-from station.sound.sound_names import HIHAT_STEPS, SoundName
+from station.core.sound_names import HIHAT_STEPS, SoundName
 from station.sound.synth.recipe import Cloud, Glide, Noise, Recipe, Row, Tone
 
 LAYERS = (50, 90, 127)

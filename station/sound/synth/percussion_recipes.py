@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from station.sound.sound_names import SoundName
+from station.core.sound_names import SoundName
 from station.sound.synth.recipe import Cloud, Noise, Recipe, Tone
 
 LAYERS = (50, 90, 127)

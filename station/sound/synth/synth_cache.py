@@ -20,8 +20,8 @@ from types import MappingProxyType
 import numpy as np
 
 from station.core.disk_cache import cache_folder, forget_oldest
+from station.core.sound_names import SoundName
 from station.sound.drum_kit import DrumKit, Frames, Layer, Sound
-from station.sound.sound_names import SoundName
 from station.sound.synth.layers import TAKES
 from station.sound.synth.recipe import Recipe
 from station.sound.synth.synth_kits import KIT_NAME, MODELS, synth_kit

@@ -10,15 +10,15 @@ from functools import lru_cache
 from types import MappingProxyType
 from zlib import crc32
 
+from station.core.sound_names import SoundName
 from station.sound.drum_kit import DrumKit, Sound
-from station.sound.sound_names import SoundName
 from station.sound.synth import brush_recipes, cymbal_recipes, drum_recipes, electronic_recipes, percussion_recipes
 from station.sound.synth.layers import make_sound
 from station.sound.synth.recipe import Recipe
 
 KIT_NAME = "acoustic"
 RECIPES = MappingProxyType({**drum_recipes.RECIPES, **cymbal_recipes.RECIPES, **percussion_recipes.RECIPES})
-"""The recipe of every sound the acoustic kit has; `station.sound.sound_names.SUBSTITUTES` covers the rest."""
+"""The recipe of every sound the acoustic kit has; `station.core.sound_names.SUBSTITUTES` covers the rest."""
 
 MODELS: Mapping[str, Mapping[SoundName, Recipe]] = MappingProxyType(
     {KIT_NAME: RECIPES, "brushes": brush_recipes.RECIPES, "electronic": electronic_recipes.RECIPES}

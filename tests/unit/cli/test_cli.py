@@ -7,6 +7,7 @@ from pathlib import Path
 from random import Random
 from typing import cast
 
+import mido
 import numpy as np
 import pytest
 
@@ -171,6 +172,25 @@ def test_a_session_s_capture_is_a_score_too_in_the_lesson_s_bars(
     assert len(document["notes"]) == counts["hits"]
     bar_s = 4 * 60 / 80  # rock-1 in 80 bpm, whose count-in and demonstrations are whole bars
     assert all(abs((8 * note["time_s"] / bar_s + 0.5) % 1 - 0.5) < 0.15 for note in document["notes"]), "on its eighths"
+
+
+def test_a_take_is_written_as_a_midi_file_in_the_lesson_s_bars(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    """Read back by mido: as many notes as hits, each within half of 16 µs of the take, 80 bpm in the file."""
+    practise(capsys, "--loops", "1", "--report", str(tmp_path / "session"))
+    capture = str(tmp_path / "session" / "session.capture")
+    assert main(["limbs", capture, "--json"]) == 0
+    heard = [note["time_s"] for note in json.loads(capsys.readouterr().out)["notes"]]
+    assert main(["lesson", "export", capture, "--out", str(tmp_path / "take.mid")]) == 0
+    file = mido.MidiFile(tmp_path / "take.mid")
+    now, onsets = 0.0, []
+    for message in file:
+        now += message.time
+        if message.type == "note_on" and message.velocity:
+            onsets.append(now)
+    assert np.allclose(sorted(onsets), sorted(heard), atol=3e-5)
+    assert {round(mido.tempo2bpm(m.tempo)) for m in file if m.type == "set_tempo"} == {80}
 
 
 @pytest.mark.parametrize("data", [b"", capture_bytes([])])

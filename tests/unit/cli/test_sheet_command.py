@@ -2,15 +2,12 @@
 
 import os
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from station.cli.command_line import main
-from station.drills.lesson import Section
 from station.drills.library import find_lesson
-from station.music.swing import Swing
 from station.scenes.sheets import lesson_labels
 from tests.unit.cli.test_cli import refused
 
@@ -33,7 +30,6 @@ def test_the_words_are_the_lesson_s() -> None:
     assert words.sections == ((0, "groove"), (3, "fill"))
     part = lesson_labels(find_lesson("six-eight-fill-1"), (2, 3))
     assert (part.sections, part.repeat, part.first_bar) == (((1, "fill"),), None, 3), "not all of the loop is there"
-    assert lesson_labels(find_lesson("jazz-ride-1"), (0, 1)).feel == "swing 2 : 1"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="elsewhere names of files are Unicode")
@@ -54,11 +50,3 @@ def test_what_cannot_be_is_refused_in_one_line(tmp_path: Path, capsys: pytest.Ca
     assert "expected bars within 1-2" in said("x.pdf", "--end-bar", "0")
     assert "no such choice" in said("x.pdf", "--paper", "a3")
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_section_that_swings_otherwise_says_so() -> None:
-    shuffle = find_lesson("jazz-ride-1")
-    sections = (Section("head", 0, 0, Swing(2.0)), Section("bridge", 1, 1, Swing()), Section("", 2, 3, Swing(2.0)))
-    words = lesson_labels(replace(shuffle, score=shuffle.score.repeated(4), sections=sections), (0, 3))
-    assert words.feel == "swing 2 : 1"
-    assert words.sections == ((0, "head"), (1, "bridge   straight"), (2, "swing 2 : 1"))

@@ -7,8 +7,8 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
+from station.drills.lesson import Lesson
 from station.drills.library import find_lesson
-from station.drills.quantise import lesson_of
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_writer import note_length, write_lesson
 from station.drills.writing.score_difference import score_difference
@@ -143,7 +143,7 @@ SNARE = Note(0, Piece.SNARE)
 def test_what_the_grid_cannot_say_is_named(notes: list[Note], words: str) -> None:
     score = Score.from_notes(notes, TempoMap.constant(60))
     with pytest.raises(BadInput, match=words):
-        write_lesson(lesson_of(score, "x", "x"))
+        write_lesson(Lesson("x", "x", score, loop=(0, score.bar_count - 1)))
 
 
 def test_no_word_is_lost_between_equal_scores() -> None:

@@ -1,4 +1,4 @@
-"""How notation writes swing: straight cells under a word, triplets where triplets say it."""
+"""How notation writes swing: straight cells under a mark, triplets in a bar that has triplets besides."""
 
 import pytest
 
@@ -18,7 +18,7 @@ def quarters(lesson: Lesson) -> list[float]:
     return [tick / PPQ for tick in lesson.played_once.as_written.notes["tick"].tolist()]
 
 
-@pytest.mark.parametrize("ratio", [1.3, 1.6, 2.5, 3.0])
+@pytest.mark.parametrize("ratio", [1.3, 1.6, 2.0, 2.5, 3.0])
 def test_swung_cells_are_printed_straight(ratio: float) -> None:
     eighths = lesson_of(f'swing_ratio = {ratio}\n[grid]\nsnare = "oo -o oo --"')
     assert quarters(eighths) == [0, 0.5, 1.5, 2, 2.5]
@@ -26,9 +26,20 @@ def test_swung_cells_are_printed_straight(ratio: float) -> None:
     assert quarters(sixteenths) == [0, 0.25, 0.5, 0.75, 1.75, 3.25]
 
 
-def test_a_swing_of_two_stays_in_triplets() -> None:
-    lesson = lesson_of('swing_ratio = 2\n[grid]\nsnare = "o-o ooo (oo) ---"')
-    assert quarters(lesson) == pytest.approx([0, 2 / 3, 1, 4 / 3, 5 / 3, 2, 2.5])
+def test_a_swing_of_two_is_triplets_only_in_a_bar_that_has_triplets() -> None:
+    lesson = lesson_of('swing_ratio = 2\n[grid]\nsnare = "oo (ooo) oo -- | oo -- -- --"')
+    assert quarters(lesson) == pytest.approx([0, 2 / 3, 1, 4 / 3, 5 / 3, 2, 8 / 3, 4, 4.5])
+
+
+def test_triplets_of_another_line_count_too() -> None:
+    lesson = lesson_of('swing_ratio = 2\n[grid]\nhihat = "xx xx xx xx"\nsnare = "--- ooo --- ---"')
+    assert sorted(set(quarters(lesson))) == pytest.approx([0, 2 / 3, 1, 4 / 3, 5 / 3, 2, 8 / 3, 3, 11 / 3])
+
+
+def test_another_ratio_is_never_spelled_in_notes() -> None:
+    """At 3:1 the late eighth would be a dotted eighth and a sixteenth: it stays straight beside triplets."""
+    lesson = lesson_of('swing_ratio = 3\n[grid]\nsnare = "oo (ooo) -- --"')
+    assert quarters(lesson) == pytest.approx([0, 1 / 2, 1, 4 / 3, 5 / 3])
 
 
 def test_each_section_is_printed_by_its_own_swing() -> None:

@@ -8,10 +8,9 @@ from station.core.pieces import Articulation, Piece
 from station.core.units import PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
+from station.render.notation.bar_columns import BarColumns, bar_columns
 from station.render.notation.engraving import Engraver
-from station.render.notation.held_rolls import held_until, long_groups
-from station.render.notation.line_breaks import want
-from station.render.notation.rhythm import Value, spell
+from station.render.notation.held_rolls import held_until
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import ShapeKind
 from tests.unit.render.scores import BAR, score_of
@@ -19,6 +18,11 @@ from tests.unit.render.scores import BAR, score_of
 ATLAS = Atlas()
 SIXTEENTH = PPQ // 4
 Shapes = NDArray[np.void]
+
+
+def columns(score: Score) -> BarColumns:
+    """Those of the first bar, two seconds long."""
+    return bar_columns(Engraver(score, Atlas()).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at, 0.0)
 
 
 def roll(tick: int, length: int, swing: int = 0) -> Note:
@@ -32,13 +36,13 @@ def signs(shapes: Shapes, name: str) -> list[float]:
 
 
 def heads(shapes: Shapes, hollow: bool) -> list[float]:
-    """When the heads that are filled, or `hollow`, stand; dots are round and no heads."""
-    round_ones = shapes[(shapes["kind"] == ShapeKind.ELLIPSE) & (np.ptp(shapes["half"], axis=1) > 0)]
-    return sorted(round_ones["time_s"][(round_ones["style"][:, 1] > 0) == hollow, 0].tolist())
+    """When the heads that are filled, or `hollow`, stand."""
+    names = ("head_half", "head_whole") if hollow else ("head_round",)
+    return sorted(time_s for name in names for time_s in signs(shapes, name))
 
 
 def stems(shapes: Shapes) -> int:
-    return int(((shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"][:, 1], 0.065)).sum())
+    return int(((shapes["kind"] == ShapeKind.BOX) & np.isclose(shapes["half"][:, 1], 0.06)).sum())
 
 
 def tied(shapes: Shapes) -> tuple[float, float] | None:
@@ -68,8 +72,7 @@ def test_a_roll_of_a_bar_is_a_whole_note_without_a_stem() -> None:
 
 def test_in_six_eight_a_bar_is_a_dotted_half() -> None:
     (shapes,) = bars_of(roll(0, 3 * PPQ), meter=(6, 8))
-    dots = shapes[(shapes["kind"] == ShapeKind.ELLIPSE) & (np.ptp(shapes["half"], axis=1) == 0)]
-    assert (heads(shapes, hollow=True), stems(shapes), len(dots)) == ([0.0], 1, 1)
+    assert (heads(shapes, hollow=True), stems(shapes), signs(shapes, "dot")) == ([0.0], 1, [0.0])
 
 
 def test_what_begins_off_the_beat_is_tied_to_it_and_ends_where_it_ends() -> None:
@@ -87,7 +90,7 @@ def test_a_roll_over_the_bar_line_is_tied_to_the_next_bar_and_is_no_silence_ther
     assert (heads(first, hollow=True), heads(second, hollow=True)) == ([1.0], [2.0])
     assert tied(first) == pytest.approx((1.0, 2.0))
     assert tied(second) is None, "the bar before drew it"
-    assert signs(second, "rest_4") == [3.0, 3.5]
+    assert signs(second, "rest_2") == [3.0]
 
 
 def test_a_tie_from_the_line_before_begins_anew() -> None:
@@ -96,10 +99,11 @@ def test_a_tie_from_the_line_before_begins_anew() -> None:
     assert tied(shapes) == (2.0, 2.0)
 
 
-def test_a_roll_inside_its_beat_is_written_like_a_stroke() -> None:
+def test_a_roll_inside_its_beat_is_no_longer_than_it_sounds() -> None:
+    """A sixteenth of each beat; rests say that the roll does not fill it, as a stroke's note value would."""
     (shapes,) = bars_of(*(roll(k * PPQ, SIXTEENTH) for k in range(4)))
     assert heads(shapes, hollow=False) == [0.0, 0.5, 1.0, 1.5]
-    assert (signs(shapes, "flag"), signs(shapes, "rest_16"), tied(shapes)) == ([], [], None)
+    assert (len(signs(shapes, "rest_16")), len(signs(shapes, "rest_8")), tied(shapes)) == (4, 4, None)
 
 
 def test_a_roll_ends_at_the_next_stroke_of_its_voice_as_it_is_written() -> None:
@@ -107,30 +111,11 @@ def test_a_roll_ends_at_the_next_stroke_of_its_voice_as_it_is_written() -> None:
     late = round(PPQ * 2 / 3) - PPQ // 2
     notes = [roll(0, 4 * PPQ), Note(PPQ, Piece.KICK), Note(PPQ + PPQ // 2 + late, Piece.SNARE, swing_ticks=late)]
     score = score_of(*notes)
-    until = held_until(score, score.notes["piece"] == Piece.KICK)
+    until = held_until(score, score.notes["piece"] == Piece.KICK, score.notes["tick"] - score.notes["swing_ticks"])
     assert until.tolist() == [PPQ + PPQ // 2, PPQ, PPQ + PPQ // 2]
 
 
-def test_long_notes_join_only_whole_beats_that_are_held() -> None:
-    beats = [(k * PPQ, (k + 1) * PPQ) for k in range(4)]
-    held = list(long_groups(beats, [(PPQ, 3 * PPQ + SIXTEENTH)]))
-    assert held == [(0, PPQ, None), (PPQ, 3 * PPQ, Value(2)), (3 * PPQ, 4 * PPQ, None)]
-    assert [group[2] for group in long_groups(beats, [(1, 3 * PPQ)])] == [None, Value(2), None]
-
-
-def test_what_one_value_does_not_write_is_tied() -> None:
-    """Five of eight thirty-seconds: an eighth and a thirty-second."""
-    eighth = PPQ // 8
-    group = spell([0], 0, PPQ, 5 * eighth)
-    assert [(s.tick, s.value, s.is_tied) for s in group.strokes] == [
-        (0, Value(8), False),
-        (4 * eighth, Value(32), True),
-    ]
-    assert [(rest.tick, rest.value) for rest in group.rests] == [(5 * eighth, Value(32)), (6 * eighth, Value(16))]
-
-
 def test_a_bar_has_room_for_where_a_roll_ends() -> None:
-    plain = want(score_of(Note(0, Piece.SNARE), Note(2 * PPQ, Piece.SNARE)), 0)
-    held = want(score_of(roll(0, PPQ + SIXTEENTH), Note(2 * PPQ, Piece.SNARE)), 0)
-    assert held.width > plain.width
-    assert want(score_of(roll(0, SIXTEENTH), Note(2 * PPQ, Piece.SNARE)), 0) == plain
+    plain = columns(score_of(Note(0, Piece.SNARE), Note(2 * PPQ, Piece.SNARE)))
+    held = columns(score_of(roll(0, PPQ + SIXTEENTH), Note(2 * PPQ, Piece.SNARE)))
+    assert held.width(1.0) > plain.width(1.0)

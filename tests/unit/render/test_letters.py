@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.render.text.atlas import ATLAS_SIZE, Atlas, distance_field
 from station.render.text.fonts import Face, font, font_path
-from station.render.text.sign_outlines import SIGNS, sign
+from station.render.text.sign_outlines import SIGNS, sign, sign_box
 from station.render.text.truetype import TrueType
 
 
@@ -89,13 +89,45 @@ def test_distances_to_a_circle() -> None:
 
 
 @pytest.mark.parametrize("name", sorted(SIGNS))
-def test_every_sign_is_closed_and_of_a_sign_s_size(name: str) -> None:
-    contours = sign(name)
-    assert contours
-    assert all(area(c) > 0 for c in contours), "counter-clockwise"
-    points = np.concatenate(contours)
-    assert np.ptp(points[:, 1]) < 4.2
-    assert np.ptp(points[:, 0]) < 2.5
+def test_every_sign_is_a_sign_s_size_and_inked(name: str) -> None:
+    points = np.concatenate(sign(name))
+    assert np.ptp(points[:, 1]) < 6, "the rest of a 128th is the tallest"
+    assert np.ptp(points[:, 0]) < 5, "fff is the widest"
+    assert sum(area(contour) for contour in sign(name)) < 0, "TrueType's outlines run clockwise round their ink"
+
+
+@pytest.mark.parametrize(
+    ("name", "width", "height"),
+    # glyphBBoxes in the metadata of Bravura 1.392
+    [
+        ("head_round", 1.18, 1.0),
+        ("head_cross", 1.16, 1.0),
+        ("head_slashed", 1.82, 1.328),
+        ("clef", 1.528, 2.0),
+        ("accent", 1.356, 0.976),
+        ("rest_4", 1.076, 2.992),
+        ("hat_open", 1.144, 1.144),
+        ("loud_f", 2.02, 2.384),
+    ],
+)
+def test_signs_are_as_large_as_the_font_s_metadata_say(name: str, width: float, height: float) -> None:
+    assert sign_box(name).width == pytest.approx(width, abs=0.01)
+    assert sign_box(name).height == pytest.approx(height, abs=0.01)
+
+
+def test_heads_have_their_origin_in_their_middle() -> None:
+    for name in ("head_round", "head_cross", "bracket_left", "accent"):
+        box = sign_box(name)
+        assert box.left == pytest.approx(-box.right)
+        assert box.bottom == pytest.approx(-box.top)
+
+
+def test_the_texture_keeps_room_for_the_tallest_sign() -> None:
+    atlas, tallest = Atlas(), 0.0
+    for name in SIGNS:
+        tallest = max(tallest, 2 * atlas.sign(name).half[1])
+    top = max(sign_box(name).height for name in SIGNS)
+    assert tallest == pytest.approx(top, abs=2 * 6 / 22), "5 texels of distance on each side, at 22 a space"
 
 
 def test_letters_do_not_lie_on_one_another() -> None:

@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from station.core.sound_names import SoundName
 from station.sound.buses import ClickVoice
 from station.sound.drum_kit import DrumKit, Frames, Layer, Sound
 from station.sound.mixer import Mixer
-from station.sound.sound_names import SoundName
 
 RATE_HZ = 48_000
 ESSENTIAL = (SoundName.KICK, SoundName.SNARE, SoundName.HIHAT_CLOSED)

@@ -2,8 +2,8 @@ import pytest
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece, Zone
+from station.core.sound_names import SoundName
 from station.sound.drum_kit import DrumKit, Layer, Sound, level_of
-from station.sound.sound_names import SoundName
 from tests.unit.sound.kits import RATE_HZ, constant, impulse, kit_of, sound_of
 
 # MIDI velocity to level after Dannenberg's square law, in dB, worked out by hand: 40·log10(v/127).

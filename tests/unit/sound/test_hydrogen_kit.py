@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 from station.core.errors import BadInput
+from station.core.sound_names import HIHAT_STEPS, SoundName
 from station.sound.drum_kit import DrumKit
 from station.sound.samples import kit_archive
 from station.sound.samples.hydrogen_kit import pieces_of
 from station.sound.samples.hydrogen_xml import parse_kit
 from station.sound.samples.load_kit import load_kit
-from station.sound.sound_names import HIHAT_STEPS, SoundName
 from tests.fakes.sound_files import instrument, kit_xml, layer, steady, stroke, tar
 
 RATE_HZ = 48_000

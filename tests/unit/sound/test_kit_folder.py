@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from station.core.errors import BadInput
+from station.core.sound_names import SoundName
 from station.sound.drum_kit import DrumKit, Frames
 from station.sound.samples import recordings
 from station.sound.samples.load_kit import kit_names, load_kit
 from station.sound.samples.recordings import loudness_of
-from station.sound.sound_names import SoundName
 from tests.fakes.sound_files import steady, stroke
 
 RATE_HZ = 48_000

@@ -5,9 +5,9 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
+from station.core.sound_names import SoundName
 from station.sound.drum_kit import Frames
 from station.sound.samples.recordings import loudness_of
-from station.sound.sound_names import SoundName
 from station.sound.synth.synth_kits import MODELS, synth_sound
 from tests.unit.sound.kits import RATE_HZ
 

@@ -5,6 +5,7 @@ import pytest
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
+from station.core.sound_names import TIP_TIMBRE, SoundName
 from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import DrumKit, Frames, Layer, Sound
 from station.sound.mixer import (
@@ -17,7 +18,6 @@ from station.sound.mixer import (
     STEAL_S,
     Mixer,
 )
-from station.sound.sound_names import TIP_TIMBRE, SoundName
 from tests.unit.sound.kits import RATE_HZ, constant, mixer_of, sound_of
 
 CRASH = NoteMeaning(Piece.CRASH_1, Zone.EDGE)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
+from station.core.sound_names import SoundName
 from station.sound.bus_levels import LEVEL_SLEW_S
 from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import DrumKit, Frames
@@ -22,7 +23,6 @@ from station.sound.mixer import (
     STEAL_S,
     Mixer,
 )
-from station.sound.sound_names import SoundName
 from tests.unit.sound.kits import RATE_HZ, constant, impulse, mixer_of, sound_of
 
 KICK = NoteMeaning(Piece.KICK)

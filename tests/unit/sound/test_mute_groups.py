@@ -2,10 +2,10 @@ import numpy as np
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece, Zone
+from station.core.sound_names import SoundName
 from station.sound.buses import Bus, ClickVoice
 from station.sound.drum_kit import DrumKit, Layer, Sound
 from station.sound.mixer import MUTE_S, Mixer
-from station.sound.sound_names import SoundName
 from tests.unit.sound.kits import RATE_HZ, constant, impulse
 
 CRASH = NoteMeaning(Piece.CRASH_1, Zone.EDGE)

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
+from station.core.sound_names import SoundName
 from station.sound.bus_levels import LEVEL_SLEW_S
 from station.sound.buses import Bus, ClickVoice
 from station.sound.click_sounds import click_sounds
 from station.sound.drum_kit import DrumKit, Layer, Sound
 from station.sound.mixer import CHOKE_S, STEAL_S, Mixer
-from station.sound.sound_names import SoundName
 from station.sound.synth.synth_kits import synth_kit
 from station.sound.track import EDGE_S, Track
 

@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
+from station.core.sound_names import HIHAT_STEPS, SoundName
 from station.sound.buses import Bus
 from station.sound.drum_kit import DrumKit, Frames
 from station.sound.mixer import Mixer
-from station.sound.sound_names import HIHAT_STEPS, SoundName
 from station.sound.synth.layers import make_sound
 from station.sound.synth.synth_kits import RECIPES, synth_kit
 from tests.unit.sound.kits import RATE_HZ

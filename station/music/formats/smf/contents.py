@@ -49,7 +49,7 @@ CONTROL_DTYPE = np.dtype(
 MAX_NS = 366 * 24 * 3600 * NS_PER_S
 """A year (our choice: far beyond any music, and every product below stays inside 63 bits)."""
 
-_NO_NAME = re.compile(r"\s*|midi|(midi )?track ?\d*|untitled|unnamed", re.IGNORECASE)
+_NO_NAME = re.compile(r"\s*|(base )?midi( drums?)?|drums?|drum ?kit|(midi )?track ?\d*|untitled|unnamed", re.IGNORECASE)
 """What programs call a track that nobody named (the Groove MIDI Dataset's are all "MIDI")."""
 
 _DRUM_NAME = re.compile(r"drum|percus|\bperc\b|\bkit\b|schlagzeug|batterie|bater[ií]a|batteria", re.IGNORECASE)

@@ -2,7 +2,8 @@
 
 Our choices, for a MIDI file says what sounds and not what is meant:
 * dynamics stay `NORMAL` and velocities are kept: 110 may be an accent in one file and the plain backbeat of another;
-* strokes have no duration, for in most files a drum's note length is an accident of the editor;
+* strokes have no duration, for in most files a drum's note length is an accident of the editor; but where all strokes
+  have one length and some of a drum are held, these are buzz rolls (`held_notes`);
 * no flam or drag is inferred: its strokes stand where they are written;
 * in a score, strokes of one tick that mean the same strike (a doubled number, 35 over 36) are one, the loudest.
 
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from station.core.note_map import KitMap, strike_of
-from station.core.pieces import CHOKEABLE, Dynamic, Limb, Ornament, Piece
+from station.core.pieces import CHOKEABLE, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import NS_PER_US, PPQ
 from station.music.formats.smf.contents import MidiFile, MidiSequence
 from station.music.formats.smf.drum_channels import (
@@ -26,6 +27,7 @@ from station.music.formats.smf.drum_channels import (
     drums_of,
     guess_kit_map,
 )
+from station.music.formats.smf.held_notes import held_notes
 from station.music.performance import CHOKE_DTYPE, HIT_DTYPE, Performance
 from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
@@ -38,6 +40,8 @@ _FULL = 127
 
 _GRAB_DTYPE = np.dtype([("tick", np.int64), ("piece", np.uint8)])
 _ALL_NUMBERS = range(128)
+_SHORTEST_BUZZ_TICKS = PPQ // 4
+"""A sixteenth: the shortest cell that our lessons hold (our choice)."""
 
 
 # --- what they mean ---------------------------------------------------------------------------------------------------
@@ -190,6 +194,8 @@ def _part(drums: Drums, meaning: _Meaning) -> Score:
     sequence = drums.sequence
     tempo_map = _tempo_map(sequence)
     rows = _note_rows(drums, meaning, _rescaled(sequence, tempo_map, drums.notes["tick"]))
+    lasts = np.maximum(drums.notes["duration_ticks"], 0)
+    _write_buzzes(rows, _rescaled(sequence, tempo_map, drums.notes["tick"] + lasts))
     rows = rows[_loudest_of_layers(rows, meaning)]
     chokes = _chokes(drums, meaning)
     chokes["tick"] = _rescaled(sequence, tempo_map, chokes["tick"])
@@ -206,6 +212,14 @@ def _note_rows(drums: Drums, meaning: _Meaning, ticks: NDArray[np.int64]) -> NDA
     rows["velocity"], rows["midi_note"] = drums.notes["velocity"], numbers
     rows["dynamic"], rows["ornament"], rows["limb"] = Dynamic.NORMAL, Ornament.NONE, Limb.UNKNOWN
     return rows
+
+
+def _write_buzzes(rows: NDArray[np.void], ends: NDArray[np.int64]) -> None:
+    """Make buzz rolls of the drums' notes that are held until `ends` (n,)."""
+    lasts = ends - rows["tick"]
+    held = held_notes(rows["tick"], lasts, rows["piece"], rows["articulation"], _SHORTEST_BUZZ_TICKS)
+    rows["articulation"][held], rows["ornament"][held] = Articulation.BUZZ, Ornament.ROLL
+    rows["duration_ticks"][held] = lasts[held]
 
 
 def _write_chokes(rows: NDArray[np.void], chokes: NDArray[np.void]) -> None:

@@ -1,0 +1,203 @@
+"""Throws broken files at every importer: only `BadInput` may come out, in time and within memory.
+
+    python benchmarks/fuzz_formats.py --inputs 100000 --seed 1 [--format DTX] [--files FOLDER …] [--whole]
+
+Seeds are files of the station's own making in every format that it writes, and those found in FOLDER. An input is a
+seed with some bytes, numbers or lines changed, cut, doubled or swapped with those of another seed, or a zip of such.
+`--whole` goes on to the lesson. Prints a table, and keeps each input that fails in `--keep`.
+"""
+
+import argparse
+import io
+import random
+import re
+import resource
+import signal
+import time
+import zipfile
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from station.core.errors import BadInput
+from station.drills.library import shipped_lessons
+from station.drills.transcription.transcribe import transcribe
+from station.drills.writing.lesson_part import part_of
+from station.drills.writing.lesson_writer import write_lesson
+from station.music.drum_part import DrumPart
+from station.music.formats.format_table import FORMATS
+from station.music.formats.music_format import MusicFormat
+
+LIMIT_S, LIMIT_MB = 2.0, 500
+_LESSONS = 12
+_NUMBERS = (b"0", b"-1", b"1", b"99999999999999999999", b"1e308", b"NaN", b"2147483648", b"65536", b"0.0000001", b"")
+
+
+class TooSlow(Exception):
+    """An input took longer than the limit."""
+
+
+@dataclass
+class Tally:
+    """What came of the inputs of one format."""
+
+    read: int = 0
+    refused: int = 0
+    slowest_s: float = 0.0
+    failures: list[str] = field(default_factory=list)
+
+
+def seeds_of(known: MusicFormat, folders: Sequence[Path]) -> list[bytes]:
+    """Files of this format: our own, and strangers' where they can be read."""
+    found: list[bytes] = []
+    if known.write is not None:
+        for lesson in shipped_lessons()[:: max(len(shipped_lessons()) // _LESSONS, 1)]:
+            with suppress(BadInput):
+                found.append(known.write(part_of(lesson)).data)
+    files = (path for folder in folders for path in sorted(folder.rglob("*")))
+    found += [p.read_bytes() for p in files if p.suffix.lower() in known.endings and p.stat().st_size < 200_000]
+    return found or [b"station", b"<score/>", bytes(range(256))]
+
+
+def mutated(seeds: Sequence[bytes], rng: random.Random) -> bytes:
+    """One broken file; of a zip sometimes the file within is broken, and packed again."""
+    data = rng.choice(seeds)
+    if data[:2] == b"PK" and rng.random() < 0.7:
+        return _repacked(data, rng)
+    for _ in range(rng.choice((1, 1, 1, 2, 4, 16))):
+        data = rng.choice(_WAYS)(data, seeds, rng)
+    return data
+
+
+def _repacked(data: bytes, rng: random.Random) -> bytes:
+    out = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(data)) as old, zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as new:
+        names = old.namelist()
+        broken = rng.choice(names)
+        for name in names:
+            inside = old.read(name)
+            new.writestr(name, mutated([inside], rng) if name == broken else inside)
+    return out.getvalue()
+
+
+def _flip(data: bytes, _: Sequence[bytes], rng: random.Random) -> bytes:
+    if not data:
+        return b"x"
+    at = rng.randrange(len(data))
+    return data[:at] + bytes([rng.randrange(256)]) + data[at + 1 :]
+
+
+def _cut(data: bytes, _: Sequence[bytes], rng: random.Random) -> bytes:
+    a, b = sorted(rng.randrange(len(data) + 1) for _ in range(2))
+    return data[:a] + data[b:] if rng.random() < 0.7 else data[:b]
+
+
+def _double(data: bytes, _: Sequence[bytes], rng: random.Random) -> bytes:
+    a, b = sorted(rng.randrange(len(data) + 1) for _ in range(2))
+    return data[:b] + data[a:b][:20_000] * rng.choice((1, 2, 8)) + data[b:]
+
+
+def _splice(data: bytes, seeds: Sequence[bytes], rng: random.Random) -> bytes:
+    other = rng.choice(seeds)
+    a, b = rng.randrange(len(data) + 1), rng.randrange(len(other) + 1)
+    return data[:a] + other[b : b + rng.choice((10, 100, 10_000))] + data[a:]
+
+
+def _number(data: bytes, _: Sequence[bytes], rng: random.Random) -> bytes:
+    places = list(re.finditer(rb"[0-9]+", data[:100_000]))
+    if not places:
+        return data + rng.choice(_NUMBERS)
+    at = rng.choice(places)
+    return data[: at.start()] + rng.choice(_NUMBERS) + data[at.end() :]
+
+
+def _swap_lines(data: bytes, _: Sequence[bytes], rng: random.Random) -> bytes:
+    lines = data.split(b"\n")
+    a, b = rng.randrange(len(lines)), rng.randrange(len(lines))
+    lines[a], lines[b] = lines[b], lines[a]
+    return b"\n".join(lines)
+
+
+_WAYS: tuple[Callable[[bytes, Sequence[bytes], random.Random], bytes], ...] = (
+    _flip,
+    _flip,
+    _cut,
+    _double,
+    _splice,
+    _number,
+    _number,
+    _swap_lines,
+)
+
+
+def run(known: MusicFormat, inputs: Iterator[bytes], then: Callable[[DrumPart], None], keep: Path) -> Tally:
+    """Read every input, and do with what was read as `then` does."""
+    tally = Tally()
+    for data in inputs:
+        before = time.process_time()
+        signal.setitimer(signal.ITIMER_PROF, LIMIT_S)
+        try:
+            known.recognises(data)
+            part = known.read(data, "input")
+            then(part)
+            tally.read += 1
+        except BadInput:
+            tally.refused += 1
+        except Exception as fault:
+            where = keep / f"{known.name.replace(' ', '-')}-{len(tally.failures)}{known.endings[0]}"
+            keep.mkdir(parents=True, exist_ok=True)
+            where.write_bytes(data)
+            tally.failures.append(f"{where}: {type(fault).__name__} {str(fault)[:100]}")
+        finally:
+            signal.setitimer(signal.ITIMER_PROF, 0)
+        tally.slowest_s = max(tally.slowest_s, time.process_time() - before)
+    return tally
+
+
+def _as_lesson(part: DrumPart) -> None:
+    if len(part.score):
+        write_lesson(transcribe(part, "input").lesson)
+
+
+def _too_slow(*_: object) -> None:
+    raise TooSlow(f"longer than {LIMIT_S:g} s")
+
+
+def _limit_memory() -> None:
+    """No more than the limit beyond what the program itself takes."""
+    used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    limit = used + LIMIT_MB * 2**20
+    resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+
+
+def main() -> None:
+    """Read the words of the command line, and throw."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--inputs", type=int, default=10_000, help="of each format")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--format", default="", help="the name of one format")
+    parser.add_argument("--files", type=Path, nargs="*", default=[])
+    parser.add_argument("--keep", type=Path, default=Path("fuzz-failures"))
+    parser.add_argument("--whole", action="store_true", help="on to the lesson")
+    options = parser.parse_args()
+    signal.signal(signal.SIGPROF, _too_slow)
+    chosen = [known for known in FORMATS if options.format in ("", known.name)]
+    seeds = {known.name: seeds_of(known, options.files) for known in chosen}
+    _limit_memory()
+    for known in chosen:
+        rng = random.Random(f"{options.seed} {known.name}")
+        inputs = (mutated(seeds[known.name], rng) for _ in range(options.inputs))
+        tally = run(known, inputs, _as_lesson if options.whole else lambda _: None, options.keep)
+        print(
+            f"{known.name:14} {len(seeds[known.name]):3} seeds {tally.read:8} read {tally.refused:8} refused "
+            f"{len(tally.failures):4} failed, slowest {tally.slowest_s:.2f} s"
+        )
+        for line in tally.failures[:10]:
+            print(f"  {line}")
+    peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    print(f"peak memory of the whole program {peak_mb:.0f} MB")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,150 @@
+"""When each stroke of a take is meant: meter, beat, swing, and the cells that its beats are cut into.
+
+`quantised_times` is the only door. Times and ticks are those of `Score`; leans are positive where strokes come late.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
+from station.drills.transcription.beat_spans import BeatSpans, Ints, spans_of
+from station.drills.transcription.drift import steadied
+from station.drills.transcription.exact_grid import exact_meant
+from station.drills.transcription.meant import Meant
+from station.drills.transcription.rhythm_words import MAX_WORDS, cells_of
+from station.drills.transcription.take_feel import Take, feel_of, take_of
+from station.drills.transcription.triplet_swing import triplet_swing
+from station.drills.transcription.whole_bars import at_bar_starts
+from station.music.score import Score
+from station.music.swing import STRAIGHT, TRIPLETS, Swing
+from station.music.tempo import TempoMap
+
+STEADY_S = 0.015
+"""A take with no wider spread keeps to the file's beat, and no drift is looked for (our choice)."""
+_MS_PER_S = NS_PER_S // NS_PER_MS
+
+
+@dataclass(frozen=True, slots=True)
+class BeatCells:
+    """The beat from `tick`, `length_ticks` long, is cut into `cells` equal cells."""
+
+    tick: int
+    length_ticks: int
+    cells: int
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GridTimes:
+    """A score on the grid, and how it came there.
+
+    `score` has the rows that were given, their ticks on cells, whole bars alone, `swing_ticks` where swing is written
+    as a word; row `i` of it was row `origin[i]` (shape (n,)). `swing` is that of the whole piece and `beat_ticks` the
+    beat that is counted. `beats` are the beats with strokes in order. `lean_ms` is how late the take is as a whole,
+    and `spread_ms` the standard deviation about that; both 0 where the score was on the grid already.
+    """
+
+    score: Score
+    origin: NDArray[np.int64]
+    swing: Swing
+    beat_ticks: int
+    beats: tuple[BeatCells, ...]
+    lean_ms: float = 0.0
+    spread_ms: float = 0.0
+
+
+def quantised_times(score: Score, is_played: bool) -> GridTimes:
+    """`score` with every row on a cell of the grid.
+
+    Rows are main strokes at their played ticks, grace rows (`lead_ms` > 0) on the tick of their main stroke, and
+    buzzes, one row each with its duration. With `is_played` the times are known to be somebody's playing; without it
+    they are taken so only if they lie on no grid. Raises `BadInput` where a change of meter cuts a bar at a place that
+    no meter can name.
+    """
+    tempo_map = at_bar_starts(score)
+    spans = spans_of(tempo_map, score.end_tick)
+    rows = score.notes
+    mains = np.nonzero(rows["lead_ms"] == 0)[0]
+    ticks = rows["tick"][mains]
+    take = take_of(tempo_map.ns_at(ticks), rows["piece"][mains], spans)
+    meant = None if is_played and len(mains) else exact_meant(take, ticks)
+    meant = meant or played_meant(take)
+    swing = _named_swing(take, meant)
+    moved = rows.copy()
+    moved["tick"][mains] = meant.ticks(spans)
+    moved["swing_ticks"][mains] = (meant.ticks(spans) - meant.straight_ticks(spans)) * swing.stands_in_words
+    for name in ("duration_ticks", "choke_ticks"):
+        moved[name][mains] = _lengths(take, meant, rows[name][mains])
+    _bring_graces(rows, moved)
+    origin = np.lexsort((moved["piece"], -moved["lead_ms"], moved["tick"]))
+    found = Score.from_array(
+        moved[origin], tempo_map, _end(moved["tick"], tempo_map, score), score.title, score.loudness
+    )
+    beats = _beats(spans, meant)
+    beat = _beat_ticks(tempo_map)
+    return GridTimes(found, origin, swing, beat, beats, meant.lean_s * _MS_PER_S, meant.spread_s * _MS_PER_S)
+
+
+def played_meant(take: Take) -> Meant:
+    """What a take is meant as."""
+    feel = feel_of(take)
+    late_s = 0.0
+    if feel.spread_s > STEADY_S and (steady := steadied(take, feel)):
+        late_s = float(np.mean(take.times_s - steady.times_s))
+        take, feel = steady, feel_of(steady)
+    reading = take.read(feel, MAX_WORDS)
+    span, _ = take.spans.places(take.times_s - feel.lean_s)
+    cell = cells_of(take.spans, span, reading, feel.swing)
+    return Meant(span, cell, reading.cells, feel.swing, late_s + feel.lean_s, feel.spread_s)
+
+
+def _named_swing(take: Take, meant: Meant) -> Swing:
+    """The swing as a teacher names it; triplets may be one though none was needed to read them."""
+    if meant.swing.ratio not in (STRAIGHT, TRIPLETS):
+        return meant.swing
+    return triplet_swing(take.spans, meant.span, meant.places(take.spans), take.piece)
+
+
+def _lengths(take: Take, meant: Meant, lengths: Ints) -> Ints:
+    """The lengths (n,) of buzzes and chokes, each to the nearest cell of the beat in which it ends, at least one."""
+    found = lengths.copy()
+    starts = meant.ticks(take.spans)
+    for i in np.nonzero(lengths)[0].tolist():
+        end = starts[i] + lengths[i]
+        span = int(np.searchsorted(take.spans.starts, end, side="right")) - 1
+        length = int(take.spans.lengths[span])
+        cells = int(meant.cells[span])
+        cell = length / (cells if cells > 1 else 6 if take.spans.is_ternary[span] else 4)
+        start = int(take.spans.starts[span])
+        found[i] = max(round(start + round((end - start) / cell) * cell - starts[i]), round(cell))
+    return found
+
+
+def _bring_graces(rows: NDArray[np.void], moved: NDArray[np.void]) -> None:
+    """Put each grace stroke where its main stroke is."""
+    mains = {(int(r["tick"]), int(r["piece"])): i for i, r in enumerate(rows) if not r["lead_ms"]}
+    for i in np.nonzero(rows["lead_ms"])[0].tolist():
+        main = mains.get((int(rows["tick"][i]), int(rows["piece"][i])))
+        if main is not None:
+            moved["tick"][i], moved["swing_ticks"][i] = moved["tick"][main], moved["swing_ticks"][main]
+
+
+def _end(ticks: Ints, tempo_map: TempoMap, score: Score) -> int:
+    """Where the score ends, a bar later if a stroke that came early belongs to the next bar."""
+    last = int(ticks.max()) if len(ticks) else 0
+    return score.end_tick if last < score.end_tick else tempo_map.bar_start(int(tempo_map.bars_at(last)) + 1)
+
+
+def _beats(spans: BeatSpans, meant: Meant) -> tuple[BeatCells, ...]:
+    struck = np.unique(meant.span)
+    columns = (spans.starts[struck], spans.lengths[struck], meant.cells[struck])
+    return tuple(BeatCells(*row) for row in np.stack(columns, axis=1).tolist())
+
+
+def _beat_ticks(tempo_map: TempoMap) -> int:
+    """The beat that is counted: a dotted quarter in 6/8 and its like, else a quarter."""
+    meter = tempo_map.meter_at(0)
+    groups = set(meter.felt_groups)
+    is_compound = meter.unit == 8 and not meter.groups and groups == {3}
+    return 3 * PPQ // 2 if is_compound else PPQ

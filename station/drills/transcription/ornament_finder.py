@@ -1,0 +1,238 @@
+"""Flams, drags and buzz strokes found again among plain strokes, by the time between them and by their loudness.
+
+Asked of each drum by itself, for other pieces have no such letters, and before strokes go onto a grid: an ornament's
+spacing belongs to the hand, not to the beat. What a stroke is called, by the gap to the next one of its drum:
+
+* gap ≤ `BOUNCE_MS` and far softer than its neighbour, or no gap: the pad triggered twice; no stroke (any piece);
+* three or more gaps ≤ `CLOSE_MS` long that do not lead up to a louder stroke: a buzz, as long as it rebounds;
+* one soft stroke ≤ `CLOSE_MS` before a louder one, or two hands at nearly one moment: a flam;
+* two soft strokes, each `DRAG_MS` before the next, and then a louder one: a drag.
+
+What a file says itself (ornaments, grace strokes, buzzes) stays, and then nothing is looked for.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from statistics import median
+
+from station.core.pieces import TOMS, Articulation, Ornament, Piece, Zone
+from station.core.units import NS_PER_MS, PPQ
+from station.music.grace_strokes import Graces
+from station.music.score import Note, Score
+
+BOUNCE_MS = 10.0
+"""Modules tell strokes apart from 8–10 ms on (their retrigger time); nobody strikes one drum twice so soon."""
+_BOUNCE_SHARE = 0.5
+"""A second hand is never half as loud as the first so soon; a pad that still shakes is (our choice)."""
+LAYERED_MS = 1.0
+"""What a pad says of head and rim at once is one stroke; two hands are hardly ever so exact (our choice)."""
+AT_ONCE_MS = 8.0
+"""Two hands that mean to strike together are within this: half the just noticeable order of two sounds, 15–20 ms."""
+CLOSE_MS = 45.0
+"""A flam's grace stroke comes 15–40 ms before its note (HUMANS, Timing); a hand's own next stroke after 50 ms or more
+(`limb_speeds`)."""
+DRAG_MS = (15.0, 72.0)
+"""The strokes of a drag are 40–70 ms apart (HUMANS, Timing); tight ruffs go down to a buzz's spacing."""
+_SOFT = 0.75
+"""Grace strokes have 25–50 % of their note's velocity (HUMANS, Timing); human spread allows half as much again."""
+_DRAG_SOFT = 0.62
+_ALIKE = 0.5
+"""Both strokes of a drag are of one bounce: the softer has at least this share of the louder (our choice)."""
+_APART = 1.3
+"""So many times as far as its own spacing a drag stands from the stroke before it, or so many times softer than it is,
+else the three are a run (our choice)."""
+_RUN_TICKS = (PPQ // 8, PPQ // 12)
+"""Strokes that lie exactly on these cells of an exact score are written strokes, not grace strokes."""
+_FEWEST = 3
+"""Strokes of a buzz."""
+_DRUMS = (Piece.SNARE, *TOMS)
+_EXACT_MS = 0.1
+"""Grace strokes so near to a whole number of milliseconds, in a whole file, were written by a program (our choice)."""
+_EXACT_SHARE = 0.02
+"""Velocities are whole numbers: of a ghost stroke's 13, one more is another 3 % of its note's (our choice)."""
+
+
+@dataclass(frozen=True, slots=True)
+class FoundOrnaments:
+    """The main strokes in order, flams and drags by their ornament, buzzes one row each with its duration.
+
+    `graces` is how grace strokes are spaced where all are alike, else the usual; `counts` says how many of each were
+    found, `bounces` how many strokes were none but a pad that shook.
+    """
+
+    mains: tuple[Note, ...]
+    graces: Graces
+    flams: int = 0
+    drags: int = 0
+    buzzes: int = 0
+    bounces: int = 0
+
+
+@dataclass(slots=True)
+class _Stroke:
+    """A stroke at `ms`; `leads_ms` and `shares` are those of the grace strokes that it has swallowed."""
+
+    note: Note
+    ms: float
+    leads_ms: tuple[float, ...] = ()
+    shares: tuple[float, ...] = ()
+
+
+def found_ornaments(score: Score, graces: Graces | None = None) -> FoundOrnaments:
+    """The main strokes of `score`, with their ornaments; `graces` is their spacing where the file says it."""
+    onsets = (score.onset_ns / NS_PER_MS).tolist()
+    strokes = [_Stroke(note, ms) for note, ms in zip(score, onsets, strict=True)]
+    if any(_is_said(stroke.note) for stroke in strokes):
+        mains = tuple(stroke.note for stroke in strokes if not stroke.note.lead_ms)
+        return FoundOrnaments(mains, graces or Graces())
+    by_piece: dict[Piece, list[_Stroke]] = {}
+    for stroke in strokes:
+        by_piece.setdefault(stroke.note.piece, []).append(stroke)
+    kept = [stroke for piece, line in by_piece.items() for stroke in _line(piece, _without_bounces(line), score)]
+    kept.sort(key=lambda s: (s.note.tick, s.note.piece))
+    return FoundOrnaments(
+        tuple(s.note for s in kept),
+        graces or _spacing(kept),
+        flams=sum(s.note.ornament is Ornament.FLAM for s in kept),
+        drags=sum(s.note.ornament is Ornament.DRAG for s in kept),
+        buzzes=sum(s.note.articulation is Articulation.BUZZ for s in kept),
+        bounces=len(strokes) - sum(len(_without_bounces(line)) for line in by_piece.values()),
+    )
+
+
+def _is_said(note: Note) -> bool:
+    is_buzz = note.articulation is Articulation.BUZZ
+    return note.lead_ms > 0 or (note.ornament is not Ornament.NONE and not is_buzz)
+
+
+def _without_bounces(line: Sequence[_Stroke]) -> list[_Stroke]:
+    """The strokes of one piece without those that a pad made by itself, before or after a louder one."""
+    soft: set[int] = set()
+    for i, (a, b) in enumerate(pairwise(line)):
+        low, high = sorted((a.note.velocity, b.note.velocity))
+        gap = b.ms - a.ms
+        if gap < LAYERED_MS or (gap <= BOUNCE_MS and low < _BOUNCE_SHARE * high):
+            soft.add(i if a.note.velocity < b.note.velocity else i + 1)
+    return [stroke for i, stroke in enumerate(line) if i not in soft]
+
+
+def _line(piece: Piece, line: list[_Stroke], score: Score) -> list[_Stroke]:
+    """The main strokes of one piece."""
+    if piece not in _DRUMS:
+        return line
+    return _with_drags(_without_chains(line, score))
+
+
+# --- chains of close strokes ------------------------------------------------------------------------------------------
+
+
+def _without_chains(line: Sequence[_Stroke], score: Score) -> list[_Stroke]:
+    """Each chain of strokes at most `CLOSE_MS` apart as the one stroke that it is."""
+    chains: list[list[_Stroke]] = []
+    for stroke in line:
+        if chains and stroke.ms - chains[-1][-1].ms <= CLOSE_MS:
+            chains[-1].append(stroke)
+        else:
+            chains.append([stroke])
+    return [found for chain in chains for found in _meant(chain, score)]
+
+
+def _meant(chain: Sequence[_Stroke], score: Score) -> list[_Stroke]:
+    first, last = chain[0], chain[-1]
+    if len(chain) == 1 or not all(_is_plain(s.note) for s in chain):
+        return list(chain)
+    if len(chain) == 2:
+        return _flam(first, last)
+    before = max(s.note.velocity for s in chain[:-1])
+    if before <= _SOFT * last.note.velocity:
+        return [_graced(last, Ornament.DRAG, chain[-3:-1])]
+    rebounds_until = last.ms + (last.ms - first.ms) / (len(chain) - 1)
+    end = int(score.tempo_map.ticks_at_ns(round(rebounds_until * NS_PER_MS)))
+    note = replace(
+        first.note,
+        velocity=max(s.note.velocity for s in chain),
+        articulation=Articulation.BUZZ,
+        ornament=Ornament.ROLL,
+        duration_ticks=max(1, end - first.note.tick),
+    )
+    return [_Stroke(note, first.ms)]
+
+
+def _is_plain(note: Note) -> bool:
+    return note.articulation in (Articulation.NORMAL, Articulation.RIM_SHOT)
+
+
+def _flam(first: _Stroke, second: _Stroke) -> list[_Stroke]:
+    """Two close strokes: a flam, but where the first is by far the louder, a stroke and its rebound."""
+    if first.note.velocity <= _SOFT * second.note.velocity or second.ms - first.ms <= AT_ONCE_MS:
+        return [_graced(second, Ornament.FLAM, [first])]
+    if first.note.velocity <= second.note.velocity / _SOFT:
+        louder = replace(second.note, velocity=max(first.note.velocity, second.note.velocity))
+        return [_graced(_Stroke(louder, second.ms), Ornament.FLAM, [first])]
+    return [first, second]
+
+
+def _graced(main: _Stroke, ornament: Ornament, graces: Sequence[_Stroke]) -> _Stroke:
+    note = replace(main.note, ornament=ornament, zone=Zone.HEAD, articulation=Articulation.NORMAL)
+    leads = tuple(main.ms - grace.ms for grace in graces)
+    return _Stroke(note, main.ms, leads, tuple(g.note.velocity / main.note.velocity for g in graces))
+
+
+# --- drags ------------------------------------------------------------------------------------------------------------
+
+
+def _with_drags(line: Sequence[_Stroke]) -> list[_Stroke]:
+    """The strokes with two soft ones before a louder one made its drag."""
+    kept: list[_Stroke] = []
+    for stroke in line:
+        if len(kept) >= 2 and _is_drag(kept[-3:-2], kept[-2], kept[-1], stroke):
+            graces = [kept.pop(-2), kept.pop()]
+            kept.append(_graced(stroke, Ornament.DRAG, graces))
+        else:
+            kept.append(stroke)
+    return kept
+
+
+def _is_drag(before: Sequence[_Stroke], first: _Stroke, second: _Stroke, main: _Stroke) -> bool:
+    three = (first, second, main)
+    if any(s.note.ornament is not Ornament.NONE or s.note.articulation is not Articulation.NORMAL for s in three):
+        return False
+    gaps = (second.ms - first.ms, main.ms - second.ms)
+    if not all(DRAG_MS[0] <= gap <= DRAG_MS[1] for gap in gaps) or _is_written_run(three):
+        return False
+    low, high = sorted((first.note.velocity, second.note.velocity))
+    if high > _DRAG_SOFT * main.note.velocity or low < _ALIKE * high:
+        return False
+    return not before or first.ms - before[0].ms >= _APART * gaps[0] or before[0].note.velocity >= _APART * high
+
+
+def _is_written_run(strokes: Sequence[_Stroke]) -> bool:
+    """Whether all of them lie exactly on the cells of one division of the beat."""
+    return any(all(s.note.tick % cell == 0 for s in strokes) for cell in _RUN_TICKS)
+
+
+def _spacing(strokes: Sequence[_Stroke]) -> Graces:
+    """The grace strokes of a file in which all are alike, as a program writes them; the usual ones for people's."""
+    usual = Graces()
+    flams = [s.leads_ms[0] for s in strokes if s.note.ornament is Ornament.FLAM]
+    drags = [s.leads_ms[1] for s in strokes if s.note.ornament is Ornament.DRAG]
+    shares = [share for s in strokes for share in s.shares]
+    share = round(median(shares), 2) if _are_alike(shares, _EXACT_SHARE) else usual.share
+    return Graces(
+        _exact(flams, usual.flam_ms),
+        _exact(drags, usual.drag_ms),
+        usual.share if abs(share - usual.share) <= _EXACT_SHARE else share,
+    )
+
+
+def _exact(leads_ms: Sequence[float], usual_ms: float) -> float:
+    """The whole number of milliseconds that all of them are, else the usual one."""
+    whole = round(median(leads_ms)) if leads_ms else usual_ms
+    is_exact = all(abs(lead - whole) <= _EXACT_MS for lead in leads_ms)
+    return float(whole) if is_exact else usual_ms
+
+
+def _are_alike(values: Sequence[float], spread: float) -> bool:
+    """Whether there are several, all of one size."""
+    return len(values) > 1 and max(values) - min(values) <= 2 * spread

@@ -1,0 +1,183 @@
+"""From a drum part to the lesson that a teacher would have written of it: the one door for imports and takes.
+
+First what belongs to the hand and not to the beat (flams, drags, buzzes), then the times (`grid_times`), the dynamics,
+what is beyond one player, diddles, and last the page: sections, repeats, level.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from statistics import median
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.errors import BadInput
+from station.core.units import NS_PER_MS, PPQ
+from station.drills.difficulty import difficulty
+from station.drills.grid.line_group import MAX_BARS
+from station.drills.grid.lines_from_score import graces_of
+from station.drills.grid.stroke_settings import Velocities
+from station.drills.grid.tab_symbols import BEYOND
+from station.drills.lesson import Lesson
+from station.drills.reading.lesson_file import parse_lesson
+from station.drills.transcription.diddle_finder import with_diddles
+from station.drills.transcription.form_finder import found_form
+from station.drills.transcription.grid_times import GridTimes, quantised_times
+from station.drills.transcription.letters import as_letter, unified
+from station.drills.transcription.loudness_levels import with_dynamics
+from station.drills.transcription.ornament_finder import FoundOrnaments, found_ornaments
+from station.drills.transcription.reach import Reach, within_reach
+from station.drills.transcription.ringing import with_lengths
+from station.drills.transcription.tempo_steps import steady
+from station.drills.writing.lesson_form import LessonForm
+from station.drills.writing.lesson_writer import write_lesson
+from station.music.drum_part import DrumPart, PartSection
+from station.music.grace_strokes import with_graces
+from station.music.score import Note, Score
+from station.music.swing import STRAIGHT
+
+_LEVELS_FROM = (10.5, 15.3, 20.8, 25.4)
+"""From which difficulty on a lesson is of level 2, 3, 4, 5: half way between the medians of the lessons that
+ship, which are 8.2, 12.8, 17.8, 23.8 and 27.0."""
+_TAGS = ("import",)
+_BARS_NAMED = 8
+"""Bars that a remark names (our choice: what fits a line)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Transcribed:
+    """The `lesson`, read from the text that was written of it, and `remarks` on what was done, each a sentence."""
+
+    lesson: Lesson
+    remarks: tuple[str, ...]
+
+
+def transcribe(part: DrumPart, name: str, source: str = "") -> Transcribed:
+    """The lesson called `name` that `part` is; `source` is the file that errors name, `name` if it is empty.
+
+    Raises `BadInput` of `source` for a part without strokes, or of more than a lesson may have.
+    """
+    try:
+        return _transcribed(part, name)
+    except BadInput as found:
+        raise BadInput(source or name, found.place, found.fault) from None
+
+
+def _transcribed(part: DrumPart, name: str) -> Transcribed:
+    if not len(part.score):
+        raise BadInput(name, "", "there is no drum note in it")
+    if part.score.bar_count > MAX_BARS:
+        raise BadInput(name, "", f"{part.score.bar_count} bars; a lesson has at most {MAX_BARS}")
+    ornaments = found_ornaments(part.score, graces_of(part.score) if part.score.is_grace.any() else None)
+    mains, empty_bars = _from_its_first_bar(part.score, ornaments)
+    part = replace(part, sections=_earlier(part.sections, empty_bars))
+    times = quantised_times(mains, part.is_played)
+    score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
+    strokes, velocities = with_dynamics([as_letter(note) for note in score])
+    strokes = unified(strokes) if times.spread_ms else strokes
+    strokes = [_written(note, velocities) for note in strokes]
+    reach = within_reach(strokes, ornaments.graces, score.tempo_map, score.end_tick)
+    notes = with_diddles(with_lengths(reach, _ends(score, part), times), reach.beyond, score.tempo_map, velocities)
+    rows = [row for note in notes for row in with_graces(note, ornaments.graces)]
+    beyond = [replace(note, velocity=velocities.of(note.piece, note.dynamic)) for note in reach.beyond]
+    lesson = Lesson(
+        name,
+        _printable(part.score.title) or name,
+        Score.from_notes(rows, score.tempo_map, score.end_tick),
+        author=_printable(part.author),
+        about=_printable(part.about),
+        tags=_TAGS,
+        loop=(0, score.bar_count - 1),
+        swing=times.swing if part.swing.ratio == STRAIGHT else part.swing,
+        beat_ticks=times.beat_ticks if part.beat_ticks == PPQ else part.beat_ticks,
+        velocities=velocities,
+        beyond=Score.from_notes(beyond, score.tempo_map, score.end_tick).notes,
+    )
+    form = found_form(lesson, part.sections)
+    read = parse_lesson(write_lesson(replace(lesson, level=_level(lesson, form)), form), name, name).lesson
+    assert read, "what write_lesson gives is a lesson"
+    return Transcribed(read, tuple(_remarks(ornaments, times, mains, reach, read)))
+
+
+def _from_its_first_bar(score: Score, ornaments: FoundOrnaments) -> tuple[Score, int]:
+    """The main strokes as a score, and how many bars it begins later: those that only a grace stroke was in.
+
+    A program that writes a flam on the first beat needs a bar before it.
+    """
+    mains = Score.from_notes(ornaments.mains, score.tempo_map, score.end_tick, score.title)
+    first = int(mains.bar[0]) if score.bar[0] < mains.bar[0] else 0
+    return (mains.bars(first, mains.bar_count - 1), first) if first else (mains, 0)
+
+
+def _earlier(sections: Sequence[PartSection], bars: int) -> tuple[PartSection, ...]:
+    """The sections so many bars earlier."""
+    moved = (PartSection(s.name, max(s.first_bar - bars, 0), s.last_bar - bars) for s in sections)
+    return tuple(s for s in moved if s.last_bar >= 0)
+
+
+def _level(lesson: Lesson, form: LessonForm) -> int:
+    """How hard it is, 1–5: as hard as the middle one of its grids, for lessons that ship are as long as a grid."""
+    parts = [replace(lesson, loop=(grid.first_bar, grid.first_bar + grid.bars - 1)) for grid in form.grids]
+    middle = median(difficulty(each).total for each in parts if len(each.loop_score) or len(parts) == 1)
+    return 1 + sum(middle >= least for least in _LEVELS_FROM)
+
+
+def _written(note: Note, velocities: Velocities) -> Note:
+    """The stroke as its letter plays it, which may know no such dynamic."""
+    lettered = as_letter(note)
+    return replace(lettered, velocity=velocities.of(note.piece, lettered.dynamic))
+
+
+def _printable(text: str) -> str:
+    """Of words that another program may have written, what can be printed, in one line."""
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
+
+
+def _ends(score: Score, part: DrumPart) -> list[int]:
+    """Where a roll must have ended: where the tempo or meter changes, or a section begins, and at the end."""
+    bars = {s.first_bar for s in part.sections} | {s.last_bar + 1 for s in part.sections}
+    changes = {t.tick for t in score.tempo_map.tempos} | {m.tick for m in score.tempo_map.meters}
+    ticks = changes | {score.tempo_map.bar_start(bar) for bar in bars}
+    return sorted({tick for tick in ticks if 0 < tick < score.end_tick} | {score.end_tick})
+
+
+# --- what was done ----------------------------------------------------------------------------------------------------
+
+
+def _remarks(ornaments: FoundOrnaments, times: GridTimes, mains: Score, reach: Reach, lesson: Lesson) -> Iterator[str]:
+    moved = _shifts_ns(times, mains)
+    if count := int(np.count_nonzero(moved)):
+        lean = f", the take as a whole {abs(times.lean_ms):.0f} ms {_side(times.lean_ms)}" if times.lean_ms else ""
+        yield f"{_counted(count, 'stroke')} moved onto the grid, by at most {moved.max() / NS_PER_MS:.0f} ms{lean}"
+    if lesson.is_swung:
+        yield f"swing {lesson.swing.ratio:g}:1"
+    found = {"flam": ornaments.flams, "drag": ornaments.drags, "buzz": ornaments.buzzes}
+    if any(found.values()):
+        yield f"found {', '.join(_counted(count, name) for name, count in found.items() if count)}"
+    if ornaments.bounces:
+        yield f"{_counted(ornaments.bounces, 'double trigger')} left out"
+    if reach.merged:
+        yield f"{_counted(reach.merged, 'stroke')} fell into one cell with a louder one"
+    if reach.plain:
+        yield f"{_counted(reach.plain, 'ornament')} without grace strokes, for which no hand is free"
+    if reach.beyond:
+        bars = sorted({int(bar) + 1 for bar in lesson.score.tempo_map.bars_at(lesson.beyond["tick"])})
+        where = ", ".join(map(str, bars[:_BARS_NAMED])) + (" …" if len(bars) > _BARS_NAMED else "")
+        several = f"bar{'s' if len(bars) > 1 else ''} {where}"
+        yield f"{_counted(len(reach.beyond), 'stroke')} beyond two hands and two feet, written {BEYOND}: {several}"
+
+
+def _shifts_ns(times: GridTimes, mains: Score) -> NDArray[np.int64]:
+    """How far each stroke moved; from the end to the start of the music is no way."""
+    before = mains.tempo_map.ns_at(mains.notes["tick"][times.origin])
+    by = np.abs(before - times.score.tempo_map.ns_at(times.score.notes["tick"]))
+    return np.asarray(np.minimum(by, np.abs(mains.length_ns - by)))
+
+
+def _side(lean_ms: float) -> str:
+    return "late" if lean_ms > 0 else "early"
+
+
+def _counted(count: int, noun: str) -> str:
+    """The count and the noun, "1 flam" or "2 buzzes"."""
+    return f"{count} {noun}{'' if count == 1 else 'es' if noun.endswith('z') else 's'}"

@@ -1,0 +1,242 @@
+"""Reading drum tablature.
+
+The cells of a bar share its length evenly, each line for itself. The meter is the one that the text states, else what
+its count says, else the one that so many cells usually are: sixteenths, and twelve of them triplets of 4/4 where the
+snare has the second and the fourth of four beats.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+
+from station.core.errors import BadInput
+from station.core.pieces import CHOKEABLE, HALF_OPEN, Articulation, Dynamic, Piece
+from station.core.utf8 import utf8_text
+from station.music.drum_part import DrumPart, PartSection
+from station.music.formats.ascii_tab.tab_letters import CHOKE, LETTERS, RESTS, TabStroke
+from station.music.formats.ascii_tab.tab_text import TabBar, TabRow, TabSystem, TabText, tab_text
+from station.music.grace_strokes import with_graces
+from station.music.score import Note, Score
+from station.music.tempo import MeterChange, TempoChange, TempoMap
+
+MOST_BYTES = 1 << 20
+"""Our choice: the longest tabs have some ten thousand characters."""
+_MOST_BARS = 2000
+_MOST_CELLS = 384
+"""A bar; our choice."""
+_USUAL_BPM = 120.0
+_VELOCITY = {Dynamic.GHOST: 32, Dynamic.NORMAL: 80, Dynamic.ACCENT: 116}
+"""What a stroke of each dynamic sounds like in the station where nothing says more (docs/lesson-format.md)."""
+_IN_EIGHTHS_AND_OTHERS = {4: (4, 4), 6: (6, 8), 8: (4, 4), 9: (9, 8), 24: (4, 4), 32: (4, 4), 48: (4, 4), 64: (4, 4)}
+"""Cells a bar that are no sixteenths: quarters, eighths, sextuplets, thirty-seconds (usual in tabs, our choice)."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Stroke:
+    """One letter: where in its bar, as a share of it, what, and how long its cell is."""
+
+    at: Fraction
+    cell: Fraction
+    piece: Piece
+    struck: TabStroke
+    choke: Fraction | None = None
+
+
+@dataclass(slots=True)
+class _Bar:
+    """One bar as the text has it."""
+
+    meter: tuple[int, int]
+    strokes: list[_Stroke] = field(default_factory=list)
+    tempo_bpm: float | None = None
+    section: str = ""
+    opens: bool = False
+    closes: int = 0
+    """How often what ends here is played in all; 0 where nothing ends."""
+
+
+def read_tab(data: bytes, source: str) -> DrumPart:
+    """The part that a text of tablature says; raises `BadInput` with line and column."""
+    found = tab_text(utf8_text(data, source, "drum tablature"), source)
+    if not found.systems:
+        raise BadInput(source, "", "no line of tablature in it, such as HH|x-x-x-x-|")
+    reader = _Reader(source, found.loose_x)
+    bars = list(reader.bars(found))
+    played = list(_written_out(bars))
+    if len(played) > _MOST_BARS:
+        raise BadInput(source, "", f"more than {_MOST_BARS} bars with all repeats")
+    if not any(bar.tempo_bpm for bar in bars):
+        reader.lost[f"no tempo in it: {_USUAL_BPM:g} beats a minute"] = None
+    words = found.words
+    score = _score(played, words.get("title", ""))
+    sections = tuple(_sections(played))
+    return DrumPart(score, words.get("author", ""), words.get("about", ""), sections=sections, lost=tuple(reader.lost))
+
+
+# --- bars -------------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _Reader:
+    """What holds for a whole text."""
+
+    source: str
+    loose_x: bool
+    lost: dict[str, None] = field(default_factory=dict)
+
+    def bars(self, text: TabText) -> Iterator[_Bar]:
+        """The bars as the text has them."""
+        stated: tuple[int, int] | None = None
+        for system in text.systems:
+            stated = system.meter or stated
+            count = max(len(row.bars) for row in system.rows)
+            bars = [self.bar(system, k, stated) for k in range(count)]
+            if bars:
+                bars[0].tempo_bpm, bars[0].section = system.tempo_bpm, system.section
+                _mark_repeats(bars, system)
+            yield from bars
+
+    def bar(self, system: TabSystem, k: int, stated: tuple[int, int] | None) -> _Bar:
+        """Bar `k` of a system; its usual number of cells is that of most lines."""
+        rows = [(row, row.bars[k]) for row in system.rows if k < len(row.bars)]
+        lengths = [len(bar.cells) for _, bar in rows]
+        usual = max(set(lengths), key=lambda n: (lengths.count(n), n))
+        if usual > _MOST_CELLS:
+            raise BadInput(self.source, f"line {rows[0][0].line}", f"a bar of {usual} cells")
+        strokes = [stroke for row, bar in rows for stroke in self.strokes(row, bar, usual)]
+        return _Bar(stated or _meter(system.count, usual, strokes), strokes)
+
+    def strokes(self, row: TabRow, bar: TabBar, usual: int) -> list[_Stroke]:
+        """The strokes of one line in one bar; a line whose number of cells does not fit is filled or cut."""
+        cells = bar.cells
+        if usual % len(cells) and len(cells) % usual:
+            self.lost[f"line {row.line}: a bar of {len(cells)} cells beside {usual}: filled or cut at its end"] = None
+            cells = cells.ljust(usual, "-")[:usual]
+        cell, found, letters = Fraction(1, len(cells)), list[_Stroke](), LETTERS[row.meaning.piece]
+        for i, letter in enumerate(cells):
+            if letter in RESTS:
+                continue
+            if letter == CHOKE and row.meaning.piece in CHOKEABLE:
+                _choke(found, i * cell, cell, row)
+            elif letter in letters:
+                struck = self.struck(letter, row)
+                found.append(_Stroke(i * cell, cell, struck.piece or row.meaning.piece, struck))
+            else:
+                place = f"line {row.line}, column {bar.column + i}"
+                raise BadInput(self.source, place, f"{letter!r} is no stroke; expected one of {' '.join(letters)} -")
+        return found
+
+    def struck(self, letter: str, row: TabRow) -> TabStroke:
+        """What a letter of a line strikes, as its label and the text's key have it."""
+        struck = _as_labelled(LETTERS[row.meaning.piece][letter], row)
+        if self.loose_x and letter == "X" and row.meaning.piece is Piece.HIHAT:
+            return replace(struck, dynamic=Dynamic.NORMAL, openness=HALF_OPEN)
+        return struck
+
+
+def _mark_repeats(bars: list[_Bar], system: TabSystem) -> None:
+    """Signs in the lines; a number of times without a sign repeats the whole system."""
+    for k, bar in enumerate(bars):
+        here = [row.bars[k] for row in system.rows if k < len(row.bars)]
+        bar.opens = any(b.opens for b in here)
+        bar.closes = max(system.times, 2) if any(b.closes for b in here) else 0
+    if system.times > 1 and not any(bar.closes for bar in bars):
+        bars[0].opens, bars[-1].closes = True, system.times
+
+
+def _meter(count: str, cells: int, strokes: Sequence[_Stroke]) -> tuple[int, int]:
+    """The meter of a bar of which the text does not state it."""
+    if beats := _counted(count):
+        return (beats, 8) if beats in (6, 9, 12) and cells in (beats, 2 * beats) else (beats, 4)
+    if cells == 12:
+        snares = {s.at for s in strokes if s.piece is Piece.SNARE and s.struck.dynamic is not Dynamic.GHOST}
+        return (4, 4) if snares and snares <= {Fraction(1, 4), Fraction(3, 4)} else (3, 4)
+    if cells in _IN_EIGHTHS_AND_OTHERS:
+        return _IN_EIGHTHS_AND_OTHERS[cells]
+    unit = 4 if cells % 4 == 0 else 8 if cells % 2 == 0 else 16
+    return max(cells * unit // 16, 1), unit
+
+
+def _counted(count: str) -> int:
+    """How far a line of counting counts in its first bar; 0 where there is none."""
+    reached = 0
+    for word in "".join(c if c.isdigit() else " " for c in count).split():
+        if int(word) != reached + 1:
+            break
+        reached += 1
+    return reached
+
+
+# --- strokes ----------------------------------------------------------------------------------------------------------
+
+
+def _as_labelled(struck: TabStroke, row: TabRow) -> TabStroke:
+    """The stroke as the line's label says it is struck."""
+    meaning = row.meaning
+    if meaning.articulation is Articulation.CROSS_STICK:
+        struck = replace(struck, articulation=meaning.articulation, zone=LETTERS[Piece.SNARE]["@"].zone)
+    if meaning.openness is not None:
+        struck = replace(struck, openness=meaning.openness)
+    return struck if meaning.zone is None else replace(struck, zone=meaning.zone)
+
+
+def _choke(found: list[_Stroke], at: Fraction, cell: Fraction, row: TabRow) -> None:
+    """Grab what this line struck before in the bar and still rings, else a stroke that is grabbed at once."""
+    if found and found[-1].choke is None:
+        found[-1] = replace(found[-1], choke=at - found[-1].at)
+    else:
+        struck = _as_labelled(LETTERS[row.meaning.piece]["x"], row)
+        found.append(_Stroke(at, cell, row.meaning.piece, struck, cell))
+
+
+# --- the whole --------------------------------------------------------------------------------------------------------
+
+
+def _written_out(bars: Sequence[_Bar]) -> Iterator[_Bar]:
+    """The bars as they are played."""
+    start = 0
+    for k, bar in enumerate(bars):
+        if bar.opens:
+            start = k
+        yield bar
+        if bar.closes:
+            for _ in range(bar.closes - 1):
+                yield from (replace(again, section="") for again in bars[start : k + 1])
+            start = k + 1
+
+
+def _score(bars: Sequence[_Bar], title: str) -> Score:
+    tick, notes, meters = 0, list[Note](), list[MeterChange]()
+    first = next((bar.tempo_bpm for bar in bars if bar.tempo_bpm), _USUAL_BPM)
+    tempos = [TempoChange.from_bpm(0, first)]
+    for bar in bars:
+        meters.append(MeterChange(tick, *bar.meter))
+        if bar.tempo_bpm:
+            tempos.append(TempoChange.from_bpm(tick, bar.tempo_bpm))
+        notes += [row for s in bar.strokes for row in with_graces(_note(s, tick, meters[-1].bar_ticks))]
+        tick += meters[-1].bar_ticks
+    return Score.from_notes(notes, TempoMap.build(tempos, meters), tick, title)
+
+
+def _note(stroke: _Stroke, start: int, bar_ticks: int) -> Note:
+    struck = stroke.struck
+    is_buzz = struck.articulation is Articulation.BUZZ
+    return Note(
+        start + round(stroke.at * bar_ticks),
+        stroke.piece,
+        struck.zone,
+        _VELOCITY[struck.dynamic],
+        struck.articulation,
+        struck.dynamic,
+        openness=struck.openness,
+        ornament=struck.ornament,
+        duration_ticks=round(stroke.cell * bar_ticks) if is_buzz else 0,
+        choke_ticks=round(stroke.choke * bar_ticks) if stroke.choke else 0,
+    )
+
+
+def _sections(bars: Sequence[_Bar]) -> Iterator[PartSection]:
+    starts = [k for k, bar in enumerate(bars) if bar.section]
+    ends = [*starts[1:], len(bars)]
+    for k, end in zip(starts, ends, strict=False):
+        yield PartSection(bars[k].section, k, end - 1)

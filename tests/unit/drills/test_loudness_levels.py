@@ -1,0 +1,74 @@
+"""Ghosts, normal strokes and accents from velocities; names and levels by hand."""
+
+from collections.abc import Sequence
+from random import Random
+
+import pytest
+
+from station.core.pieces import Dynamic, Piece
+from station.drills.grid.stroke_settings import Velocities
+from station.drills.transcription.loudness_levels import levels_of, with_dynamics
+from station.music.score import Note
+
+G, N, A = Dynamic
+
+
+def dynamics(velocities: Sequence[int], piece: Piece = Piece.SNARE) -> list[Dynamic]:
+    return [n.dynamic for n in with_dynamics([Note(i, piece, velocity=v) for i, v in enumerate(velocities)])[0]]
+
+
+@pytest.mark.parametrize("velocity", [20, 64, 100, 110, 127])
+def test_one_velocity_is_no_accent(velocity: int) -> None:
+    assert set(dynamics([velocity] * 16)) == {N}
+
+
+def test_one_velocity_a_piece_is_no_accent() -> None:
+    """As sequencers write grooves: the snare at 120, the kick at 110, the hi-hat at 100."""
+    pieces = ((Piece.SNARE, 120), (Piece.KICK, 110), (Piece.HIHAT, 100))
+    notes = [Note(i, piece, velocity=v) for i in range(8) for piece, v in pieces]
+    assert {n.dynamic for n in with_dynamics(notes)[0]} == {N}
+
+
+def test_our_own_levels_are_what_they_are() -> None:
+    assert dynamics([116, 32, 80, 32, 116, 80, 80, 32]) == [A, G, N, G, A, N, N, G]
+    notes = [Note(i, p, velocity=v) for i in range(4) for p, v in ((Piece.SNARE, 116), (Piece.HIHAT, 80))]
+    named, velocities = with_dynamics(notes)
+    assert {(n.piece, n.dynamic) for n in named} == {(Piece.SNARE, A), (Piece.HIHAT, N)}
+    assert velocities == Velocities()
+
+
+def test_two_groups_are_named_by_what_they_are_nearest_to() -> None:
+    assert dynamics([40, 96] * 8) == [G, N] * 8
+    assert dynamics([68, 120] * 8) == [N, A] * 8
+    assert dynamics([24, 122] * 8) == [G, A] * 8
+
+
+def test_never_more_than_three() -> None:
+    """Five exact levels, as a program might write: the nearest ones are one."""
+    assert len(levels_of([20, 45, 70, 95, 120] * 6)) == 3
+
+
+def test_people_spread_by_eight_are_still_heard() -> None:
+    """A groove of ghosts, normal strokes and accents with a practised player's spread: 95 of 100 right."""
+    random = Random(1)
+    meant = [random.choice((G, G, N, A)) for _ in range(400)]
+    played = [round(random.gauss(Velocities().usual[d], 8)) for d in meant]
+    found = dynamics([min(max(v, 1), 127) for v in played])
+    assert sum(a is b for a, b in zip(found, meant, strict=True)) >= 380
+
+
+def test_one_way_to_strike_with_spread_is_one_level() -> None:
+    random = Random(2)
+    assert len(levels_of([round(random.gauss(74, 9)) for _ in range(300)])) == 1
+
+
+def test_what_the_file_names_stays() -> None:
+    notes = [Note(0, Piece.SNARE, velocity=70, dynamic=A), Note(1, Piece.SNARE, velocity=60)]
+    named, velocities = with_dynamics(notes)
+    assert [(n.dynamic, n.velocity) for n in named] == [(A, 70), (N, 60)]
+    assert velocities.of(Piece.SNARE, A) == 70
+
+
+def test_the_lesson_says_the_players_own_levels() -> None:
+    notes = [Note(i, Piece.SNARE, velocity=v) for i, v in enumerate([22, 24, 26, 101, 102, 103] * 3)]
+    assert with_dynamics(notes)[1].of_piece[Piece.SNARE] == (24, 80, 102)

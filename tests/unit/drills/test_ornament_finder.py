@@ -1,0 +1,98 @@
+"""Flams, drags and buzzes found in plain strokes; times and names by hand, after how they are taught to be played."""
+
+import pytest
+
+from station.core.pieces import Articulation, Ornament, Piece, Zone
+from station.core.units import PPQ
+from station.drills.transcription.ornament_finder import FoundOrnaments, found_ornaments
+from station.music.grace_strokes import Graces
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
+
+TEMPO = TempoMap.constant(120)
+
+
+def found(*strokes: tuple[float, int], piece: Piece = Piece.SNARE) -> FoundOrnaments:
+    """What is found in strokes at so many milliseconds, of such velocities."""
+    notes = [Note(round(ms * PPQ / 500), piece, velocity=velocity) for ms, velocity in strokes]
+    return found_ornaments(Score.from_notes(notes, TEMPO))
+
+
+def names(*strokes: tuple[float, int], piece: Piece = Piece.SNARE) -> list[str]:
+    """The ornament of each main stroke."""
+    kinds = {Ornament.NONE: "stroke", Ornament.FLAM: "flam", Ornament.DRAG: "drag", Ornament.ROLL: "buzz"}
+    return [kinds[note.ornament] for note in found(*strokes, piece=piece).mains]
+
+
+@pytest.mark.parametrize("lead_ms", [12, 22, 30, 41])
+def test_a_soft_stroke_shortly_before_a_louder_one_is_a_flam(lead_ms: float) -> None:
+    assert names((500 - lead_ms, 35), (500, 100)) == ["flam"]
+    assert found((500 - lead_ms, 35), (500, 100)).mains[0].velocity == 100
+
+
+def test_two_hands_at_nearly_one_moment_are_a_flam() -> None:
+    assert names((500, 90), (505, 96)) == ["flam"]
+
+
+def test_a_pad_that_shakes_strikes_once() -> None:
+    """Before or after the stroke, on any piece."""
+    assert names((500, 110), (507, 20)) == ["stroke"]
+    assert names((493, 20), (500, 110)) == ["stroke"]
+    assert found((500, 110), (507, 20), piece=Piece.KICK).bounces == 1
+
+
+def test_head_and_rim_at_once_are_one_stroke() -> None:
+    rim = Note(0, Piece.SNARE, Zone.RIM, velocity=60, articulation=Articulation.RIM_SHOT)
+    score = Score.from_notes([rim, Note(0, Piece.SNARE, velocity=90)], TEMPO)
+    assert [(n.velocity, n.ornament) for n in found_ornaments(score).mains] == [(90, Ornament.NONE)]
+
+
+@pytest.mark.parametrize(("first", "second"), [(110, 55), (84, 40), (60, 28)])
+def test_two_soft_strokes_before_a_louder_one_are_a_drag(first: float, second: float) -> None:
+    assert names((500 - first, 36), (500 - second, 40), (500, 100)) == ["drag"]
+
+
+def test_a_drag_close_behind_the_last_accent_is_a_drag() -> None:
+    """Sixteenths at 120 bpm: the grace strokes begin 15 ms after the note before them."""
+    assert names((375, 100), (390, 40), (445, 40), (500, 100)) == ["stroke", "drag"]
+
+
+def test_a_run_of_thirty_seconds_is_no_drag() -> None:
+    """62.5 ms apart at 120 bpm, growing."""
+    assert names((437.5, 60), (500, 70), (562.5, 80), (625, 115)) == ["stroke"] * 4
+
+
+def test_exact_ghost_thirty_seconds_stay_what_they_are_written_as() -> None:
+    assert names((375, 32), (437.5, 32), (500, 116)) == ["stroke"] * 3
+
+
+def test_fast_single_strokes_are_no_flams() -> None:
+    """Sixteenths at 200 bpm, every other accented."""
+    assert names(*((75 * i, (50, 110)[i % 2]) for i in range(8))) == ["stroke"] * 8
+
+
+def test_rebounds_that_follow_each_other_at_once_are_a_buzz() -> None:
+    """A press of five rebounds, 30 ms apart and dying away: it lasts from 500 to 650 ms."""
+    press = [(500 + 30 * i, velocity) for i, velocity in enumerate((80, 60, 45, 30, 20))]
+    (buzz,) = found(*press).mains
+    assert (buzz.articulation, buzz.ornament, buzz.velocity) == (Articulation.BUZZ, Ornament.ROLL, 80)
+    assert buzz.duration_ticks == pytest.approx(150 * PPQ / 500, abs=PPQ / 100)
+
+
+def test_a_hi_hat_has_no_flams() -> None:
+    assert names((480, 35), (500, 100), piece=Piece.HIHAT) == ["stroke", "stroke"]
+
+
+def test_what_the_file_says_stays() -> None:
+    grace = Note(PPQ, Piece.SNARE, velocity=40, lead_ms=25, ornament=Ornament.FLAM)
+    main = Note(PPQ, Piece.SNARE, velocity=100, ornament=Ornament.FLAM)
+    close = Note(PPQ + PPQ // 20, Piece.SNARE, velocity=120)
+    result = found_ornaments(Score.from_notes([grace, main, close], TEMPO), Graces(flam_ms=25))
+    assert (result.mains, result.graces.flam_ms) == ((main, close), 25)
+
+
+def test_a_program_has_its_own_spacing_and_people_the_usual_one() -> None:
+    exact = [(500.0 * i + ms, velocity) for i in range(1, 5) for ms, velocity in ((-22, 50), (0, 100))]
+    assert found(*exact).graces == Graces(flam_ms=22, share=0.5)
+    human = [(500.0 * i + ms, v) for i, lead in enumerate((18, 27.4, 33), 1) for ms, v in ((-lead, 50), (0, 100))]
+    assert found(*human).graces.flam_ms == Graces().flam_ms

@@ -1,0 +1,161 @@
+"""Drum tablature as people type it, and the station's own both ways; expected strokes are counted by hand."""
+
+import pytest
+
+from station.core.errors import BadInput
+from station.core.pieces import Articulation, Dynamic, Ornament, Piece, Zone
+from station.core.units import PPQ
+from station.drills.library import shipped_lessons
+from station.drills.writing.lesson_part import part_of
+from station.music.drum_part import DrumPart
+from station.music.formats.ascii_tab.tab_reader import read_tab
+from station.music.formats.ascii_tab.tab_text import is_tab
+from station.music.formats.ascii_tab.tab_writer import write_tab
+from station.music.formats.music_format import Feature
+
+EIGHTH, SIXTEENTH = PPQ // 2, PPQ // 4
+
+SONG = """
+Song: A Tune
+Artist: Some Band
+Tempo: 96
+
+[Intro] x2
+    1 + 2 + 3 + 4 +
+HH|x-x-x-o-x-x-x-X-|
+SD|----O--g----f---|
+BD|o-----o-o-------|
+
+Verse:
+CC|x---------------|----------------|
+Hh|--x-x-x-x-x-x-x-|x-x-x-x-x-x-x-x-| x4
+S |----o-------o---|----o-------o---|
+B |o-------o-------|o-------o-------|
+"""
+
+
+def read(text: str) -> DrumPart:
+    return read_tab(text.encode(), "song.tab")
+
+
+def ticks(part: DrumPart, piece: Piece) -> list[int]:
+    return [n.tick for n in part.score if n.piece is piece and not n.lead_ms]
+
+
+def test_a_song_with_sections_that_repeat() -> None:
+    part = read(SONG)
+    assert (part.score.title, part.author) == ("A Tune", "Some Band")
+    assert [(s.name, s.first_bar, s.last_bar) for s in part.sections] == [("Intro", 0, 1), ("Verse", 2, 9)]
+    assert part.score.bar_count == 2 + 4 * 2
+    assert ticks(part, Piece.CRASH_1) == [bar * 4 * PPQ for bar in (2, 4, 6, 8)]
+    assert ticks(part, Piece.KICK)[:3] == [0, 6 * SIXTEENTH, 8 * SIXTEENTH]
+    assert round(60e6 / part.score.tempo_map.tempos[0].us_per_quarter) == 96
+
+
+def test_letters_say_how_a_drum_is_struck() -> None:
+    bar = [n for n in read(SONG).score if n.tick < 4 * PPQ]
+    snares = [(n.tick, n.dynamic, n.ornament) for n in bar if n.piece is Piece.SNARE and not n.lead_ms]
+    assert snares == [
+        (4 * SIXTEENTH, Dynamic.ACCENT, Ornament.NONE),
+        (7 * SIXTEENTH, Dynamic.GHOST, Ornament.NONE),
+        (12 * SIXTEENTH, Dynamic.NORMAL, Ornament.FLAM),
+    ]
+    hats = {n.tick: (n.openness, n.dynamic) for n in bar if n.piece is Piece.HIHAT}
+    assert hats[6 * SIXTEENTH] == (1.0, Dynamic.NORMAL)
+    assert hats[14 * SIXTEENTH] == (0.0, Dynamic.ACCENT)
+    assert sum(n.lead_ms > 0 for n in bar) == 1
+
+
+def test_a_key_may_say_that_x_is_a_loose_hat() -> None:
+    part = read("X - loose hi-hat\nHH|X-x-X-x-|\nBD|o---o---|")
+    assert [n.openness for n in part.score if n.piece is Piece.HIHAT] == [0.5, 0.0, 0.5, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("cells", "words", "meter"),
+    [
+        ("o---" * 4, "", "4/4"),
+        ("o-" * 4, "", "4/4"),
+        ("o-----", "", "6/8"),
+        ("o-o-o-o-o-o-o-", "", "7/8"),
+        ("o-o-o-o-o-o-", "", "3/4"),
+        ("o-o-o-o-o-o-", "   1 . . 2 . . 3 . . 4 . .", "4/4"),
+        ("o-o-o-o-o-", "Time: 5/4", "5/4"),
+        ("o---" * 5, "", "5/4"),
+    ],
+)
+def test_the_meter_is_stated_counted_or_usual(cells: str, words: str, meter: str) -> None:
+    part = read(f"{words}\nHH|{cells}|\nBD|{'-' * len(cells)}|")
+    assert [str(m) for m in part.score.tempo_map.meters] == [meter]
+
+
+def test_twelve_cells_with_a_backbeat_are_triplets() -> None:
+    part = read("HH|x-xx-xx-xx-x|\nSD|---o-----o--|\nBD|o-----o-----|")
+    assert [str(m) for m in part.score.tempo_map.meters] == ["4/4"]
+    assert ticks(part, Piece.SNARE) == [PPQ, 3 * PPQ]
+
+
+def test_other_cymbals_and_bells_and_chokes() -> None:
+    part = read("CC|x-#-s-c-|\nRd|b-x---x-|\nSD|@-r-b---|")
+    struck = [(n.tick, n.piece, n.zone) for n in part.score]
+    assert (0, Piece.RIDE, Zone.BELL) in struck
+    assert (4 * EIGHTH, Piece.SPLASH, Zone.EDGE) in struck
+    assert (6 * EIGHTH, Piece.CHINA, Zone.EDGE) in struck
+    assert [n.choke_ticks for n in part.score if n.piece is Piece.CRASH_1] == [2 * EIGHTH]
+    articulations = [n.articulation for n in part.score if n.piece is Piece.SNARE]
+    assert articulations == [Articulation.CROSS_STICK, Articulation.RIM_SHOT, Articulation.BUZZ]
+
+
+def test_repeat_signs_in_the_lines() -> None:
+    part = read("HH|x---x---|:x-x-x-x-:|x-------|\nBD|o-------|:o-------:|--------|")
+    assert part.score.bar_count == 4
+    assert ticks(part, Piece.KICK) == [0, 4 * PPQ, 8 * PPQ]
+
+
+def test_a_line_of_other_length_is_filled_and_told() -> None:
+    part = read("HH|x-x-x-x-|\nSD|--o---o-|\nBD|o---o--|")
+    assert ticks(part, Piece.KICK) == [0, 2 * PPQ]
+    assert any("line 3" in line for line in part.lost)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("just words\n", "song.tab: no line of tablature"),
+        ("HH|x-x-q-x-x-x-|\nBD|o-----------|", "song.tab: line 1, column 8: 'q'"),
+        ("HH|x-x-x-x-|\nQQ|x-x-x-x-|", "song.tab: line 2: no drum is called 'QQ'"),
+        (f"HH|{'x' * 500}|\nBD|{'o' * 500}|", "song.tab: line 1: a bar of 500 cells"),
+    ],
+)
+def test_faults_name_the_file_and_the_place(text: str, words: str) -> None:
+    with pytest.raises(BadInput) as fault:
+        read(text)
+    assert str(fault.value).startswith(words)
+
+
+def test_words_are_no_tablature() -> None:
+    assert is_tab(SONG.encode())
+    assert not is_tab(b"# drum station text score 1\n1:1 hihat bow right_hand 80\n")
+    assert not is_tab(b"S: one\nB: two\n")
+
+
+def test_what_comes_back_of_every_lesson_is_what_is_kept() -> None:
+    columns = ["tick", "piece", "dynamic", "articulation"]
+    for lesson in shipped_lessons():
+        part = part_of(lesson)
+        written = write_tab(part)
+        back, lost = read_tab(written.data, lesson.name), {loss.feature for loss in written.lost}
+        before, after = (s.notes[s.notes["lead_ms"] == 0] for s in (part.score.as_written, back.score))
+        if not lost & {Feature.TIMES, Feature.DYNAMICS}:
+            assert before[columns].tolist() == after[columns].tolist(), lesson.name
+        if Feature.TEMPO not in lost:
+            assert part.score.tempo_map.tempos == back.score.tempo_map.tempos, lesson.name
+        if Feature.SECTIONS not in lost:
+            assert part.sections == back.sections, lesson.name
+        assert (part.author, part.about, part.score.title) == (back.author, back.about, back.score.title)
+
+
+def test_no_line_is_wider_than_a_mail() -> None:
+    parts = (part_of(lesson) for lesson in shipped_lessons())
+    wide = [row for part in parts for row in write_tab(part).data.decode().splitlines() if len(row) > 100]
+    assert not [row for row in wide if "|" in row]

@@ -1,0 +1,54 @@
+"""What every format keeps and loses: writes docs/formats.md.
+
+python -m tools.format_pages
+"""
+
+from pathlib import Path
+
+from station.core.files import write_whole
+from station.music.formats.format_table import FORMATS
+from station.music.formats.music_format import Feature, MusicFormat
+
+PAGE = Path(__file__).parent.parent / "docs" / "formats.md"
+
+_HEAD = """# Formats: what comes in, what goes out, what is lost
+
+Made by `python -m tools.format_pages` of the tables beside the readers and writers (`station/music/formats`); do not
+edit.
+
+```
+station lesson import song.mid --out song.toml                   # by ending and content
+station lesson import "https://…/groove/?TimeSig=4/4&…" --out groove.toml
+station lesson export funk-1 --out funk-1.musicxml               # the ending says the format
+station sheet song.gp5 --out song.pdf                            # any of them is a SCORE: sheet, animate, limbs, assess
+```
+
+Whatever a file says that a lesson has no place for is told on import, a line each (`lost …`), and so is on export what
+the format has no place for. What a table below names comes back from our own file just as it was, unless the export
+said otherwise; no file has a text of ours hidden in it.
+
+| format | endings | read | written |
+|---|---|---|---|
+"""
+
+
+def page() -> str:
+    """The page."""
+    rows = [
+        f"| {each.name} | {' '.join(f'`{e}`' for e in each.endings)} | yes | {'yes' if each.write else 'no'} |"
+        for each in FORMATS
+    ]
+    return _HEAD + "\n".join(rows) + "\n" + "".join(_of(each) for each in FORMATS if each.write)
+
+
+def _of(each: MusicFormat) -> str:
+    """The table of one format that is written."""
+    keeps = each.keeps or {}
+    kept = [f"| {feature.value} | {keeps[feature] or 'all of it'} |" for feature in Feature if feature in keeps]
+    lost = ", ".join(feature.value for feature in Feature if feature not in keeps)
+    table = "\n".join(kept)
+    return f"\n## {each.name}\n\n| keeps | how far |\n|---|---|\n{table}\n\nLoses: {lost}.\n"
+
+
+if __name__ == "__main__":
+    write_whole(PAGE, page().encode())
