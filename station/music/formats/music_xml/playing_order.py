@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 
 from station.core.errors import BadInput
 
-MOST_BARS = 10_000
-"""Bars as played (our choice: three hours and more)."""
+MOST_BARS = 5_000
+"""Bars as played (our choice: close to three hours of fours at 120)."""
 
 
 @dataclass(slots=True)
