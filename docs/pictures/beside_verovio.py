@@ -101,7 +101,7 @@ def _heading(text: str, y: float) -> str:
 
 def _ours(part: DrumPart, words: SheetWords) -> tuple[Sequence[Filled], float]:
     """What stands on the page above its key, from the top margin on, and how far down it reaches."""
-    (page,) = sheet(part.score.as_written, words, (WIDTH, _TALLEST))
+    (page,) = sheet(part.score, words, (WIDTH, _TALLEST))
     reaches = [(top(area), bottom(area), area) for area in page]
     end, kept = MARGIN, []
     for above, below, area in sorted(reaches, key=lambda each: each[0]):
