@@ -7,12 +7,14 @@ from pathlib import Path
 import pytest
 
 from station.core.errors import BadInput
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
 from station.music.formats.format_table import read_part
 from station.music.formats.music_xml.music_xml_format import MUSIC_XML
 from station.music.formats.music_xml.music_xml_reader import read_music_xml
+from station.music.formats.music_xml.xml_instruments import XmlInstrument
 from station.music.loudness_marks import LoudnessMark
 from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange
@@ -215,6 +217,14 @@ def test_repeats_and_sections_are_written_out() -> None:
     assert [(s.name, s.first_bar, s.last_bar) for s in part.sections] == [("verse", 0, 0), ("verse", 1, 2)]
 
 
+def test_bare_coda_signs_and_words() -> None:
+    """D.C. al coda as programs write it that have no `sound` for it."""
+    coda = "<direction><direction-type><coda/></direction-type></direction>"
+    da_capo = "<direction><direction-type><words>D.C. al Coda</words></direction-type></direction>"
+    part = _read(_note("kick", 48) + coda, _note("snare", 48) + da_capo, coda + _note("hat", 48))
+    assert _struck(part) == [(0, Piece.KICK), (4, Piece.SNARE), (8, Piece.KICK), (12, Piece.HIHAT)]
+
+
 def test_a_repeated_bar_sounds() -> None:
     style = '<attributes><measure-style><measure-repeat type="start">1</measure-repeat></measure-style></attributes>'
     part = _read(_note("kick", 48), style + _rest(48))
@@ -258,6 +268,27 @@ def test_notes_without_instruments_are_known_by_their_line() -> None:
     cross = _note("unknown", 24, "<notehead>x</notehead>").replace("<display-step>C", "<display-step>G")
     part = _read(low + cross)
     assert _struck(part) == [(0, Piece.KICK), (2, Piece.HIHAT)]
+
+
+@pytest.mark.parametrize(
+    ("instrument", "strike"),
+    [
+        (XmlInstrument("Snare (Electric)", "", 40), NoteMeaning(Piece.SNARE)),
+        (XmlInstrument("", "", 40), NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.RIM_SHOT)),
+        (XmlInstrument("Rim Shot", "", 38), NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.RIM_SHOT)),
+        (XmlInstrument("Side Stick", "", 37), NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK)),
+        (XmlInstrument("Tom 5", "", 41), NoteMeaning(Piece.FLOOR_TOM_2)),
+        (XmlInstrument("Hi-Hat Open", "", 46), NoteMeaning(Piece.HIHAT, Zone.BOW, openness=1.0)),
+        (XmlInstrument("Ride (Bell)", "", None), NoteMeaning(Piece.RIDE, Zone.BELL)),
+        (XmlInstrument("open high conga", "", 63), NoteMeaning(Piece.PERCUSSION)),
+        (XmlInstrument("", "metal.cymbal.splash", None), NoteMeaning(Piece.SPLASH, Zone.EDGE)),
+        (XmlInstrument("Pedal Hi-Hat", "", None), NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, 0.0)),
+        (XmlInstrument("Drumset", "", None), None),
+    ],
+)
+def test_what_instruments_are(instrument: XmlInstrument, strike: NoteMeaning | None) -> None:
+    """Names and numbers as MuseScore, Finale and Sibelius write them."""
+    assert instrument.meaning() == strike
 
 
 @pytest.mark.parametrize(

@@ -100,7 +100,7 @@ def _pieces(part: FilePart) -> set[object]:
     """The different pieces of a kit that the part has: by instrument, else by line."""
     used = {(_instrument_id(note), note.findtext("unpitched/display-step")) for note in part.drum_notes}
     strikes = {name: part.instruments[name].meaning() for name, _ in used if name in part.instruments}
-    found = {step if (strike := strikes.get(name)) is None else strike.piece for name, step in used}
+    found: set[object] = {step if (strike := strikes.get(name)) is None else strike.piece for name, step in used}
     return found - {Piece.PERCUSSION}
 
 

@@ -4,7 +4,7 @@ A repeat is taken when first met; after a D.C. or D.S. none is taken again and o
 musicians read it. Each D.C. or D.S. is followed once.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from station.core.errors import BadInput
@@ -94,8 +94,13 @@ class _Signposts:
         """Where to go on after `bar` if not with the next; `taken` grows by the jump."""
         signs = self._bars[bar]
         if signs.to_coda is not None and taken:
-            return self._codas.get(signs.to_coda)
+            return _labelled(self._codas, signs.to_coda)
         if bar in taken or not (signs.da_capo or signs.dal_segno is not None):
             return None
         taken.add(bar)
-        return 0 if signs.da_capo else self._segnos.get(signs.dal_segno or "")
+        return 0 if signs.da_capo else _labelled(self._segnos, signs.dal_segno or "")
+
+
+def _labelled(places: Mapping[str, int], label: str) -> int | None:
+    """The bar with this label; where none has it, the only one there is, for not every program labels both ends."""
+    return places.get(label, next(iter(places.values())) if len(places) == 1 else None)
