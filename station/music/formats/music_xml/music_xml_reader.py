@@ -64,7 +64,16 @@ def _written_bars(
             lost.add("grace notes after the last note", reader.bars[-1].name)
         readers.append(reader)
     count = max(len(reader.bars) for reader in readers)
-    return [_merged([reader.bars[i] for reader in readers if i < len(reader.bars)], len(drums)) for i in range(count)]
+    bars = [_merged([reader.bars[i] for reader in readers if i < len(reader.bars)], len(drums)) for i in range(count)]
+    _tell_codas_apart(bars)
+    return bars
+
+
+def _tell_codas_apart(bars: Sequence[WrittenBar]) -> None:
+    """Of two bare coda signs, without a word where to go on, the first is left and the second is gone to."""
+    codas = [bar.signs for bar in bars if bar.signs.coda is not None]
+    if len(codas) > 1 and not any(bar.signs.to_coda is not None for bar in bars):
+        codas[0].to_coda, codas[0].coda = codas[-1].coda, None
 
 
 def _merged(bars: Sequence[WrittenBar], drum_count: int) -> WrittenBar:
