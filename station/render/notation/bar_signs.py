@@ -7,7 +7,7 @@ of an ending over its bars in every pass. Units are staff spaces, y down, x from
 from station.core.units import PPQ
 from station.music.repeats import Passage, folded
 from station.music.score import Score
-from station.music.tempo_words import TempoWord, tempo_words
+from station.music.tempo_words import TempoWord, read_tempo_words
 from station.render.notation.bar_lines import BarLine, Volta, draw_slim_line, draw_volta
 from station.render.notation.beams import Anchor
 from station.render.notation.beat_note import draw_beat_note
@@ -39,7 +39,7 @@ class BarSigns:
 
     def __init__(self, score: Score, numbers: BarNumbers, beat_ticks: int) -> None:
         self._score, self._numbers, self._beat_ticks = score, numbers, beat_ticks
-        self._tempo_words = tempo_words(score.tempo_map)
+        self._tempo_words = read_tempo_words(score.tempo_map)
         self._new_meters = {meter.tick for meter in score.tempo_map.meters if meter.tick > 0}
         self._swing = swing_marks(score)
         self._voltas = _voltas(score, numbers)

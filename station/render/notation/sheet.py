@@ -11,7 +11,7 @@ import numpy as np
 from station.core.pieces import Limb
 from station.core.units import PPQ
 from station.music.score import Score
-from station.music.tempo_words import tempo_words
+from station.music.tempo_words import read_tempo_words
 from station.render.notation.engraving import Engraver
 from station.render.notation.line_breaks import line_count, lines
 from station.render.notation.sheet_bars import sheet_bars
@@ -213,7 +213,7 @@ def _words_in_order(
         found.append((0, 0.0, LineWord(0.0, tempo=first)))
     found += [(bar, 0.0, LineWord(0.0, section=name)) for bar, name in words.sections]
     found += [(bar, 0.0, LineWord(0.0, swing=mark)) for bar, mark in swing.items()]
-    for change in tempo_words(tempo):
+    for change in read_tempo_words(tempo):
         if change.tick < score.end_tick:
             bar = int(tempo.bars_at(change.tick))
             at_s, start_s = tempo.seconds_at([change.tick, tempo.bar_start(bar)]).tolist()
