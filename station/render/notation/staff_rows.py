@@ -28,6 +28,8 @@ heads, but not the corners of crosses."""
 _OVER_DOT, _OVER_BUZZ, _OVER_SLASH = 0.25, 1.4, 0.8
 """And as much farther where a dot stands half a space above the head, or a buzz or the first slash on the stem, and for
 each slash more."""
+_UNDER_BUZZ = 0.95
+"""And under beams with a buzz on a stem, which is so high."""
 _BARE_STAFF = 2.75
 """Where a voice without strokes has its edge: the staff's, and a head beside it."""
 _BEAMED, _UNDER_BEAM = 2.0, 1.0
@@ -117,15 +119,17 @@ def stem_end(
     beams: int = 1,
     flag_room: float | None = None,
     rests: Sequence[float] = (),
+    has_buzz: bool = False,
 ) -> float:
     """Where the stems of one group of chords end, flags and beams within, whose heads stand at `heights`.
 
     `beams`: the most that a note of it has; `flag_room`: what is free below its flags (`flag_room`), None where
-    none bears any; `rests`: the edges, towards the stems' ends, of rests between its notes.
+    none bears any; `rests`: the edges, towards the stems' ends, of rests between its notes;
+    `has_buzz`: a buzz is on one of its stems.
     """
     beam = BEAM_STEP * max(beams - 1, 0) + BEAM
     flagged = 0.0 if flag_room is None else _FLAGGED + flag_overhang(beams) + flag_room
-    beyond = max(_BEAMED, beam + _UNDER_BEAM, flagged)
+    beyond = max(_BEAMED, beam + _UNDER_BEAM + _UNDER_BUZZ * has_buzz, flagged)
     edges = [edge + (-1 if is_up else 1) * (beam + STACK_GAP) for edge in rests]
     if is_up:
         return min(_UP_BEAM_Y, min(heights) - beyond, *edges)
@@ -196,7 +200,7 @@ def _bar_reach(notes: NDArray[np.void], closing: NDArray[np.bool_], way: int) ->
     has_marks = (notes["articulation"] == Articulation.BUZZ) | np.isin(
         notes["ornament"], (Ornament.DIDDLE, Ornament.ROLL)
     )
-    stem = stem_end(heights, way < 0, beams, flag_room(1, bool(has_marks.any()), 0), rests)
+    stem = stem_end(heights, way < 0, beams, flag_room(1, bool(has_marks.any()), 0), rests, bool(has_marks.any()))
     has_tuplets = (written % _PLAIN_GRID != 0).any()
     return stem + way * (_tallest(notes, closing) + (TUPLET_HEIGHT if has_tuplets else 0.0))
 

@@ -146,7 +146,8 @@ class VoicePen:
         rests = [self._rest_edge(rest, voice) for rest in group.rests if first < rest.tick < last]
         flagged = [a for a, b in beam_runs(group) if a == b]
         rooms = (self._flag_room(group.strokes[k], chords[k]) for k in flagged)
-        return stem_end(heights, voice.is_up, beams, max(rooms, default=None), rests)
+        has_buzz = any(self._pen.is_buzz(chord) for chord in chords)
+        return stem_end(heights, voice.is_up, beams, max(rooms, default=None), rests, has_buzz)
 
     def _flag_room(self, value: TimedValue, chord: Chord) -> float:
         return flag_room(value.value.dots, self._pen.is_buzz(chord), value.slashes)
