@@ -17,7 +17,6 @@ from station.render.text.sign_outlines import BEAM, BEAM_STEP, BRACKET_LINE, STE
 
 STEM_X = sign_box("head_round").right - STEM / 2
 """How far from its head's middle a stem stands."""
-FLAG_STEP = 0.85
 _STUB = 1.1
 _GAP, _HOOK = 0.2, 0.5
 """What a bracket leaves free on either side of its number, and how far its ends reach and hang over."""

@@ -96,14 +96,13 @@ def draw_slur(draw_list: DrawList, ends: tuple[tuple[float, float], tuple[float,
 def time_signature(draw_list: DrawList, meter: MeterChange, left: float) -> None:
     """The beats, in their groups where the meter has them, over their unit, from `left` on."""
     beats, _, unit = str(meter).partition("/")
-    width, scale = signature_width(draw_list, meter), _signature_scale(meter)
+    width, scale = signature_width(meter), _signature_scale(meter)
     for text, middle in ((beats, -1.0), (unit, 1.0)):
         draw_figures(draw_list, text, (left + (width - figures_width(text) * scale) / 2, middle), INK, scale)
 
 
-def signature_width(draw_list: DrawList, meter: MeterChange) -> float:
+def signature_width(meter: MeterChange) -> float:
     """How wide the time signature of `meter` is."""
-    del draw_list
     return max(figures_width(text) for text in str(meter).split("/")) * _signature_scale(meter)
 
 

@@ -209,7 +209,7 @@ class ScoreView:
 
     def _lead_spaces(self, score: Score) -> float:
         if self._led is not score:
-            self._led, self._lead = score, lead_spaces(score, self._atlas)
+            self._led, self._lead = score, lead_spaces(score)
         return self._lead
 
     def _visible_bars(self, engraver: Engraver, first_s: float, last_s: float) -> NDArray[np.void]:
@@ -275,10 +275,9 @@ def pages(score: Score) -> list[ScorePage]:
     return found or [ScorePage(0.0, (0.0, PAGE_S))]
 
 
-def lead_spaces(score: Score, atlas: Atlas) -> float:
+def lead_spaces(score: Score) -> float:
     """What the clef and the widest of the score's time signatures take on the left, in staff spaces."""
-    letters = DrawList(atlas)
-    widest = max(note_shapes.signature_width(letters, meter) for meter in score.tempo_map.meters)
+    widest = max(note_shapes.signature_width(meter) for meter in score.tempo_map.meters)
     return max(_LEAST_LEAD, _SIGNATURE_X + widest + _AFTER_SIGNATURE)
 
 

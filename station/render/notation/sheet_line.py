@@ -56,7 +56,6 @@ class LineSetter:
     ) -> None:
         self._engraver, self._bars, self._words, self._atlas = engraver, bars, words, atlas
         self._score: Score = engraver.score
-        self._letters = DrawList(atlas)
         self._forms = written_forms(self._score)
         self._contexts = {bar.bar: engraver.context(bar.bar) for bar in bars}
         self._engraved: dict[object, NDArray[np.void]] = {}
@@ -67,7 +66,7 @@ class LineSetter:
         return [self._set_bar(bar, is_first=k == 0) for k, bar in enumerate(self._bars)]
 
     def _set_bar(self, bar: SheetBar, is_first: bool) -> SetBar:
-        width = note_shapes.signature_width(self._letters, bar.meter) if bar.meter else 0.0
+        width = note_shapes.signature_width(bar.meter) if bar.meter else 0.0
         gap = note_shapes.SIGNATURE_GAP
         return SetBar(
             self._columns_of(bar),

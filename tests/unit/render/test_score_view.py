@@ -155,7 +155,7 @@ def test_the_groups_of_a_meter_have_room_between_the_clef_and_the_notes() -> Non
         Score.from_notes([], TempoMap.build([], [MeterChange(0, sum(groups), unit, groups if len(groups) > 1 else ())]))
         for groups, unit in (((4,), 4), ((12,), 8), ((2, 2, 3), 8), ((3,) * 10, 16))
     )
-    leads = [lead_spaces(score, Atlas()) for score in (plain, twelve, seven, long)]
+    leads = [lead_spaces(score) for score in (plain, twelve, seven, long)]
     assert leads[0] == pytest.approx(1.4 + 1.528 + 0.8 + 0.96 * 1.88 + 1.6, abs=0.01), "clef, 4 by the font's metadata"
     assert leads == sorted(leads)
     assert leads[2] > 8.5

@@ -70,7 +70,7 @@ def test_letters_take_their_rows_only_where_they_are() -> None:
 def test_stems_clear_heads_beams_flags_and_rests() -> None:
     hat = -2.5  # G5
     assert stem_end([hat], is_up=True) == pytest.approx(-5.5), "level at least three spaces over the hi-hat"
-    assert stem_end([hat], is_up=True, flagged_dots=0) <= hat - 3.24 - 0.5, "flag8thUp reaches 3.24 down to the head"
+    assert stem_end([hat], is_up=True, flag_room=0.0) <= hat - 3.24 - 0.5, "flag8thUp reaches 3.24 down to the head"
     beams = [stem_end([-4.0], is_up=True, beams=count) for count in (1, 2, 3, 4)]
     assert beams == sorted(beams, reverse=True)
     assert beams[3] == pytest.approx(-4.0 - 3 * 0.75 - 0.5 - 1.0), "four beams, and a space over the head"
