@@ -1,8 +1,13 @@
 """Bars of a lesson or of another score as a sheet on paper."""
 
+from dataclasses import replace
+
+from station.core.errors import BadInput
 from station.drills.lesson import Lesson, tidy_bpm
+from station.drills.transcription.grid_times import quantised_times
 from station.music.drum_part import DrumPart
 from station.music.score import Score
+from station.music.swing import triplets_spelled_out
 from station.render.files.pdf_file import pdf
 from station.render.notation.sheet import PAPERS, SheetWords, sheet
 from station.scenes.section_names import section_names
@@ -41,6 +46,20 @@ def part_labels(part: DrumPart, bars: Bars, *, name: str) -> SheetWords:
         sections=section_names(part.sections, bars[0], bars[1] - bars[0] + 1),
         first_bar=bars[0] + 1,
     )
+
+
+def on_grid(part: DrumPart) -> DrumPart:
+    """A part as a sheet writes it: what was played or swings on cells of the beat, under a mark.
+
+    A part that says itself how it swings stays, and one with bars that no meter can name.
+    """
+    if not len(part.score) or part.score.notes["swing_ticks"].any():
+        return part
+    try:
+        found = quantised_times(part.score, part.is_played).score
+    except BadInput:
+        return part
+    return replace(part, score=triplets_spelled_out(found))
 
 
 def pdf_of(score: Score, bars: Bars, words: SheetWords, paper: str, with_sticking: bool = True) -> bytes:

@@ -130,7 +130,7 @@ hand_notes = st.builds(
 
 
 @given(st.lists(hand_notes, min_size=1, max_size=25))
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=10)
 def test_whatever_is_played_slowly_fits_the_grid(played: list[Note]) -> None:
     score = Score.from_notes(played, TempoMap.constant(20))
     found = transcribe(DrumPart(score), "x")

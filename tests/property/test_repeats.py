@@ -10,7 +10,7 @@ from station.music.repeats import folded, played_bars
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 
-_BARS = (
+_BARS: tuple[list[tuple[int, Limb, Dynamic]], ...] = (
     [(0, Limb.RIGHT_HAND, Dynamic.NORMAL), (2, Limb.LEFT_HAND, Dynamic.NORMAL)],
     [(0, Limb.RIGHT_HAND, Dynamic.ACCENT), (2, Limb.LEFT_HAND, Dynamic.NORMAL)],
     [(0, Limb.LEFT_HAND, Dynamic.NORMAL), (2, Limb.LEFT_HAND, Dynamic.NORMAL)],

@@ -34,7 +34,6 @@ from station.render.report.report_layout import page_for
 from station.render.report.report_picture import draw_report_png
 from station.render.report.result_facts import ResultWords, result_facts
 from station.render.snapshot import Hud, LimbParting, SeenStrike, Snapshot, StudentShown, TimingCue, no_marks
-from station.render.text.atlas import Atlas
 from tests.unit.render.scores import rock, score_of
 from tests.unit.render.test_png_file import decode
 
@@ -261,7 +260,7 @@ def place_of(score: Score) -> ScorePlace:
 
 
 PLACE = place_of(SCORE)
-CLEF = lead_spaces(SCORE, Atlas()) * PLACE.space
+CLEF = lead_spaces(SCORE) * PLACE.space
 PER_S = (SIZE[0] - CLEF) / (BEFORE_S + AFTER_S)
 LINE_X = CLEF + BEFORE_S * PER_S
 
@@ -285,7 +284,7 @@ def test_a_note_is_at_the_play_line_when_it_is_due(draw: Draw, position_s: float
     place = place_of(score)
     row = round(place.middle_line + height(PLACES[Piece.SNARE].step) * place.space)
     snapshot = Snapshot(score, position_s, KIT, FIGURE)
-    clef = lead_spaces(score, Atlas()) * place.space
+    clef = lead_spaces(score) * place.space
     line_x = clef + BEFORE_S * (SIZE[0] - clef) / (BEFORE_S + AFTER_S)
     beside = round(line_x + 0.4 * place.space)  # the head's right half, clear of the line itself
     assert draw(snapshot)[row, beside].min() > 170

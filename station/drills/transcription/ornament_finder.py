@@ -113,8 +113,14 @@ def _without_bounces(line: Sequence[_Stroke]) -> list[_Stroke]:
         low, high = sorted((a.note.velocity, b.note.velocity))
         gap = b.ms - a.ms
         if gap < LAYERED_MS or (gap <= BOUNCE_MS and low < _BOUNCE_SHARE * high):
-            soft.add(i if a.note.velocity < b.note.velocity else i + 1)
+            at = i if a.note.velocity < b.note.velocity else i + 1
+            soft |= set() if gap >= LAYERED_MS and _begins_a_drag(line[at : at + 3]) else {at}
     return [stroke for i, stroke in enumerate(line) if i not in soft]
+
+
+def _begins_a_drag(three: Sequence[_Stroke]) -> bool:
+    """Whether a soft stroke is the first of a drag that begins right behind the note before it."""
+    return len(three) == 3 and _is_drag((), *three)
 
 
 def _line(piece: Piece, line: list[_Stroke], score: Score) -> list[_Stroke]:
@@ -165,7 +171,8 @@ def _is_plain(note: Note) -> bool:
 
 def _flam(first: _Stroke, second: _Stroke) -> list[_Stroke]:
     """Two close strokes: a flam, but where the first is by far the louder, a stroke and its rebound."""
-    if first.note.velocity <= _SOFT * second.note.velocity or second.ms - first.ms <= AT_ONCE_MS:
+    is_at_once = second.ms - first.ms <= AT_ONCE_MS and second.note.velocity >= _BOUNCE_SHARE * first.note.velocity
+    if first.note.velocity <= _SOFT * second.note.velocity or is_at_once:
         return [_graced(second, Ornament.FLAM, [first])]
     if first.note.velocity <= second.note.velocity / _SOFT:
         louder = replace(second.note, velocity=max(first.note.velocity, second.note.velocity))

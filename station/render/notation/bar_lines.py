@@ -48,6 +48,15 @@ def draw_bar_line(draw_list: DrawList, x: float, line: BarLine, colour: Colour =
         _sign(draw_list, x, 1, colour)
 
 
+def line_width(line: BarLine) -> float:
+    """What a bar line takes to the left of its place beyond what a plain one does."""
+    if line in (BarLine.REPEAT_END, BarLine.REPEAT_BOTH):
+        return REPEAT_WIDTH
+    if line is BarLine.FINAL:
+        return _THICK + _GAP + THIN
+    return _GAP + THIN if line is BarLine.DOUBLE else 0.0
+
+
 def _upright(draw_list: DrawList, x: float, width: float, colour: Colour) -> None:
     draw_list.line((x, -2.0), (x, 2.0), width, colour)
 

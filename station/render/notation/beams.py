@@ -17,7 +17,6 @@ from station.render.text.sign_outlines import BEAM, BEAM_STEP, BRACKET_LINE, STE
 
 STEM_X = sign_box("head_round").right - STEM / 2
 """How far from its head's middle a stem stands."""
-FLAG_STEP = 0.85
 _STUB = 1.1
 _GAP, _HOOK = 0.2, 0.5
 """What a bracket leaves free on either side of its number, and how far its ends reach and hang over."""
@@ -25,10 +24,9 @@ _GAP, _HOOK = 0.2, 0.5
 
 @dataclass(frozen=True, slots=True)
 class StaffVoice:
-    """Hands or feet: `way` −1 stems up, +1 stems down; `rest_y` where its rests stand."""
+    """Hands or feet: `way` −1 stems up, +1 stems down."""
 
     way: int
-    rest_y: float
 
     @property
     def is_up(self) -> bool:
@@ -41,7 +39,7 @@ class StaffVoice:
         return -self.way * STEM_X
 
 
-HANDS, FEET = StaffVoice(-1, 0.0), StaffVoice(1, 2.5)
+HANDS, FEET = StaffVoice(-1), StaffVoice(1)
 
 
 @dataclass(frozen=True, slots=True)

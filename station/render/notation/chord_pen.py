@@ -12,30 +12,25 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Piece
 from station.music.score import Score
-from station.render.notation.beams import FLAG_STEP, Anchor, StaffVoice
+from station.render.notation.beams import Anchor, StaffVoice
 from station.render.notation.chord_width import (
     DOT_GAP,
     GRACE,
     GRACE_GAP,
     GRACE_STEP,
-    LETTER_SIZE,
     heads_extent,
     sticking,
 )
 from station.render.notation.head_places import EDGE_X, PlacedHead, placed_heads
-from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_slur
+from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_letters, draw_slur
 from station.render.notation.note_values import TimedValue, Value
 from station.render.notation.staff import FOOT_PIECES, height, ledger_steps, step_of
 from station.render.notation.staff_rows import LETTER_LINE, STACK_GAP, StaffRows, stack_height, stacked_signs
 from station.render.palette import INK, INK_SOFT
-from station.render.text.draw_list import TypeStyle
-from station.render.text.fonts import Face
-from station.render.text.sign_outlines import BEAM_STEP, LEDGER_LINE, LEDGER_OUT, STEM, sign_box
+from station.render.text.sign_outlines import BEAM, BEAM_STEP, LEDGER_LINE, LEDGER_OUT, STEM, sign_box
 
-_BUZZ_OFF = 1.4
-"""From a stem's end to the middle of a buzz's sign on it, clear of one beam."""
-_BUZZ_BELOW_FLAG = 3.2
-"""And clear of one flag, which is three and a quarter spaces long."""
+_BUZZ_OFF, _BUZZ_UNDER_BEAM = 1.4, BEAM + STACK_GAP + sign_box("buzz").height / 2
+"""To the middle of a buzz's sign on a stem: below flags from the head, else from the stem's end, clear of one beam."""
 _BUZZ_OVER_WHOLE = 1.6
 """And from a whole note's head, which has no stem."""
 _GRACE_STEM = 2.4
@@ -106,10 +101,9 @@ class ChordPen:
             at = 0.0, (min(heights) if voice.is_up else max(heights)) + voice.way * _BUZZ_OVER_WHOLE
         elif has_flags and value.beams:
             nearest = (min(heights) if voice.is_up else max(heights)) + voice.way * _BUZZ_OFF
-            below = beam_y - voice.way * (_BUZZ_BELOW_FLAG + FLAG_STEP * levels)
-            at = voice.stem_x, min(below, nearest) if voice.is_up else max(below, nearest)
+            at = voice.stem_x, nearest
         else:
-            at = voice.stem_x, beam_y - voice.way * (_BUZZ_OFF + BEAM_STEP * levels)
+            at = voice.stem_x, beam_y - voice.way * (_BUZZ_UNDER_BEAM + BEAM_STEP * levels)
         self._draw_list.sign("buzz", at, INK)
 
     def heads_at(self, tick: int, voice: StaffVoice) -> list[int]:
@@ -183,8 +177,7 @@ class ChordPen:
         y = self._rows.hands if voice.is_up else self._rows.feet
         for k, text in enumerate(sticking(self._notes[rows], self._limbs[rows], voice.is_up)):
             at = 0.0, y + voice.way * LETTER_LINE * k
-            shown = text + text[-1] * is_double
-            self._draw_list.text(shown, at, TypeStyle(LETTER_SIZE, INK, Face.BOLD, 0.5))
+            draw_letters(self._draw_list, text + text[-1] * is_double, at)
 
     # --- grace notes --------------------------------------------------------------------------------------------------
 

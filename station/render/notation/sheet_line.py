@@ -13,7 +13,7 @@ from station.music.repeats import written_forms
 from station.music.score import Score
 from station.render.notation import note_shapes
 from station.render.notation.bar_columns import BarColumns, bar_columns
-from station.render.notation.bar_lines import REPEAT_WIDTH, THIN, BarLine, Volta, draw_bar_line
+from station.render.notation.bar_lines import REPEAT_WIDTH, THIN, BarLine, Volta, draw_bar_line, line_width
 from station.render.notation.engraving import Engraver
 from station.render.notation.line_breaks import BarBox, SetBar
 from station.render.notation.sheet_bars import SheetBar
@@ -56,7 +56,6 @@ class LineSetter:
     ) -> None:
         self._engraver, self._bars, self._words, self._atlas = engraver, bars, words, atlas
         self._score: Score = engraver.score
-        self._letters = DrawList(atlas)
         self._forms = written_forms(self._score)
         self._contexts = {bar.bar: engraver.context(bar.bar) for bar in bars}
         self._engraved: dict[object, NDArray[np.void]] = {}
@@ -67,7 +66,7 @@ class LineSetter:
         return [self._set_bar(bar, is_first=k == 0) for k, bar in enumerate(self._bars)]
 
     def _set_bar(self, bar: SheetBar, is_first: bool) -> SetBar:
-        width = note_shapes.signature_width(self._letters, bar.meter) if bar.meter else 0.0
+        width = note_shapes.signature_width(bar.meter) if bar.meter else 0.0
         gap = note_shapes.SIGNATURE_GAP
         return SetBar(
             self._columns_of(bar),
@@ -79,7 +78,7 @@ class LineSetter:
         )
 
     def _columns_of(self, bar: SheetBar) -> BarColumns:
-        key = (self._form(bar.bar), bar.opens_repeat)
+        key = (self._form(bar.bar), bar.opens_repeat, bar.line)
         if key not in self._columns:
             tempo = self._score.tempo_map
             ends = [tempo.bar_start(bar.bar), tempo.bar_start(bar.bar + 1)]
@@ -88,7 +87,7 @@ class LineSetter:
                 self._shapes(bar.bar, opens_line=False),
                 end_s - start_s,
                 lambda times_s: tempo.ticks_at(times_s + start_s),
-                REPEAT_WIDTH if bar.opens_repeat else 0.0,
+                (REPEAT_WIDTH if bar.opens_repeat else 0.0, line_width(bar.line)),
             )
         return self._columns[key]
 

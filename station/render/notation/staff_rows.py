@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Dynamic, Limb, Piece
+from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import PPQ
 from station.music.score import Score
 from station.render.notation.rests import rest_edge
@@ -25,6 +25,11 @@ beyond the kick's."""
 _FLAGGED = 3.75
 """And so far beyond a head with flags, which are three and a quarter long: Gould's stems of 3½ spaces clear round
 heads, but not the corners of crosses."""
+_OVER_DOT, _OVER_BUZZ, _OVER_SLASH = 0.25, 1.4, 0.8
+"""And as much farther where a dot stands half a space above the head, or a buzz or the first slash on the stem, and for
+each slash more."""
+_UNDER_BUZZ = 0.95
+"""And under beams with a buzz on a stem, which is so high."""
 _BARE_STAFF = 2.75
 """Where a voice without strokes has its edge: the staff's, and a head beside it."""
 _BEAMED, _UNDER_BEAM = 2.0, 1.0
@@ -109,19 +114,32 @@ def shown_limbs(score: Score, limbs: NDArray[np.int8]) -> NDArray[np.int8]:
 
 
 def stem_end(
-    heights: Sequence[float], is_up: bool, beams: int = 1, has_flags: bool = False, rests: Sequence[float] = ()
+    heights: Sequence[float],
+    is_up: bool,
+    beams: int = 1,
+    flag_room: float | None = None,
+    rests: Sequence[float] = (),
+    has_buzz: bool = False,
 ) -> float:
     """Where the stems of one group of chords end, flags and beams within, whose heads stand at `heights`.
 
-    `beams`: the most that a note of it has; `has_flags`: one of them bears flags; `rests`: the edges, towards the
-    stems' ends, of rests between its notes.
+    `beams`: the most that a note of it has; `flag_room`: what is free below its flags (`flag_room`), None where
+    none bears any; `rests`: the edges, towards the stems' ends, of rests between its notes;
+    `has_buzz`: a buzz is on one of its stems.
     """
     beam = BEAM_STEP * max(beams - 1, 0) + BEAM
-    beyond = max(_BEAMED, beam + _UNDER_BEAM, _FLAGGED + flag_overhang(beams) if has_flags else 0.0)
+    flagged = 0.0 if flag_room is None else _FLAGGED + flag_overhang(beams) + flag_room
+    beyond = max(_BEAMED, beam + _UNDER_BEAM + _UNDER_BUZZ * has_buzz, flagged)
     edges = [edge + (-1 if is_up else 1) * (beam + STACK_GAP) for edge in rests]
     if is_up:
         return min(_UP_BEAM_Y, min(heights) - beyond, *edges)
     return max(_DOWN_BEAM_Y, max(heights) + beyond, *edges)
+
+
+def flag_room(dots: int, is_buzz: bool, slashes: int) -> float:
+    """What a note asks for between its head and its flags."""
+    on_stem = _OVER_BUZZ if is_buzz or slashes else 0.0
+    return max(_OVER_DOT * (dots > 0), on_stem + _OVER_SLASH * max(slashes - 1, 0))
 
 
 def flag_overhang(count: int) -> float:
@@ -179,7 +197,10 @@ def _bar_reach(notes: NDArray[np.void], closing: NDArray[np.bool_], way: int) ->
     written = notes["tick"] - notes["swing_ticks"]
     beams = _most_beams(written)
     rests = [rest_edge(4 << k, way < 0, ()) for k in range(1, beams + 1)] if beams > _PLAIN_BEAMS else []
-    stem = stem_end(heights, way < 0, beams, has_flags=True, rests=rests)
+    has_marks = (notes["articulation"] == Articulation.BUZZ) | np.isin(
+        notes["ornament"], (Ornament.DIDDLE, Ornament.ROLL)
+    )
+    stem = stem_end(heights, way < 0, beams, flag_room(1, bool(has_marks.any()), 0), rests, bool(has_marks.any()))
     has_tuplets = (written % _PLAIN_GRID != 0).any()
     return stem + way * (_tallest(notes, closing) + (TUPLET_HEIGHT if has_tuplets else 0.0))
 

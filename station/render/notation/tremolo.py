@@ -20,7 +20,7 @@ from station.render.notation.written_rhythm import beats_of
 from station.render.palette import INK
 from station.render.text.sign_outlines import BEAM_STEP
 
-_HEAD_ROOM, _FLAG_ROOM, _OVER_WHOLE = 1.0, 2.0, 1.6
+_HEAD_ROOM, _FLAG_ROOM, _OVER_WHOLE = 1.0, 3.25, 1.6
 """What stays free beside a head, what a flag takes of a stem, and how far from a whole note slashes stand, in staff
 spaces (our choice)."""
 

@@ -24,7 +24,7 @@ from station.render.notation.held_rolls import draw_tie, tie_way
 from station.render.notation.note_values import BeatGroup, Stroke, TimedValue, Tuplet
 from station.render.notation.rests import draw_rest, rest_edge
 from station.render.notation.staff import height
-from station.render.notation.staff_rows import stem_end
+from station.render.notation.staff_rows import flag_room, stem_end
 from station.render.notation.tremolo import draw_slashes
 from station.render.notation.written_strokes import WrittenStrokes
 
@@ -144,8 +144,13 @@ class VoicePen:
         beams = max(value.value.beams for value in group.strokes)
         first, last = group.strokes[0].tick, group.strokes[-1].tick
         rests = [self._rest_edge(rest, voice) for rest in group.rests if first < rest.tick < last]
-        has_flags = any(a == b and group.strokes[a].value.beams for a, b in beam_runs(group))
-        return stem_end(heights, voice.is_up, beams, has_flags, rests)
+        flagged = [a for a, b in beam_runs(group) if a == b]
+        rooms = (self._flag_room(group.strokes[k], chords[k]) for k in flagged)
+        has_buzz = any(self._pen.is_buzz(chord) for chord in chords)
+        return stem_end(heights, voice.is_up, beams, max(rooms, default=None), rests, has_buzz)
+
+    def _flag_room(self, value: TimedValue, chord: Chord) -> float:
+        return flag_room(value.value.dots, self._pen.is_buzz(chord), value.slashes)
 
     def _rest_edge(self, rest: TimedValue, voice: StaffVoice) -> float:
         others = self._pen.heads_at(self._bar.start + rest.tick, voice)

@@ -57,6 +57,10 @@ def test_a_drag_close_behind_the_last_accent_is_a_drag() -> None:
     assert names((375, 100), (390, 40), (445, 40), (500, 100)) == ["stroke", "drag"]
 
 
+def test_a_drag_so_close_that_it_might_be_the_pad_is_a_drag() -> None:
+    assert names((375, 100), (383, 40), (440, 40), (500, 100)) == ["stroke", "drag"]
+
+
 def test_a_run_of_thirty_seconds_is_no_drag() -> None:
     """62.5 ms apart at 120 bpm, growing."""
     assert names((437.5, 60), (500, 70), (562.5, 80), (625, 115)) == ["stroke"] * 4

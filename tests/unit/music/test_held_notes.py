@@ -12,7 +12,8 @@ def held(*notes: tuple[int, Piece, int], shortest: int = 120) -> list[bool]:
     """Of notes (tick, piece, length), 480 ticks a quarter."""
     columns = [np.array(column, np.int64) for column in zip(*notes, strict=True)]
     ticks, pieces, lasts = columns
-    return held_notes(ticks, lasts, pieces.astype(np.uint8), np.zeros(len(notes), np.uint8), shortest).tolist()
+    found = held_notes(ticks, lasts, pieces.astype(np.uint8), np.zeros(len(notes), np.uint8), shortest)
+    return [bool(is_held) for is_held in found]
 
 
 def test_a_held_note_among_short_strokes_is_a_buzz() -> None:

@@ -36,7 +36,7 @@ def columns_of(*times_s: float, half: float = 0.5, length_s: float = 4.0, y: flo
         draw_list.time_s = time_s
         draw_list.ellipse((0.0, 0.0), (0.5, 0.5), INK)
         draw_list.ellipse((0.0, y), (half, 0.5), INK)
-    return bar_columns(draw_list.shapes(), length_s, lambda t: np.rint(t * PPQ).astype(np.int64), 0.0)
+    return bar_columns(draw_list.shapes(), length_s, lambda t: np.rint(t * PPQ).astype(np.int64))
 
 
 def test_a_value_twice_as_long_takes_as_much_more_each_time() -> None:
@@ -56,7 +56,7 @@ def test_neighbours_keep_their_distance_where_they_are_level_and_only_there() ->
         draw_list.time_s = time_s
         draw_list.ellipse((0.0, 0.0), (0.5, 0.5), INK)
         draw_list.ellipse((0.0, y), (2.0, 0.5), INK)
-    apart = bar_columns(draw_list.shapes(), 4.0, lambda t: np.rint(t * PPQ).astype(np.int64), 0.0)
+    apart = bar_columns(draw_list.shapes(), 4.0, lambda t: np.rint(t * PPQ).astype(np.int64))
     assert apart.least[0] == pytest.approx(1.25), "one is below, the other above"
 
 
@@ -64,21 +64,20 @@ def test_grace_strokes_on_a_bar_s_first_beat_keep_off_the_bar_line() -> None:
     flams = find_lesson("flam").score
     plain = rock()
     inset = [
-        bar_columns(Engraver(s, ATLAS).bar(0, with_line=False), 3.0, s.tempo_map.ticks_at, 0.0).inset
-        for s in (plain, flams)
+        bar_columns(Engraver(s, ATLAS).bar(0, with_line=False), 3.0, s.tempo_map.ticks_at).inset for s in (plain, flams)
     ]
     assert inset[1] > inset[0] + 1.0
 
 
 def test_voices_and_letters_share_their_columns() -> None:
     score = rock()
-    columns = bar_columns(Engraver(score, ATLAS).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at, 0.0)
+    columns = bar_columns(Engraver(score, ATLAS).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at)
     assert columns.times_s.tolist() == [k / 4 for k in range(8)], "a column for each eighth, kicks and snares on them"
 
 
 def test_a_whole_rest_stands_in_the_middle_of_its_bar() -> None:
     score = score_of(Note(BAR, Piece.SNARE))
-    columns = bar_columns(Engraver(score, ATLAS).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at, 0.0)
+    columns = bar_columns(Engraver(score, ATLAS).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at)
     places = columns.places(1.3)
     assert places[1] == pytest.approx(places[2] / 2)
 

@@ -90,3 +90,26 @@ def test_rests_of_two_voices_keep_clear_of_the_other_s_heads() -> None:
     assert not collisions(score)
     heights = {sign.name: sign.box[1] for line in inked_lines(score) for sign in line if sign.kind == "rest"}
     assert heights, "there are rests to keep clear"
+
+
+def test_a_dot_keeps_clear_of_its_flag() -> None:
+    """A dotted eighth alone in its beat, on the top line or a ledger line, where its stem is shortest."""
+    for piece in (Piece.RIDE, Piece.CRASH_1):
+        score = score_of(Note(PPQ // 4, piece), Note(PPQ, Piece.SNARE))
+        assert any(sign.name == "dot" for line in inked_lines(score) for sign in line)
+        assert not collisions(score), piece
+
+
+@pytest.mark.parametrize("piece", [Piece.SNARE, Piece.TOM_1, Piece.FLOOR_TOM_2])
+@pytest.mark.parametrize("first", [PPQ // 4, PPQ // 2, 3 * PPQ // 4, 7 * PPQ // 8])
+def test_a_buzz_keeps_clear_of_its_flags(piece: Piece, first: int) -> None:
+    buzz = Note(first, piece, articulation=Articulation.BUZZ, ornament=Ornament.ROLL, duration_ticks=PPQ // 8)
+    assert not collisions(score_of(buzz, Note(PPQ, Piece.KICK)))
+
+
+@pytest.mark.parametrize("over", [Piece.RIDE, Piece.CRASH_1, Piece.SPLASH])
+@pytest.mark.parametrize("step", [PPQ // 2, PPQ // 4])
+def test_a_buzz_under_a_beam_keeps_clear_of_the_heads(over: Piece, step: int) -> None:
+    notes = [Note(k * step, over) for k in range(PPQ // step)]
+    notes.append(Note(step, Piece.SNARE, articulation=Articulation.BUZZ, ornament=Ornament.ROLL, duration_ticks=step))
+    assert not collisions(score_of(*notes))

@@ -82,8 +82,8 @@ def is_groove_url(text: str) -> bool:
     if len(text) > _MOST_LINK or not _LINK.fullmatch(text.strip()):
         return False
     fields = _fields(text.strip())
-    has_line = any(name in fields for name in ("H", "S", "K"))
-    return has_line and len(fields.keys() & {*_SETTINGS, *_LINES}) >= 2
+    has_music = not fields.keys().isdisjoint((*LETTERS, "TIMESIG", "DIV"))
+    return has_music and len(fields.keys() & {*_SETTINGS, *_LINES}) >= 2
 
 
 def find_groove_url(text: str) -> str:
