@@ -98,6 +98,14 @@ def test_human_sixteenths_go_to_the_nearest() -> None:
     assert any("12 strokes moved onto the grid" in remark for remark in found.remarks)
 
 
+def test_a_swing_that_the_file_says_stays_where_its_times_are_exact() -> None:
+    """Swung eighths at 1.5: the second of each pair falls on three fifths of the beat."""
+    lesson = read('hihat = "xx xx xx xx"', "tempo_bpm = 120\nswing_ratio = 1.5")
+    found = transcribe(part_of(lesson), "x").lesson
+    assert found.swing == lesson.swing
+    assert found.score.notes["tick"].tolist() == [i * QUARTER + at for i in range(4) for at in (0, QUARTER * 3 // 5)]
+
+
 def test_what_lies_on_the_grid_is_not_moved() -> None:
     part = DrumPart(Score.from_notes([snare(i * SIXTEENTH) for i in range(16)], TEMPO))
     assert transcribe(part, "x").remarks == ()
