@@ -27,11 +27,11 @@ TERNARY_COSTS: Mapping[int, float] = MappingProxyType(
     {1: 0.0, 3: 0.3, 6: 0.9, 12: 4.0, 2: 5.0, 4: 6.0, 9: 8.0, 5: 11.0, 7: 12.0}
 )
 """The same of a beat of three thirds, as in 6/8."""
-FINE_COSTS: Mapping[int, float] = MappingProxyType({6: 0.7, 8: 1.0, 5: 2.0, 7: 2.0, 9: 2.0, 12: 3.0})
+BINARY_FINE_COSTS: Mapping[int, float] = MappingProxyType({6: 0.7, 8: 1.0, 5: 1.0, 7: 2.0, 12: 6.0})
 """What each beat costs that is cut so fine, however many others are: a drummer's habits of timing recur as rhythms do,
 and must not add up to thirty-seconds. Our choice, by the Groove MIDI Dataset's grooves that several drummers play."""
-_SIXTEENTHS = 6
-"""Of a dotted quarter."""
+TERNARY_FINE_COSTS: Mapping[int, float] = MappingProxyType({12: 1.0, 5: 1.0, 7: 2.0, 9: 2.0})
+"""The same of a beat of three thirds."""
 _STROKE_COSTS: Mapping[int, float] = MappingProxyType(
     {1: 0.0, 2: 0.5, 3: 0.9, 4: 1.0, 5: 1.6, 6: 1.6, 7: 1.8, 8: 2.0, 9: 2.0, 12: 2.4}
 )
@@ -57,12 +57,8 @@ class Division:
 def divisions_of(is_ternary: bool, length_ticks: int, swing: Swing) -> tuple[Division, ...]:
     """All that a span of `length_ticks` may be cut into."""
     table = TERNARY_COSTS if is_ternary else BINARY_COSTS
-    return tuple(
-        _division(
-            cells, cost, 0.0 if is_ternary and cells == _SIXTEENTHS else FINE_COSTS.get(cells, 0.0), length_ticks, swing
-        )
-        for cells, cost in table.items()
-    )
+    fine = TERNARY_FINE_COSTS if is_ternary else BINARY_FINE_COSTS
+    return tuple(_division(cells, cost, fine.get(cells, 0.0), length_ticks, swing) for cells, cost in table.items())
 
 
 def _division(cells: int, cost: float, fine: float, length_ticks: int, swing: Swing) -> Division:

@@ -16,7 +16,7 @@ from station.core.units import NS_PER_S, PPQ
 from station.drills.transcription.beat_spans import BeatSpans, Floats, Ints
 from station.drills.transcription.rhythm_words import Reading, cells_of, played_places, read
 from station.drills.transcription.take_fit import SLIP, strokes_at
-from station.music.swing import MAX_RATIO, STRAIGHT, TRIPLETS, Swing
+from station.music.swing import STRAIGHT, TRIPLETS, Swing
 
 USUAL_SPREAD_S = 0.015
 """Where a search begins: between a professional's 10 ms and the 26 ms of the Groove MIDI Dataset (HUMANS, Timing)."""
@@ -32,8 +32,8 @@ LEAN_STROKES, SWING_STROKES = 300, 600
 NAMED_RATIOS: Mapping[float, float] = MappingProxyType({1.5: 5.0, 2.0: 3.0, 3.0: 6.0})
 """What a swing costs that a teacher would name: light swing, triplets, dotted; our choice."""
 _OTHER_RATIO_COST = 7.0
-_LEAST_RATIO, _RATIO_STEP = 1.2, 0.1
-"""Below is the unevenness of straight playing; in finer steps nobody names a ratio."""
+_LEAST_RATIO, _MOST_RATIO, _RATIO_STEP = 1.2, 3.0, 0.1
+"""Below is the unevenness of straight playing, above a dotted figure; in finer steps nobody names a ratio."""
 _HARD_SIXTEENTHS_COST = 6.0
 """Sixteenths swing less than eighths do: beyond triplets hardly ever."""
 _FIRST_SWINGS = (Swing(), Swing(1.5), Swing(2.0), Swing(1.5, PPQ // 4))
@@ -136,7 +136,7 @@ def _refined(take: Take, feel: Feel) -> Feel:
         found = replace(feel, swing=swing, lean_s=feel.lean_s + lean, spread_s=_spread(errors - lean))
         return float(z @ z) / 2 + prior_cost(found), found
 
-    steps = [round(x, 1) for x in np.arange(_LEAST_RATIO, MAX_RATIO + _RATIO_STEP / 2, _RATIO_STEP).tolist()]
+    steps = [round(x, 1) for x in np.arange(_LEAST_RATIO, _MOST_RATIO + _RATIO_STEP / 2, _RATIO_STEP).tolist()]
     return min((at(ratio) for ratio in steps), key=lambda pair: pair[0])[1]
 
 

@@ -181,6 +181,32 @@ def test_repeats_endings_sections_and_jumps() -> None:
 
 
 @pytest.mark.parametrize(
+    ("bars", "order"),
+    [
+        (["|:", "1", ":|", "2", ""], [0, 1, 2, 0, 3, 4]),
+        (["|:", "1 :|", "2 :|", "3"], [0, 1, 0, 2, 0, 3]),
+        (["", ":|", "", ":|"], [0, 1, 0, 1, 2, 3, 2, 3]),
+        (["|:", "1 :|", "2", "|: :|"], [0, 1, 0, 2, 3, 3]),
+    ],
+)
+def test_an_ending_lasts_until_its_repeat_ends(bars: list[str], order: list[int]) -> None:
+    """Bars of one to four eighths, so that an onset's distance to the next says which bar it was; orders by hand."""
+    gpif = _Gpif()
+    for i, signs in enumerate(bars):
+        marks = {"start": "|:" in signs, "end": ":|" in signs}
+        repeat = " ".join(f'{name}="{str(value).lower()}"' for name, value in marks.items())
+        endings = "".join(c for c in signs if c.isdigit())
+        gpif.bar(
+            f'<Repeat {repeat} count="2"/>' + (f"<AlternateEndings>{endings}</AlternateEndings>" if endings else ""),
+            time=f"{i + 1}/8",
+        ).beat(_note("kick"))
+    score = gpif.read().score
+    ends = [*score.notes["tick"].tolist()[1:], score.end_tick]
+    lengths = [end - n.tick for n, end in zip(score, ends, strict=True)]
+    assert [2 * length // PPQ - 1 for length in lengths] == order
+
+
+@pytest.mark.parametrize(
     ("feel", "swing", "second"),
     [
         ("Triplet8th", Swing(2.0, PPQ // 2), 2 * PPQ // 3),

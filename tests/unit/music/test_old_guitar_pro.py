@@ -188,6 +188,7 @@ def test_triplet_feel_swings_the_offbeats_and_names_it() -> None:
     part = _read(song)
     assert part.swing == Swing(2.0, PPQ // 2)
     assert [n.tick for n in part.score] == [0, 2 * PPQ // 3, *(PPQ + i * PPQ // 4 for i in range(4))]
+    assert [n.swing_ticks for n in part.score] == [0, 2 * PPQ // 3 - PPQ // 2, 0, 0, 0, 0]
 
 
 def test_swing_of_one_bar_only_is_said() -> None:

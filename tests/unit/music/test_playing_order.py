@@ -3,7 +3,7 @@
 import pytest
 
 from station.core.errors import BadInput
-from station.music.formats.music_xml.playing_order import MOST_BARS, BarSigns, playing_order
+from station.music.formats.playing_order import AL_FINE, MOST_BARS, TO_THE_END, BarSigns, playing_order
 
 
 def _order(*bars: BarSigns) -> list[int]:
@@ -43,6 +43,16 @@ def test_jumps() -> None:
     repeated = BarSigns(repeat_times=2)
     assert _order(repeated, BarSigns(da_capo=True)) == [1, 1, 2, 1, 2]
     assert _order(_plain(), _ending(1, times=2), _ending(2), BarSigns(da_capo=True)) == [1, 2, 1, 3, 4, 1, 3, 4]
+
+
+def test_a_jump_that_says_what_follows_heeds_only_that() -> None:
+    fine, to_coda, coda = BarSigns(fine=True), BarSigns(to_coda=""), BarSigns(coda="")
+    al_fine = BarSigns(da_capo=True, until=AL_FINE)
+    assert _order(to_coda, fine, al_fine, coda) == [1, 2, 3, 1, 2]
+    assert _order(to_coda, fine, BarSigns(da_capo=True, until=TO_THE_END), coda) == [1, 2, 3, 1, 2, 3, 4]
+    al_coda = BarSigns(da_capo=True, until="2")
+    to_second, second = BarSigns(to_coda="2"), BarSigns(coda="2")
+    assert _order(to_coda, fine, to_second, al_coda, coda, second) == [1, 2, 3, 4, 1, 2, 3, 6]
 
 
 def test_what_leads_nowhere_is_read_on() -> None:

@@ -21,7 +21,8 @@ from guitarpro.iobase import GPFileBase
 from guitarpro.models import Beat, BeatStroke, Song
 
 from station.core.errors import BadInput
-from station.music.formats.guitar_pro.tab_song import MOST_TAB_BARS, MOST_TAB_BEATS, MOST_TAB_NOTES
+from station.music.formats.guitar_pro.tab_song import MOST_TAB_BEATS, MOST_TAB_NOTES
+from station.music.formats.playing_order import MOST_BARS
 
 _MOST_TRACKS = 256
 """Guitar Pro 5 has up to 127."""
@@ -99,7 +100,7 @@ def _guarded(base: Any) -> Any:
             return f"bar {self._bar}, {byte}" if self._bar else byte
 
         def readMeasureHeaders(self, song: Any, count: int, *directions: Any) -> None:  # noqa: N802
-            _check(count, MOST_TAB_BARS, "bars")
+            _check(count, MOST_BARS, "bars")
             if not directions:
                 super().readMeasureHeaders(song, count)
                 return

@@ -6,10 +6,10 @@ drummer stands in `tab_part`; let ring, dead notes, slides, bends and what else 
 
 # ruff: noqa: ANN401  PyGuitarPro has no types
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 from station.core.errors import BadInput
 from station.core.pieces import Dynamic
@@ -18,18 +18,16 @@ from station.music.formats.guitar_pro.guarded_parser import ParsedTabs, is_drum_
 from station.music.formats.guitar_pro.tab_song import TabBar, TabBeat, TabNote, TabSong
 from station.music.formats.guitar_pro.tab_words import (
     FEEL_OF,
-    JUMP_OF,
-    SIGN_OF,
     STRAIGHT_FEEL,
     bpm_to_us,
     checked_meter,
+    signs_of,
     within,
 )
 from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY
 
 _QUARTER = 960
 """PyGuitarPro's units a quarter note."""
-_Meaning = TypeVar("_Meaning")
 _SHORTEST = 256
 """No note is shorter than 1/256."""
 _TIE = 2
@@ -73,8 +71,9 @@ class _Bars:
 
     def bars(self) -> Iterator[TabBar]:
         us = bpm_to_us(self.parsed.song.tempo, self.source, 0)
-        signs = _by_bar(self.parsed.signs, SIGN_OF)
-        jumps = _by_bar(self.parsed.jumps, JUMP_OF)
+        directions: dict[int, list[str]] = {}
+        for name, bar in (*self.parsed.signs, *self.parsed.jumps):
+            directions.setdefault(bar, []).append(name)
         for i, measure in enumerate(self.track.measures):
             header = measure.header
             meter = checked_meter(
@@ -86,21 +85,15 @@ class _Bars:
                 meter,
                 tuple(within((b for voice in measure.voices for b in _beats(measure, voice)), meter)),
                 tuple((tick, rate) for tick, rate in tempos if tick < meter.bar_ticks),
-                header.isRepeatOpen,
-                header.repeatClose + 1 if header.repeatClose > 0 else 0,
-                frozenset(n + 1 for n in range(_ENDING_BITS) if header.repeatAlternative >> n & 1),
-                frozenset(signs.get(i, ())),
-                tuple(jumps.get(i, ())),
+                signs_of(
+                    directions.get(i, ()),
+                    repeat_from=header.isRepeatOpen,
+                    repeat_times=header.repeatClose + 1 if header.repeatClose > 0 else 0,
+                    endings=frozenset(n + 1 for n in range(_ENDING_BITS) if header.repeatAlternative >> n & 1),
+                ),
                 _FEELS[header.tripletFeel.value],
                 header.marker.title.strip() if header.marker is not None else "",
             )
-
-
-def _by_bar(named: Sequence[tuple[str, int]], meaning: Mapping[str, _Meaning]) -> dict[int, list[_Meaning]]:
-    found: dict[int, list[_Meaning]] = {}
-    for name, bar in named:
-        found.setdefault(bar, []).append(meaning[name.replace(" ", "").lower()])
-    return found
 
 
 def _beats(measure: Any, voice: Any) -> Iterator[TabBeat]:

@@ -19,7 +19,6 @@ from station.core.units import PPQ
 from station.music.formats.guitar_pro.tab_kit import OF_ELEMENT, TAB_KIT
 from station.music.formats.guitar_pro.tab_song import (
     METER_UNITS,
-    MOST_TAB_BARS,
     TabBar,
     TabBeat,
     TabNote,
@@ -27,13 +26,13 @@ from station.music.formats.guitar_pro.tab_song import (
 )
 from station.music.formats.guitar_pro.tab_words import (
     FEEL_OF,
-    JUMP_OF,
-    SIGN_OF,
     STRAIGHT_FEEL,
     bpm_to_us,
     checked_meter,
+    signs_of,
     within,
 )
+from station.music.formats.playing_order import MOST_BARS
 from station.music.formats.safe_xml import parse_xml, text_of
 from station.music.tempo import MeterChange
 
@@ -113,8 +112,8 @@ class _Song:
         self.known_rhythms: dict[str, tuple[Fraction, bool]] = {}
 
     def read(self) -> TabSong:
-        if len(self.masters) > MOST_TAB_BARS:
-            raise BadInput(self.source, "", f"{len(self.masters)} bars; expected at most {MOST_TAB_BARS}")
+        if len(self.masters) > MOST_BARS:
+            raise BadInput(self.source, "", f"{len(self.masters)} bars; expected at most {MOST_BARS}")
         tracks = list(self._drum_tracks())
         if not tracks:
             raise BadInput(self.source, "", "no drum track among its tracks")
@@ -316,15 +315,16 @@ def _master_bar(master: Element, meter: MeterChange) -> TabBar:
     repeat = master.find("Repeat")
     closes = repeat is not None and repeat.get("end", "").lower() == "true"
     passes = [_whole(word) for word in text_of(master, "AlternateEndings").split()]
-    words = {kind: [_small(e.text) for e in master.findall(f"Directions/{kind}")] for kind in ("Target", "Jump")}
+    directions = [e.text or "" for kind in ("Target", "Jump") for e in master.findall(f"Directions/{kind}")]
     name = " ".join(filter(None, (text_of(master, "Section/Letter"), text_of(master, "Section/Text"))))
     return TabBar(
         meter,
-        opens_repeat=repeat is not None and repeat.get("start", "").lower() == "true",
-        plays=min(max(_whole(repeat.get("count", "2")), 2), 255) if closes and repeat is not None else 0,
-        endings=frozenset(n for n in passes if 1 <= n <= _MOST_PASSES),
-        signs=frozenset(SIGN_OF[word] for word in words["Target"] if word in SIGN_OF),
-        jumps=tuple(JUMP_OF[word] for word in words["Jump"] if word in JUMP_OF),
+        signs=signs_of(
+            directions,
+            repeat_from=repeat is not None and repeat.get("start", "").lower() == "true",
+            repeat_times=min(max(_whole(repeat.get("count", "2")), 2), 255) if closes and repeat is not None else 0,
+            endings=frozenset(n for n in passes if 1 <= n <= _MOST_PASSES),
+        ),
         feel=FEEL_OF.get(_small(text_of(master, "TripletFeel")), STRAIGHT_FEEL),
         section=" ".join(name.split()),
     )

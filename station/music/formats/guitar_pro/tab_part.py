@@ -16,9 +16,9 @@ from station.core.note_map import strike_of
 from station.core.pieces import CHOKEABLE, TOMS, Dynamic, Ornament, Piece
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart, PartSection
-from station.music.formats.guitar_pro.play_order import play_order
 from station.music.formats.guitar_pro.tab_kit import CHOKED, TAB_KIT
 from station.music.formats.guitar_pro.tab_song import MOST_TAB_STROKES, TabBar, TabBeat, TabNote, TabSong
+from station.music.formats.playing_order import BarSigns, playing_order
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.stroke_velocities import shaded
@@ -34,7 +34,7 @@ _DRUMS = frozenset({Piece.SNARE, *TOMS})
 
 def part_of_song(song: TabSong, source: str) -> DrumPart:
     """The part that `song` says; raises `BadInput` where repeats make more than music has."""
-    order = play_order(song.bars, source)
+    order = playing_order(list(_signs(song.bars)), source)
     if sum(_stroke_count(song.bars[i]) for i in order) > MOST_TAB_STROKES:
         raise BadInput(source, "", f"more than {MOST_TAB_STROKES} strokes as it is played")
     swing, lost = _swing(song.bars)
@@ -51,6 +51,22 @@ def part_of_song(song: TabSong, source: str) -> DrumPart:
         _sections(song.bars, order),
         lost=(*song.lost, *_lost_graces(song.bars), *lost),
     )
+
+
+def _signs(bars: Sequence[TabBar]) -> Iterator[BarSigns]:
+    """The signs of the bars, each ending on all that it is over: to its repeat's end, or to the next ending.
+
+    The last ending is over its first bar alone: nothing in the file says where it ends, and it is played but once.
+    """
+    closes = [False] * (len(bars) + 1)  # whether a repeat ends here or later, before another ending or repeat begins
+    for i in range(len(bars) - 1, -1, -1):
+        begins = i + 1 < len(bars) and (bars[i + 1].signs.endings or bars[i + 1].signs.repeat_from)
+        closes[i] = bool(bars[i].signs.repeat_times) or (closes[i + 1] and not begins)
+    inside: frozenset[int] = frozenset()
+    for bar, is_closed in zip(bars, closes, strict=False):
+        inside = bar.signs.endings or (inside if is_closed and not bar.signs.repeat_from else frozenset())
+        yield replace(bar.signs, endings=inside)
+        inside = frozenset() if bar.signs.repeat_times else inside
 
 
 # --- where bars stand ------------------------------------------------------------------------------------------------

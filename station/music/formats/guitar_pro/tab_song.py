@@ -5,14 +5,12 @@ stands first in its `tempos`. Numbers of notes are Guitar Pro's percussion numbe
 """
 
 from dataclasses import dataclass, field
-from enum import StrEnum
 
 from station.core.pieces import Dynamic
+from station.music.formats.playing_order import BarSigns
 from station.music.swing import Swing
 from station.music.tempo import MeterChange
 
-MOST_TAB_BARS = 10_000
-"""Written bars, and bars as they are played (our choice: eight hours)."""
 MOST_TAB_BEATS, MOST_TAB_NOTES = 50_000, 60_000
 """Beats and notes of all tracks together, about 20 µs each to read (our choice: 400 bars of ten tracks)."""
 MOST_TAB_STROKES = 40_000
@@ -21,29 +19,6 @@ METER_UNITS = (1, 2, 4, 8, 16, 32, 64, 128)
 MOST_METER_BEATS = 64
 SLOWEST_TAB_BPM, FASTEST_TAB_BPM = 1.0, 2000.0
 """What a file may say (our choice: Guitar Pro offers 30 to 600)."""
-
-
-class Sign(StrEnum):
-    """A place that a jump leads to, or where the music ends after it."""
-
-    SEGNO = "Segno"
-    SEGNO_SEGNO = "Segno segno"
-    CODA = "Coda"
-    DOUBLE_CODA = "Double coda"
-    FINE = "Fine"
-
-
-@dataclass(frozen=True, slots=True)
-class Jump:
-    """A jump at the end of a bar, the first time only: back to `target` (None: the beginning), then `until` a sign.
-
-    `until` is Fine, a coda (left at the "to coda" before it) or None: on to the end. A `to` coda jump acts only after
-    such a jump; `target` is then where it leads and `is_to_coda` true.
-    """
-
-    target: Sign | None
-    until: Sign | None = None
-    is_to_coda: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,18 +51,14 @@ class TabBeat:
 class TabBar:
     """A written bar; `meter.tick` says nothing here.
 
-    `plays` is how often a repeat that ends here is played in all, 0 where none ends; `endings` the passes that an
-    ending which begins here is for; `tempos` are (tick, µs a quarter) of the bar, the first at 0.
+    `tempos` are (tick, µs a quarter) of the bar, the first at 0; `section` the marker that stands at it. Of `signs` the
+    `endings` are those that begin here: `playing_order` wants them on every bar that they are over.
     """
 
     meter: MeterChange
     beats: tuple[TabBeat, ...] = ()
     tempos: tuple[tuple[int, int], ...] = ()
-    opens_repeat: bool = False
-    plays: int = 0
-    endings: frozenset[int] = frozenset()
-    signs: frozenset[Sign] = frozenset()
-    jumps: tuple[Jump, ...] = ()
+    signs: BarSigns = field(default_factory=BarSigns)
     feel: Swing = field(default_factory=Swing)
     section: str = ""
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
+from typing import Any
 
 from station.core.errors import BadInput
 from station.core.units import PPQ
@@ -10,10 +11,9 @@ from station.music.formats.guitar_pro.tab_song import (
     METER_UNITS,
     MOST_METER_BEATS,
     SLOWEST_TAB_BPM,
-    Jump,
-    Sign,
     TabBeat,
 )
+from station.music.formats.playing_order import AL_FINE, TO_THE_END, BarSigns
 from station.music.swing import TRIPLETS, Swing
 from station.music.tempo import MeterChange
 
@@ -34,25 +34,32 @@ FEEL_OF: Mapping[str, Swing] = MappingProxyType(
 )
 """Guitar Pro's feels by their names in small letters: long-short, and the Scottish snap, short-long."""
 
-SIGN_OF: Mapping[str, Sign] = MappingProxyType(
+_CODA, _DOUBLE_CODA, _SEGNO, _SEGNO_SEGNO = "coda", "doublecoda", "segno", "segnosegno"
+_FROM: Mapping[str, Mapping[str, Any]] = {
+    "dacapo": {"da_capo": True},
+    "dasegno": {"dal_segno": _SEGNO},
+    "dasegnosegno": {"dal_segno": _SEGNO_SEGNO},
+}
+_UNTIL = {"": TO_THE_END, "alcoda": _CODA, "aldoublecoda": _DOUBLE_CODA, "alfine": AL_FINE}
+DIRECTIONS: Mapping[str, Mapping[str, Any]] = MappingProxyType(
     {
-        "coda": Sign.CODA,
-        "doublecoda": Sign.DOUBLE_CODA,
-        "segno": Sign.SEGNO,
-        "segnosegno": Sign.SEGNO_SEGNO,
-        "fine": Sign.FINE,
+        **{name: {"coda": name} for name in (_CODA, _DOUBLE_CODA)},
+        **{name: {"segno": name} for name in (_SEGNO, _SEGNO_SEGNO)},
+        "fine": {"fine": True},
+        **{a + b: {**jump, "until": until} for a, jump in _FROM.items() for b, until in _UNTIL.items()},
+        "dacoda": {"to_coda": _CODA},
+        "dadoublecoda": {"to_coda": _DOUBLE_CODA},
     }
 )
-_FROM = {"dacapo": None, "dasegno": Sign.SEGNO, "dasegnosegno": Sign.SEGNO_SEGNO}
-_UNTIL = {"": None, "alcoda": Sign.CODA, "aldoublecoda": Sign.DOUBLE_CODA, "alfine": Sign.FINE}
-JUMP_OF: Mapping[str, Jump] = MappingProxyType(
-    {
-        **{start + end: Jump(target, until) for start, target in _FROM.items() for end, until in _UNTIL.items()},
-        "dacoda": Jump(Sign.CODA, is_to_coda=True),
-        "dadoublecoda": Jump(Sign.DOUBLE_CODA, is_to_coda=True),
-    }
-)
-"""Directions by their names in small letters without spaces; `.gp` has the same names."""
+"""Targets and jumps by their names in small letters without spaces -> what `BarSigns` has of them."""
+
+
+def signs_of(directions: Iterable[str], **repeats: Any) -> BarSigns:  # noqa: ANN401 - the fields of `BarSigns`
+    """What stands at a bar, of the names of its directions and what is known of its repeats."""
+    said: dict[str, Any] = {}
+    for name in directions:
+        said |= DIRECTIONS.get("".join(name.split()).lower(), {})
+    return BarSigns(**said, **repeats)
 
 
 def bpm_to_us(bpm: float, source: str, bar: int) -> int:

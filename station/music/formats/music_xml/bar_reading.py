@@ -14,8 +14,8 @@ from station.music.formats.music_xml.note_reading import (
     NoteReader,
     velocity_of,
 )
-from station.music.formats.music_xml.playing_order import MOST_BARS
 from station.music.formats.music_xml.written_bars import STOP, LostMarks, WrittenBar, WrittenNote
+from station.music.formats.playing_order import MOST_BARS
 from station.music.formats.safe_xml import text_of
 from station.music.loudness_marks import FADE, GROW
 from station.music.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing

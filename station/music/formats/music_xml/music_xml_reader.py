@@ -12,9 +12,9 @@ from station.music.formats.music_xml.bar_reading import VELOCITY_OF_MARK, BarRea
 from station.music.formats.music_xml.mxl_container import score_text
 from station.music.formats.music_xml.note_reading import NoteReader
 from station.music.formats.music_xml.part_choice import FilePart, drum_parts, parts_of
-from station.music.formats.music_xml.playing_order import playing_order
 from station.music.formats.music_xml.strokes_reading import PlayedBar, strokes_of
 from station.music.formats.music_xml.written_bars import STOP, LostMarks, WrittenBar
+from station.music.formats.playing_order import playing_order
 from station.music.formats.safe_xml import parse_xml, text_of
 from station.music.loudness_marks import FADE, GROW, USUAL, LoudnessMark
 from station.music.score import Score

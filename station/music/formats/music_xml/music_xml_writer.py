@@ -27,9 +27,9 @@ from station.music.formats.music_xml.element_writing import (
     xml_text,
 )
 from station.music.formats.music_xml.part_losses import losses_of
-from station.music.formats.music_xml.playing_order import MOST_BARS
 from station.music.formats.music_xml.swung_bars import BarFrame, WrittenVoices, can_be_said, written_voices
 from station.music.formats.music_xml.xml_instruments import XmlInstrument, instrument_of
+from station.music.formats.playing_order import MOST_BARS
 from station.music.swing import Swing
 
 _HEAD = (

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Dynamic, Limb
-from station.music.formats.music_xml.playing_order import BarSigns
+from station.music.formats.playing_order import BarSigns
 from station.music.swing import Swing
 from station.music.tempo import MeterChange
 

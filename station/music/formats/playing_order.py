@@ -1,7 +1,8 @@
 """The order in which written bars are played: repeats, endings, D.C., D.S., coda and fine.
 
 A repeat is taken when first met; after a D.C. or D.S. none is taken again and of endings the last is played, as
-musicians read it. Each D.C. or D.S. is followed once.
+musicians read it. Each D.C. or D.S. is followed once. Where it says what follows ("al Fine", "al Coda"), only that is
+heeded; where it does not, the first that comes.
 """
 
 from collections.abc import Sequence
@@ -13,13 +14,18 @@ MOST_BARS = 10_000
 """Bars as played (our choice: three hours and more)."""
 
 
+AL_FINE, TO_THE_END = "al fine", "to the end"
+"""What a D.C. or D.S. may lead to besides a coda, which has a label of its own."""
+
+
 @dataclass(slots=True)
 class BarSigns:
     """What stands at a bar that says where to go on.
 
     `repeat_from` a forward repeat, `repeat_times` how often what ends with this bar is played (0: no backward repeat);
     `endings` the passes that this bar is for, empty for all; `segno`, `coda` and `dal_segno` are labels, None where
-    there is none.
+    there is none. `until` is what the D.C. or D.S. of this bar says: `AL_FINE`, `TO_THE_END`, the label of a coda, or
+    None.
     """
 
     repeat_from: bool = False
@@ -31,6 +37,7 @@ class BarSigns:
     da_capo: bool = False
     dal_segno: str | None = None
     fine: bool = False
+    until: str | None = None
 
 
 def playing_order(bars: Sequence[BarSigns], source: str) -> list[int]:
@@ -39,6 +46,7 @@ def playing_order(bars: Sequence[BarSigns], source: str) -> list[int]:
     signposts = _Signposts(bars)
     start, turn, bar, steps = 0, 1, 0, 0
     jumps_taken: set[int] = set()
+    until: str | None = None
     while bar < len(bars):
         signs, last = bars[bar], signposts.last_endings[bar]
         steps += 1
@@ -55,11 +63,11 @@ def playing_order(bars: Sequence[BarSigns], source: str) -> list[int]:
             continue
         if signs.repeat_times and not last:
             start, turn = bar + 1, 1
-        if signs.fine and jumps_taken:
+        if signs.fine and jumps_taken and until in (None, AL_FINE):
             break
-        target = signposts.jump(bar, jumps_taken)
+        target, then = signposts.jump(bar, jumps_taken, until)
         if target is not None:
-            start, turn = target, 1
+            start, turn, until = target, 1, then
         bar = bar + 1 if target is None else target
     return order
 
@@ -90,12 +98,12 @@ class _Signposts:
             if bars[i].endings == bars[i + 1].endings:
                 self.after_ending[i] = self.after_ending[i + 1]
 
-    def jump(self, bar: int, taken: set[int]) -> int | None:
-        """Where to go on after `bar` if not with the next; `taken` grows by the jump."""
+    def jump(self, bar: int, taken: set[int], until: str | None) -> tuple[int | None, str | None]:
+        """Where to go on after `bar` if not with the next, and until what from there; `taken` grows by the jump."""
         signs = self._bars[bar]
-        if signs.to_coda is not None and taken:
-            return self._codas.get(signs.to_coda)
+        if signs.to_coda is not None and taken and until in (None, signs.to_coda):
+            return self._codas.get(signs.to_coda), TO_THE_END if until else None
         if bar in taken or not (signs.da_capo or signs.dal_segno is not None):
-            return None
+            return None, None
         taken.add(bar)
-        return 0 if signs.da_capo else self._segnos.get(signs.dal_segno or "")
+        return 0 if signs.da_capo else self._segnos.get(signs.dal_segno or ""), signs.until
