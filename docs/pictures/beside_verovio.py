@@ -7,6 +7,7 @@ by `rsvg-convert` (librsvg), which must be installed. The pictures lie beside th
 
 import re
 import subprocess
+import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -71,7 +72,7 @@ def main() -> None:
         subprocess.run(
             ["rsvg-convert", f"--zoom={_ZOOM}", "-b", "white", "-o", str(path)], input=svg.encode(), check=True
         )
-        print(path.name, excerpt.lesson, excerpt.shows)
+        sys.stdout.write(f"{path.name}: {excerpt.shows}\n")
 
 
 def beside(excerpt: Excerpt) -> str:
@@ -100,7 +101,7 @@ def _heading(text: str, y: float) -> str:
 
 def _ours(part: DrumPart, words: SheetWords) -> tuple[Sequence[Filled], float]:
     """What stands on the page above its key, from the top margin on, and how far down it reaches."""
-    (page,) = sheet(part.score.as_written, words, (WIDTH, _TALLEST))
+    (page,) = sheet(part.score, words, (WIDTH, _TALLEST))
     reaches = [(top(area), bottom(area), area) for area in page]
     end, kept = MARGIN, []
     for above, below, area in sorted(reaches, key=lambda each: each[0]):

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+from paper_picture import page_pixels
 
 from station.core.pieces import Piece
 from station.drills.library import find_lesson
@@ -13,21 +14,25 @@ from station.music.judgement import Label
 from station.render.camera import NamedView
 from station.render.files.png_file import write_png
 from station.render.framing import named
+from station.render.notation.sheet import PAPERS, sheet
 from station.render.picture import PictureMaker
 from station.render.quality import QUALITIES
 from station.render.report.report_picture import draw_report_png
 from station.render.report.result_facts import ResultWords, result_facts
 from station.render.snapshot import Hud, SeenStrike, Snapshot, TimingCue, no_marks
+from station.scenes.sheets import lesson_labels
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL
 
 SIZE = (960, 540)
 HERE = Path(__file__).parent
 LESSON = "rock-2"
+SHEET = "rock-endings-1"
 POSITION_S = 4.05
 
 
 def main() -> None:
-    """A demonstration from the front, a pass from the drummer's eyes, a result."""
+    """A demonstration from the front, a pass from the drummer's eyes, a result, a sheet."""
+    draw_sheet(SHEET)
     lesson = find_lesson(LESSON)
     score = lesson.loop_score.repeated(3)
     kit, figure = load_kit(), figure_of()
@@ -69,6 +74,14 @@ def main() -> None:
     )
     right = (label == Label.MATCH) & (np.abs(late_ns) <= 1e6 * DEFAULT_LEVEL.edges_ms[-1])
     draw_report_png(result_facts(score, label, late_ns, right, np.empty(0), words), HERE / "result.png", (960, 600))
+
+
+def draw_sheet(name: str) -> None:
+    """The first page of a lesson's sheet."""
+    lesson = find_lesson(name)
+    score, size = lesson.played_once, PAPERS["a4"]
+    words = lesson_labels(lesson, (0, score.bar_count - 1))
+    write_png(page_pixels(sheet(score, words, size)[0], size, 1.25), HERE / "sheet.png")
 
 
 if __name__ == "__main__":

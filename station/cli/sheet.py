@@ -1,11 +1,12 @@
 """`station sheet SCORE --out FILE.pdf`: a score on paper, for the music stand."""
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from station.cli.console import say
 from station.cli.input.find_own_lesson import find_any_lesson
-from station.cli.input.read_scores import is_lesson, load_score
+from station.cli.input.read_scores import is_lesson, load_part
 from station.cli.options.option_fields import Command, argument, choice, flag, option, required, whole_number
 from station.core.errors import BadInput
 from station.core.files import write_whole
@@ -19,7 +20,7 @@ PAPERS = ("a4", "letter")
 class SheetOptions:
     """What is engraved, and how."""
 
-    score: str = argument("SCORE", "a lesson, a MIDI file, a text score or a take", str)
+    score: str = argument("SCORE", "a lesson, a file of music or a take", str)
     out: Path = required("FILE.pdf", "the file to write", Path)
     start_bar: int = option("A", "the first bar, from 1 (1)", whole_number, 1)
     end_bar: int | None = option("B", "the last bar (the score's)", whole_number, None)
@@ -29,21 +30,24 @@ class SheetOptions:
 
 def run(options: SheetOptions) -> int:
     """Engrave it and write the file."""
-    from station.scenes.sheets import lesson_labels, pdf_of, score_labels
+    from station.scenes.sheets import lesson_labels, on_grid, part_labels, pdf_of
 
     out = options.out
     if out.suffix.lower() != ENDING:
         raise BadInput(out, "", f"expected a name that ends in {ENDING}")
-    lesson = find_any_lesson(options.score) if is_lesson(options.score) else None
-    score = load_score(options.score) if lesson is None else lesson.played_once
+    if is_lesson(options.score):
+        lesson = find_any_lesson(options.score)
+        score, labels = lesson.played_once, partial(lesson_labels, lesson)
+    else:
+        part = on_grid(load_part(options.score))
+        score, labels = part.score, partial(part_labels, part, name=Path(options.score).stem)
     first = options.start_bar
     last = score.bar_count if options.end_bar is None else options.end_bar
     if not 1 <= first <= last <= score.bar_count:
         fault = f"expected bars within 1-{score.bar_count}, the first before the last"
         raise BadInput("--start-bar, --end-bar", f"{first}-{last}", fault)
     bars = first - 1, last - 1
-    words = score_labels(score, bars, Path(options.score).stem) if lesson is None else lesson_labels(lesson, bars)
-    write_whole(out, pdf_of(score, bars, words, options.paper, not options.no_sticking))
+    write_whole(out, pdf_of(score, bars, labels(bars), options.paper, not options.no_sticking))
     say(f"sheet  {out}")
     return 0
 

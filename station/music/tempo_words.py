@@ -1,5 +1,6 @@
 """Tempo changes as people write them: a new tempo, or accelerando and ritardando where many small steps go one way."""
 
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -13,6 +14,10 @@ _MOST_GAP = PPQ
 """Steps of a ramp are no farther apart than a quarter note (our choice; lessons step four times a beat)."""
 _EVEN = 1.6
 """A step so many times as large as the one before is none of the ramp's (our choice: even ramps differ by rounding)."""
+
+_WAVERING = 0.05
+"""A tempo that holds, or a ramp that lasts, for less than a bar and is so near to what was written before is no new one
+(our choice: twice the 2.5 % that listeners notice, Friberg & Sundberg 1995)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +33,20 @@ class TempoWord:
 def tempo_words(tempo_map: TempoMap) -> list[TempoWord]:
     """What is to be written of the changes after tick 0, in order."""
     return [word for run in _runs(tempo_map.tempos) for word in _words(run, tempo_map)]
+
+
+def read_tempo_words(tempo_map: TempoMap) -> list[TempoWord]:
+    """Those that somebody reads who plays from a staff: how a played tempo wavers is left out."""
+    changes = [change.tick for change in tempo_map.tempos]
+    found, holds = list[TempoWord](), _bpm(tempo_map.tempos[0])
+    for word in tempo_words(tempo_map):
+        after = bisect_right(changes, word.tick)
+        until = word.until or (changes[after] if after < len(changes) else None)
+        is_short = until is not None and until - word.tick < tempo_map.meter_at(word.tick).bar_ticks
+        if not is_short or abs(word.tempo_bpm / holds - 1) >= _WAVERING:
+            found.append(word)
+            holds = word.tempo_bpm
+    return found
 
 
 def _runs(changes: Sequence[TempoChange]) -> Iterator[list[TempoChange]]:

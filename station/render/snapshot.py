@@ -127,12 +127,14 @@ def mark(marks: NDArray[np.void], judgement: Judgement, loudness: bool = True) -
 class BarNumbers:
     """How a score's bars are numbered: from `first` (from 0), anew after every `per_pass` bars, `passes` times.
 
-    0 bars: never; without `passes`: always. What follows the last pass is numbered on from there.
+    0 bars: never; without `passes`: always. What follows the last pass is numbered on from there. `sections` are names
+    by the bar of a pass, from 0, where they begin.
     """
 
     first: int = 0
     per_pass: int = 0
     passes: int | None = None
+    sections: tuple[tuple[int, str], ...] = ()
 
     def of(self, bar: int) -> int:
         """The number, from 1, of the score's `bar`, from 0."""

@@ -19,6 +19,7 @@ from station.render.report.report_picture import draw_report_png
 from station.render.snapshot import BarNumbers, ExtraHit, Hud, Snapshot, mark, no_marks
 from station.scenes.demonstrator import Demonstrator, as_taught, demonstrator_of
 from station.scenes.result_tables import session_facts
+from station.scenes.section_names import section_names
 from station.scoring.matching.alignment import judgements
 from station.scoring.matching.right import right_notes
 
@@ -44,7 +45,8 @@ def drummer_of(result: SessionResult, demonstrator: Demonstrator) -> Drummer:
 def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) -> None:
     """The last pass of a session, half into its first bar, every note with its judgement; raises `DeviceError`."""
     plan = result.plan
-    numbers = BarNumbers(plan.first_bar, plan.section.bar_count, plan.passes)
+    names = section_names(plan.lesson.sections, plan.first_bar, plan.section.bar_count)
+    numbers = BarNumbers(plan.first_bar, plan.section.bar_count, plan.passes, names)
     tempo_map = result.score.tempo_map
     tempo_map, last = result.score.tempo_map, plan.pass_starts[-1]
     begin_s, end_s = tempo_map.seconds_at([tempo_map.bar_start(last), tempo_map.bar_start(last + 1)]).tolist()

@@ -28,6 +28,7 @@ from station.drills.transcription.loudness_levels import with_dynamics
 from station.drills.transcription.ornament_finder import FoundOrnaments, found_ornaments
 from station.drills.transcription.reach import Reach, within_reach
 from station.drills.transcription.ringing import with_lengths
+from station.drills.transcription.stated_swing import stated_times
 from station.drills.transcription.sticking_proposal import with_sticking
 from station.drills.transcription.tempo_steps import steady
 from station.drills.writing.lesson_form import LessonForm
@@ -72,7 +73,8 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     ornaments = found_ornaments(part.score, graces_of(part.score) if part.score.is_grace.any() else None)
     mains, empty_bars = _from_its_first_bar(part.score, ornaments)
     part = replace(part, sections=_earlier(part.sections, empty_bars))
-    times = quantised_times(mains, part.is_played)
+    is_stated = part.swing.stands_in_words and bool(mains.notes["swing_ticks"].any())
+    times = stated_times(mains, part.swing) if is_stated else quantised_times(mains, part.is_played)
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
     strokes, velocities = with_dynamics([as_letter(note) for note in score])
     strokes = unified(strokes) if times.spread_ms else strokes

@@ -5,13 +5,13 @@ musicians read it. Each D.C. or D.S. is followed once. Where it says what follow
 heeded; where it does not, the first that comes.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from station.core.errors import BadInput
 
-MOST_BARS = 10_000
-"""Bars as played (our choice: three hours and more)."""
+MOST_BARS = 5_000
+"""Bars as played (our choice: close to three hours of fours at 120)."""
 
 
 AL_FINE, TO_THE_END = "al fine", "to the end"
@@ -102,8 +102,13 @@ class _Signposts:
         """Where to go on after `bar` if not with the next, and until what from there; `taken` grows by the jump."""
         signs = self._bars[bar]
         if signs.to_coda is not None and taken and until in (None, signs.to_coda):
-            return self._codas.get(signs.to_coda), TO_THE_END if until else None
+            return _labelled(self._codas, signs.to_coda), TO_THE_END if until else None
         if bar in taken or not (signs.da_capo or signs.dal_segno is not None):
             return None, None
         taken.add(bar)
-        return 0 if signs.da_capo else self._segnos.get(signs.dal_segno or ""), signs.until
+        return 0 if signs.da_capo else _labelled(self._segnos, signs.dal_segno or ""), signs.until
+
+
+def _labelled(places: Mapping[str, int], label: str) -> int | None:
+    """The bar with this label; where none has it, the only one there is, for not every program labels both ends."""
+    return places.get(label, next(iter(places.values())) if len(places) == 1 else None)

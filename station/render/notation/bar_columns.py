@@ -30,8 +30,8 @@ _NOTES_Y = (-5.3, 4.2)
 _TOP, _BAND, _BANDS = -10.0, 0.5, 44
 """The bands in which room is measured, from the highest down, and how high each is."""
 _STAFF_BANDS = slice(round((-2.0 - _TOP) / _BAND), round((2.0 - _TOP) / _BAND))
-_STRETCH_STEPS = 40
-"""Halvings of the interval in which the stretch of a line is sought: to a millionth of a space."""
+_STRETCH_STEPS = 26
+"""Halvings of the interval in which the stretch of a line is sought: to a hundred-thousandth of a space."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -66,9 +66,12 @@ class BarColumns:
 
 
 def bar_columns(
-    shapes: NDArray[np.void], length_s: float, ticks_at: Callable[[Floats], NDArray[np.int64]], before: float
+    shapes: NDArray[np.void],
+    length_s: float,
+    ticks_at: Callable[[Floats], NDArray[np.int64]],
+    beside: tuple[float, float] = (0.0, 0.0),
 ) -> BarColumns:
-    """The columns of an engraved bar `length_s` long, with so much standing `before` its notes.
+    """The columns of an engraved bar `length_s` long; so much stands `beside` its notes, before and after them.
 
     `shapes` (n,) of `draw_list.SHAPE_DTYPE`, their times and those of `ticks_at`, which says where in the score a time
     is, from the bar's start.
@@ -80,7 +83,7 @@ def bar_columns(
     left, right = _extents(still, times_s)
     ticks = ticks_at(np.append(times_s, length_s))
     doublings = np.log2(np.maximum(np.diff(ticks), _SHORTEST) / (PPQ / 2))
-    inset, least = _packed(left, right, before)
+    inset, least = _packed(left, right, beside)
     is_silent = len(times_s) == 2 and not np.isfinite(right[0]).any() and abs(2 * times_s[1] - length_s) < 1e-3
     return BarColumns(times_s, least, np.maximum(_EIGHTH + _DOUBLED * doublings, 0.0), inset, is_silent)
 
@@ -106,8 +109,9 @@ def _extents(shapes: NDArray[np.void], times_s: Floats) -> tuple[Floats, Floats]
     return left, right
 
 
-def _packed(left: Floats, right: Floats, before: float) -> tuple[float, Floats]:
+def _packed(left: Floats, right: Floats, beside: tuple[float, float]) -> tuple[float, Floats]:
     """How near to the bar line the first column stands, and each next one to the one before it, the last to the end."""
+    before, after = beside
     reached = np.zeros(_BANDS)
     reached[_STAFF_BANDS] = before + _LINE_AIR - _AIR
     inset = x = max(before + _INSET, float((reached + _AIR + left[0]).max()))
@@ -118,7 +122,7 @@ def _packed(left: Floats, right: Floats, before: float) -> tuple[float, Floats]:
         least.append(near - x)
         x = near
     reached = np.maximum(reached, x + right[-1])
-    reached[_STAFF_BANDS] += _LINE_AIR
+    reached[_STAFF_BANDS] += _LINE_AIR + after
     least.append(max(float(reached.max()) - x, 0.0))
     return inset, np.array(least)
 

@@ -16,6 +16,8 @@ _DOT_GAP, _DOT = 0.45, 0.19
 _DOT_YS = (-0.5, 0.5)
 REPEAT_WIDTH = _THICK + _GAP + THIN + _DOT_GAP + _DOT
 """What a repeat sign takes on its side of the line."""
+_SLIM, _SLIM_DOT_X, _SLIM_DOT = 0.34, 0.47, 0.16
+"""Within two thirds of a space on either side, where a bar line has a head to its right (our choice)."""
 _VOLTA_HOOK, _VOLTA_LINE = 1.5, 0.13
 _VOLTA_TEXT = TypeStyle(1.4, INK, Face.BOLD)
 
@@ -46,6 +48,15 @@ def draw_bar_line(draw_list: DrawList, x: float, line: BarLine, colour: Colour =
         _sign(draw_list, x, 1, colour)
 
 
+def line_width(line: BarLine) -> float:
+    """What a bar line takes to the left of its place beyond what a plain one does."""
+    if line in (BarLine.REPEAT_END, BarLine.REPEAT_BOTH):
+        return REPEAT_WIDTH
+    if line is BarLine.FINAL:
+        return _THICK + _GAP + THIN
+    return _GAP + THIN if line is BarLine.DOUBLE else 0.0
+
+
 def _upright(draw_list: DrawList, x: float, width: float, colour: Colour) -> None:
     draw_list.line((x, -2.0), (x, 2.0), width, colour)
 
@@ -57,6 +68,18 @@ def _sign(draw_list: DrawList, x: float, way: int, colour: Colour, has_dots: boo
     if has_dots:
         for y in _DOT_YS:
             draw_list.ellipse((x + way * (REPEAT_WIDTH - _DOT), y), (_DOT, _DOT), colour)
+
+
+def draw_slim_line(draw_list: DrawList, x: float, line: BarLine, colour: Colour) -> None:
+    """A bar line where time leaves no room: of a repeat sign the thick line, slimmer, and its dots, close to it."""
+    if line in (BarLine.PLAIN, BarLine.DOUBLE, BarLine.FINAL):
+        draw_bar_line(draw_list, x, line, colour)
+        return
+    _upright(draw_list, x, _SLIM, colour)
+    ways = {BarLine.REPEAT_START: (1,), BarLine.REPEAT_END: (-1,), BarLine.REPEAT_BOTH: (1, -1)}[line]
+    for way in ways:
+        for y in _DOT_YS:
+            draw_list.ellipse((x + way * _SLIM_DOT_X, y), (_SLIM_DOT, _SLIM_DOT), colour)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,23 +7,24 @@ of an ending over its bars in every pass. Units are staff spaces, y down, x from
 from station.core.units import PPQ
 from station.music.repeats import Passage, folded
 from station.music.score import Score
-from station.music.tempo_words import TempoWord, tempo_words
-from station.render.notation.bar_lines import BarLine, Volta, draw_volta
+from station.music.tempo_words import TempoWord, read_tempo_words
+from station.render.notation.bar_lines import BarLine, Volta, draw_slim_line, draw_volta
 from station.render.notation.beams import Anchor
 from station.render.notation.beat_note import draw_beat_note
 from station.render.notation.sheet_words import RAMPS
 from station.render.notation.swing_words import draw_swing_mark, swing_marks
 from station.render.palette import BRAND, INK_SOFT
 from station.render.snapshot import BarNumbers
-from station.render.text.draw_list import TypeStyle
+from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 
-_LINE_X, _BOTH_X = -1.25, -2.1
-"""Where a bar line stands, and the middle of two repeat signs, whose dots keep off the first note."""
+_LINE_X = -1.25
+"""Where a bar line stands."""
 _NUMBER_X = 0.35
 """A bar's number begins so far left of its line: clear of what stands over the first beat."""
-_VOLTA_UP, _VOLTA_END = 1.25, -1.9
-"""The bracket of an ending stands so far above the words' line, its number among them, and ends before the next bar."""
+_VOLTA_UP, _VOLTA_ENDS = 1.25, (-1.95, -2.4)
+"""The bracket of an ending stands so far above the words' line, its number among them, and from the bar's own number to
+that of the next one."""
 _NUMBER, _WORD, _ENDING = (
     TypeStyle(1.25, INK_SOFT, Face.BOLD),
     TypeStyle(1.5, BRAND, Face.BOLD),
@@ -38,19 +39,19 @@ class BarSigns:
 
     def __init__(self, score: Score, numbers: BarNumbers, beat_ticks: int) -> None:
         self._score, self._numbers, self._beat_ticks = score, numbers, beat_ticks
-        self._tempo_words = tempo_words(score.tempo_map)
+        self._tempo_words = read_tempo_words(score.tempo_map)
         self._new_meters = {meter.tick for meter in score.tempo_map.meters if meter.tick > 0}
         self._swing = swing_marks(score)
         self._voltas = _voltas(score, numbers)
 
-    def line(self, bar: int) -> tuple[float, BarLine]:
-        """Where the line on the left of `bar` stands, and which it is."""
+    def draw_line(self, draw_list: DrawList, bar: int) -> None:
+        """The line on the left of `bar`."""
         begins, ends = self._begins_pass(bar), self._ends_pass(bar)
-        if begins and ends:
-            return _BOTH_X, BarLine.REPEAT_BOTH
+        line = BarLine.FINAL if bar == self._score.bar_count else BarLine.PLAIN
         if begins or ends:
-            return (_BOTH_X, BarLine.REPEAT_START) if begins else (_LINE_X, BarLine.REPEAT_END)
-        return _LINE_X, BarLine.FINAL if bar == self._score.bar_count else BarLine.PLAIN
+            both = BarLine.REPEAT_BOTH if begins and ends else BarLine.REPEAT_START
+            line = both if begins else BarLine.REPEAT_END
+        draw_slim_line(draw_list, _LINE_X, line, INK_SOFT)
 
     def _begins_pass(self, bar: int) -> bool:
         """Whether a pass of a loop begins with the bar."""
@@ -109,7 +110,7 @@ class BarSigns:
         (x, y), bracket = at, Volta("", volta.opens, volta.closes)
         anchor.at(ticks[0])
         anchor.until(ticks[1])
-        draw_volta(anchor.draw_list, (_LINE_X, _VOLTA_END), y - _VOLTA_UP, bracket, BRAND)
+        draw_volta(anchor.draw_list, _VOLTA_ENDS, y - _VOLTA_UP, bracket, BRAND)
         anchor.draw_list.span_s = 0.0
         return anchor.draw_list.text(volta.text, (x + 0.2, y), _ENDING) if volta.text else 0.0
 
@@ -118,7 +119,7 @@ def _voltas(score: Score, numbers: BarNumbers) -> dict[int, Volta]:
     """The brackets over the bars as they are played, each with the pass that it is."""
     loop = numbers.per_pass or score.bar_count
     found, start = dict[int, Volta](), 0
-    for passage in folded(score.bars(0, min(loop, score.bar_count) - 1)):
+    for passage in folded(score.bars(0, min(loop, score.bar_count) - 1), dict(numbers.sections)):
         for number in range(passage.times):
             if passage.endings:
                 end = start + (number + 1) * passage.pass_length

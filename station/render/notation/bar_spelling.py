@@ -206,14 +206,3 @@ def _pair(one: BeatGroup, other: BeatGroup) -> BeatGroup:
     if one.strokes:
         return BeatGroup(one.start, other.end, one.strokes + other.strokes, ())
     return BeatGroup(one.start, other.end, (), (TimedValue(one.start, _LONG[other.end - one.start]),))
-
-
-def gaps(groups: Sequence[BeatGroup], length: int) -> list[tuple[int, int]]:
-    """Where the values of a voice do not follow each other to the bar's end: from and to which tick."""
-    found, at = list[tuple[int, int]](), 0.0
-    for group in groups:
-        for value in group.values:
-            if abs(value.tick - at) > 2:
-                found.append((round(at), value.tick))
-            at += float(group.time_of(value))
-    return found if abs(at - length) <= 2 else [*found, (round(at), length)]

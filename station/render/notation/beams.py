@@ -25,10 +25,9 @@ _GAP, _HOOK = 0.2, 0.5
 
 @dataclass(frozen=True, slots=True)
 class StaffVoice:
-    """Hands or feet: `way` −1 stems up, +1 stems down; `rest_y` where its rests stand."""
+    """Hands or feet: `way` −1 stems up, +1 stems down."""
 
     way: int
-    rest_y: float
 
     @property
     def is_up(self) -> bool:
@@ -41,7 +40,7 @@ class StaffVoice:
         return -self.way * STEM_X
 
 
-HANDS, FEET = StaffVoice(-1, 0.0), StaffVoice(1, 2.5)
+HANDS, FEET = StaffVoice(-1), StaffVoice(1)
 
 
 @dataclass(frozen=True, slots=True)

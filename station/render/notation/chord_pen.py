@@ -18,18 +18,15 @@ from station.render.notation.chord_width import (
     GRACE,
     GRACE_GAP,
     GRACE_STEP,
-    LETTER_SIZE,
     heads_extent,
     sticking,
 )
 from station.render.notation.head_places import EDGE_X, PlacedHead, placed_heads
-from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_slur
+from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_letters, draw_slur
 from station.render.notation.note_values import TimedValue, Value
 from station.render.notation.staff import FOOT_PIECES, height, ledger_steps, step_of
 from station.render.notation.staff_rows import LETTER_LINE, STACK_GAP, StaffRows, stack_height, stacked_signs
 from station.render.palette import INK, INK_SOFT
-from station.render.text.draw_list import TypeStyle
-from station.render.text.fonts import Face
 from station.render.text.sign_outlines import BEAM_STEP, LEDGER_LINE, LEDGER_OUT, STEM, sign_box
 
 _BUZZ_OFF = 1.4
@@ -183,8 +180,7 @@ class ChordPen:
         y = self._rows.hands if voice.is_up else self._rows.feet
         for k, text in enumerate(sticking(self._notes[rows], self._limbs[rows], voice.is_up)):
             at = 0.0, y + voice.way * LETTER_LINE * k
-            shown = text + text[-1] * is_double
-            self._draw_list.text(shown, at, TypeStyle(LETTER_SIZE, INK, Face.BOLD, 0.5))
+            draw_letters(self._draw_list, text + text[-1] * is_double, at)
 
     # --- grace notes --------------------------------------------------------------------------------------------------
 

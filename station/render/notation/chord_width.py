@@ -1,4 +1,4 @@
-"""How far what is written at one moment reaches to the left and right of it: what a sheet's spacing must leave free.
+"""What stands beside and over the heads of a chord: how far they reach, and the sticking's letters.
 
 Units are staff spaces from the middle of a plain round head (`head_places`).
 """
@@ -11,11 +11,8 @@ from numpy.typing import NDArray
 from station.core.pieces import Dynamic, Limb, Piece
 from station.render.notation.head_places import EDGE_X, placed_heads
 from station.render.notation.staff import ledger_steps, step_of
-from station.render.text.fonts import Face, font
 from station.render.text.sign_outlines import LEDGER_OUT, sign_box
 
-LETTER_SIZE = 1.5
-"""Em of the sticking's letters: capitals one space high, as the smallest figures of the staff are (our choice)."""
 LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L", Limb.RIGHT_FOOT: "R", Limb.LEFT_FOOT: "L"}
 GRACE = 0.62
 """How large grace notes are: Gould has three quarters to two thirds; ours are read beside a full flag (our choice)."""
@@ -32,24 +29,6 @@ class Extent(NamedTuple):
     right: float
 
 
-def chord_extent(notes: NDArray[np.void], limbs: NDArray[np.int8], dots: int = 0, has_flag: bool = False) -> Extent:
-    """What the strokes `notes` (rows of a score, `NOTE_DTYPE`, all written at one tick) take beside that moment.
-
-    `limbs` (as many) write their sticking, `Limb.UNKNOWN` none; `dots` of the longest value among them; `has_flag`: a
-    stem that points up bears flags (no beam).
-    """
-    is_main = notes["lead_ms"] <= 0
-    left, right = heads_extent(notes[is_main])
-    right += dots * (DOT_GAP + sign_box("dot").width)
-    if has_flag:
-        right = max(right, EDGE_X + sign_box("flag_8").right)
-    left += graces_width(int((~is_main).sum()))
-    for letters in (*sticking(notes, limbs, is_up=True), *sticking(notes, limbs, is_up=False)):
-        half = letters_width(letters) / 2
-        left, right = max(left, half), max(right, half)
-    return Extent(left, right)
-
-
 def heads_extent(mains: NDArray[np.void]) -> Extent:
     """What the heads of main strokes take, with brackets, ledger lines and accents."""
     left = right = EDGE_X
@@ -64,11 +43,6 @@ def heads_extent(mains: NDArray[np.void]) -> Extent:
     return Extent(left, right)
 
 
-def graces_width(count: int) -> float:
-    """What so many grace notes take left of the heads."""
-    return GRACE_GAP + (count - 1) * GRACE_STEP + EDGE_X * GRACE + 0.1 if count else 0.0
-
-
 def sticking(notes: NDArray[np.void], limbs: NDArray[np.int8], is_up: bool) -> list[str]:
     """The letters over (`is_up`, the hands) or under a chord, from the staff outward; none where none are written.
 
@@ -80,12 +54,7 @@ def sticking(notes: NDArray[np.void], limbs: NDArray[np.int8], is_up: bool) -> l
     order = sorted(np.flatnonzero(is_main).tolist(), key=lambda i: steps[i])
     letters = [LETTERS[Limb(int(limbs[i]))] for i in order if limbs[i] in LETTERS and Limb(limbs[i]).is_hand == is_up]
     letters = list(dict.fromkeys(letters))
-    early = np.flatnonzero(~is_main)[np.argsort(-notes["lead_ms"][~is_main], kind="stable")] if is_up else []
+    early = np.flatnonzero(~is_main & is_up)
+    early = early[np.argsort(-notes["lead_ms"][early], kind="stable")]
     graces = "".join(LETTERS[Limb(int(limbs[i]))].lower() for i in early if limbs[i] in LETTERS)
     return [graces + letters[0], *letters[1:]] if letters else [graces] * bool(graces)
-
-
-def letters_width(letters: str) -> float:
-    """How wide a row of the sticking's letters is."""
-    face = font(Face.BOLD)
-    return sum(face.outline(letter).advance for letter in letters) * LETTER_SIZE

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from station.core.units import PPQ
 from station.music.score import Score
-from station.render.notation.bar_lines import draw_bar_line
 from station.render.notation.bar_signs import BarSigns
 from station.render.notation.beams import FEET, HANDS, Anchor
 from station.render.notation.chord_pen import Chord, ChordPen
@@ -23,7 +22,6 @@ from station.render.notation.rests import draw_rest
 from station.render.notation.staff_rows import closing_hats, shown_limbs, staff_rows
 from station.render.notation.voice_pen import BarSpan, VoicePen
 from station.render.notation.written_strokes import feet_of, written_strokes
-from station.render.palette import INK_SOFT
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import DrawList
@@ -154,7 +152,7 @@ class _BarEngraver:
     def _bar_line(self) -> None:
         self._anchor.at(self._start)
         if self._with_line:
-            draw_bar_line(self._draw_list, *self._e.signs.line(self._bar), INK_SOFT)
+            self._e.signs.draw_line(self._draw_list, self._bar)
             self._e.signs.draw_words(self._anchor, self._bar, self._e.rows_y.words)
 
     def _bar_rest(self, beside: bool) -> None:

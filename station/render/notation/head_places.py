@@ -7,12 +7,13 @@ on a hand's goes to the far side of its own stem.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Articulation, Dynamic, Piece, Zone
+from station.music.score import Score
 from station.render.notation.staff import FOOT_PIECES, NoteHead, head_of, step_of
 from station.render.text.sign_outlines import sign_box
 
@@ -88,16 +89,32 @@ def _stem_half(head: NoteHead) -> float:
 
 def placed_heads(mains: NDArray[np.void]) -> list[PlacedHead]:
     """The heads of the strokes `mains` (rows of one tick, both voices, without grace strokes), in their order."""
-    found = [_plain(row) for row in mains]
+    kinds = zip(*(mains[name].tolist() for name in ("piece", "zone", "articulation")), strict=True)
+    return list(_placed(tuple(kinds), tuple(map(is_ghost, mains))))
+
+
+def heads_x(score: Score) -> NDArray[np.float64]:
+    """Where the head of each stroke stands beside its time, shape (n,); grace strokes at 0."""
+    found = np.zeros(len(score))
+    mains = np.flatnonzero(~score.is_grace)
+    _, firsts = np.unique(score.notes["tick"][mains], return_index=True)
+    for rows in np.split(mains, firsts[1:]):
+        found[rows] = [head.x for head in placed_heads(score.notes[rows])]
+    return found
+
+
+@lru_cache(maxsize=4096)
+def _placed(kinds: tuple[tuple[int, int, int], ...], ghosts: tuple[bool, ...]) -> tuple[PlacedHead, ...]:
+    found = [_head_alone(*kind) for kind in kinds]
     placed: list[PlacedHead] = []
     for i in sorted(range(len(found)), key=lambda i: _order(found[i])):
         near = [o for o in placed if _cover(o, found[i])]
         if not all(map(_is_displaced, near)):
             found[i] = replace(found[i], x=_displaced_x(found[i], near))
         placed.append(found[i])
-    for cluster in _ghost_clusters(found, [is_ghost(row) for row in mains]):
+    for cluster in _ghost_clusters(found, ghosts):
         found[cluster[0]] = replace(found[cluster[0]], brackets=_brackets([found[k] for k in cluster], found))
-    return found
+    return tuple(found)
 
 
 def _cover(a: PlacedHead, b: PlacedHead) -> bool:
@@ -106,11 +123,6 @@ def _cover(a: PlacedHead, b: PlacedHead) -> bool:
     return apart <= _SECOND or (apart == _SECOND + 1 and {a.head, b.head} == {NoteHead.SLASHED, NoteHead.HEAVY_CROSS})
 
 
-def _plain(row: np.void) -> PlacedHead:
-    return _head_alone(int(row["piece"]), int(row["zone"]), int(row["articulation"]))
-
-
-@cache
 def _head_alone(of: int, where: int, how: int) -> PlacedHead:
     """The head of a piece, a zone and an articulation where it stands alone."""
     piece = Piece(of)

@@ -121,7 +121,7 @@ class Highway:
         if abs(asynchrony_ms) > ON_TIME_MS:
             way = 1.0 if asynchrony_ms > 0 else -1.0
             draw_list.triangle((way * 0.30, y), (0.09, 0.16), timing_colour(asynchrony_ms), 0.0 if way > 0 else np.pi)
-        draw_dynamics(draw_list, louder_db, y, _WEDGE_SIZE)
+        draw_dynamics(draw_list, louder_db, (0.0, y), _WEDGE_SIZE)
 
     def _letter(self, i: int) -> str:
         limbs = self.snapshot.limbs

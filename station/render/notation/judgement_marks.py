@@ -26,32 +26,34 @@ _WEDGE_AWAY = 1.6
 _WEDGE = 0.42
 
 
-def draw_mark(draw_list: DrawList, row: np.void, y: float, spaces_per_s: float) -> None:
-    """The judgement of one note whose head stands at height `y`."""
+def draw_mark(draw_list: DrawList, row: np.void, at: tuple[float, float], spaces_per_s: float) -> None:
+    """The judgement of one note whose head stands at `at`: beside its time, and its height."""
+    x, y = at
     label = Label(int(row["label"]))
     if label is Label.MISS:
-        draw_list.ellipse((0.0, y), (1.05, 1.05), MISSED, 0.0, (0.0, 0.2, 0.0))
-        draw_list.line((-0.75, y + 0.75), (0.75, y - 0.75), 0.2, MISSED)
+        draw_list.ellipse(at, (1.05, 1.05), MISSED, 0.0, (0.0, 0.2, 0.0))
+        draw_list.line((x - 0.75, y + 0.75), (x + 0.75, y - 0.75), 0.2, MISSED)
     elif label is Label.WRONG_PIECE:
-        draw_list.box((-1.0, y - 1.0), (2.0, 2.0), WRONG, None, (0.3, 0.2, 0.0))
+        draw_list.box((x - 1.0, y - 1.0), (2.0, 2.0), WRONG, None, (0.3, 0.2, 0.0))
     else:
-        _draw_timing(draw_list, float(row["asynchrony_ms"]), y, spaces_per_s)
+        _draw_timing(draw_list, float(row["asynchrony_ms"]), at, spaces_per_s)
 
 
-def _draw_timing(draw_list: DrawList, asynchrony_ms: float, y: float, spaces_per_s: float) -> None:
+def _draw_timing(draw_list: DrawList, asynchrony_ms: float, at: tuple[float, float], spaces_per_s: float) -> None:
+    x, y = at
     colour = timing_colour(asynchrony_ms)
     if np.isnan(asynchrony_ms):  # right, and its time is not told
-        draw_list.ellipse((0.0, y), (1.0, 0.86), colour, 0.0, (0.0, 0.22, 0.0))
+        draw_list.ellipse(at, (1.0, 0.86), colour, 0.0, (0.0, 0.22, 0.0))
         return
     shift = asynchrony_ms / 1000 * spaces_per_s * TICK_ZOOM
     if abs(asynchrony_ms) <= ON_TIME_MS:
-        draw_list.ellipse((0.0, y), (1.0, 0.86), colour, 0.0, (0.0, 0.22, 0.0))
-        draw_list.line((shift, y - 0.95), (shift, y + 0.95), 0.24, colour)
+        draw_list.ellipse(at, (1.0, 0.86), colour, 0.0, (0.0, 0.22, 0.0))
+        draw_list.line((x + shift, y - 0.95), (x + shift, y + 0.95), 0.24, colour)
     else:
         way = 1.0 if asynchrony_ms > 0 else -1.0
         tip = way * min(max(abs(shift), _NEAREST_ARROW), _FARTHEST_ARROW)
-        draw_list.ellipse((0.0, y), (1.0, 0.86), with_opacity(colour, 0.5), 0.0, (0.0, 0.16, 0.0))
-        draw_list.triangle((tip, y), (0.52, 0.66), colour, 0.0 if way > 0 else np.pi)
+        draw_list.ellipse(at, (1.0, 0.86), with_opacity(colour, 0.5), 0.0, (0.0, 0.16, 0.0))
+        draw_list.triangle((x + tip, y), (0.52, 0.66), colour, 0.0 if way > 0 else np.pi)
 
 
 def timing_colour(asynchrony_ms: float) -> Colour:
@@ -68,10 +70,10 @@ def off_db(written: int, error: float) -> float | None:
     return float(40 * np.log10(max(written + error, 1.0) / written))
 
 
-def draw_dynamics(draw_list: DrawList, louder_db: float | None, y: float, size: float = 1.0) -> None:
-    """The wedge of a note at height `y` that was `louder_db` off, if that is much; `size` units a staff space."""
+def draw_dynamics(draw_list: DrawList, louder_db: float | None, at: tuple[float, float], size: float = 1.0) -> None:
+    """The wedge of a note at `at` that was `louder_db` off, if that is much; `size` units a staff space."""
     if louder_db is None or abs(louder_db) < LOUD_OFF_DB:
         return
     up = louder_db > 0
-    at = (0.0, y - (_WEDGE_AWAY if up else -_WEDGE_AWAY) * size)
-    draw_list.triangle(at, (_WEDGE * size, _WEDGE * size), INK, -np.pi / 2 if up else np.pi / 2)
+    tip = (at[0], at[1] - (_WEDGE_AWAY if up else -_WEDGE_AWAY) * size)
+    draw_list.triangle(tip, (_WEDGE * size, _WEDGE * size), INK, -np.pi / 2 if up else np.pi / 2)

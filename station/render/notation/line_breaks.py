@@ -81,6 +81,11 @@ def lines(bars: Sequence[SetBar], width: float) -> list[list[BarBox]]:
     return found
 
 
+def line_count(bars: Sequence[SetBar], width: float) -> int:
+    """How many lines there are."""
+    return len(_breaks(bars, width))
+
+
 def _room(bars: Sequence[SetBar], first: int, after: int, width: float) -> float:
     """What a line from bar `first` up to `after` has for its bars."""
     return width - bars[first].lead - (bars[after].courtesy if after < len(bars) else 0.0)
@@ -99,8 +104,8 @@ def _boxes(columns: Sequence[BarColumns], first: int, stretch: float, room: floa
 def _breaks(bars: Sequence[SetBar], width: float) -> list[tuple[int, int]]:
     """First bar of each line and the one after its last."""
     count = len(bars)
-    eases = list(accumulate((bar.inside.width(1.0) for bar in bars), initial=0.0))
-    leasts = list(accumulate((bar.inside.narrowest for bar in bars), initial=0.0))
+    eases = list(accumulate((bar.columns.width(1.0) + bar.signature for bar in bars), initial=0.0))
+    leasts = list(accumulate((bar.columns.narrowest + bar.signature for bar in bars), initial=0.0))
     costs, befores = [0.0] + [inf] * count, [0] * (count + 1)
     for first in range(count):
         for after in range(first + 1, min(first + _MOST_BARS, count) + 1):

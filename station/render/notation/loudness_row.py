@@ -3,6 +3,7 @@
 Units are staff spaces, y down, 0 on the staff's middle line.
 """
 
+from station.core.units import PPQ
 from station.music.loudness_marks import GROW, LoudnessMark
 from station.music.score import Score
 from station.render.notation.beams import Anchor
@@ -15,6 +16,9 @@ _STEPS = 32
 """Its lines slope in so many level steps a bar, for time stretches level shapes alone: 0.02 spaces each."""
 _AFTER_WORD = 0.5
 """What it leaves free beside a word."""
+
+_FROM_LINE = PPQ // 100
+"""So much before its bar begins what comes over the bar line, in ticks: nothing that a screen shows."""
 
 
 def draw_loudness(anchor: Anchor, score: Score, bar: tuple[int, int], y: float) -> None:
@@ -49,6 +53,8 @@ def _hairpin(
         share = ((ticks[0] + ticks[1]) / 2 - pin.tick) / (until - pin.tick)
         open_by = _OPENING * (share if pin.sign == GROW else 1 - share)
         begin_x, end_x = (left * (1 - (k + side) / _STEPS) - right * (k + side) / _STEPS for side in (0, 1))
+        if k == 0 and pin.tick < bar[0]:
+            ticks[0] -= _FROM_LINE  # paper has the bar line and a new meter between: it begins there
         _level(anchor, (ticks[0], ticks[1]), (begin_x - 0.03, end_x + 0.03), (y - _RAISED, open_by))
 
 

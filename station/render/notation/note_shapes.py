@@ -5,6 +5,7 @@ Units are staff spaces, y down, 0 on the staff's middle line. Shapes and thickne
 """
 
 from collections.abc import Mapping
+from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
 
@@ -12,7 +13,8 @@ from station.music.tempo import MeterChange
 from station.render.notation.head_places import HEAD_SIGNS
 from station.render.notation.staff import NoteHead
 from station.render.palette import INK, INK_FAINT
-from station.render.text.draw_list import Colour, DrawList
+from station.render.text.draw_list import Colour, DrawList, TypeStyle
+from station.render.text.fonts import Face
 from station.render.text.sign_outlines import SLUR_END, SLUR_MIDDLE, STAFF_LINE, sign_box
 
 _HALF_HEADS: Mapping[NoteHead, str] = MappingProxyType(
@@ -37,12 +39,19 @@ STEM_FROM: Mapping[NoteHead, tuple[float, float]] = MappingProxyType(
 )
 """How far above a head's middle a stem that points up, and one that points down, begins; 0 for the others. Source:
 Bravura's metadata, `stemUpSE` and `stemDownNW`."""
-_GROUPS, _WIDEST = 0.75, 8.0
-"""A time signature with groups is set smaller, the smaller the more they are (our choice)."""
+_FIGURES, _GROUPS, _WIDEST = 0.96, 0.75, 8.0
+"""The font's 8 is a little higher than two spaces: figures so large do not touch each other. A time signature with
+groups is set smaller, the smaller the more they are (our choice)."""
 SIGNATURE_GAP = 0.8
 """What a time signature leaves free on either side at the least."""
+_LETTER = TypeStyle(1.5, INK, Face.BOLD)
+"""Capitals one space high, as the smallest figures of the staff are (our choice)."""
+_SMALL_LETTER = replace(_LETTER, size=1.05)
+"""As much smaller as grace notes are, a little more readable (our choice)."""
 _SLUR_STEPS = 10
 """A slur is drawn in so many straight pieces: none leaves the curve by a hundredth of a space."""
+_SLUR_OVERLAP = 0.2
+"""Each goes on over its ends by so much of its length, which closes the wedges between them."""
 
 
 def draw_head(draw_list: DrawList, head: NoteHead, at: tuple[float, float], scale: float, base: int = 4) -> None:
@@ -59,6 +68,17 @@ def draw_brackets(draw_list: DrawList, xs: tuple[float, float], y: float, scale:
         draw_list.sign(name, (x, y), INK, scale)
 
 
+def draw_letters(draw_list: DrawList, letters: str, at: tuple[float, float]) -> None:
+    """Letters of the sticking round `at`, on its baseline; those of grace strokes, in lower case, as small capitals.
+
+    A lower-case l of this typeface could be a capital i.
+    """
+    parts = [(letter.upper(), _LETTER if letter.isupper() else _SMALL_LETTER) for letter in letters]
+    x = at[0] - sum(draw_list.width(letter, style) for letter, style in parts) / 2
+    for letter, style in parts:
+        x += draw_list.text(letter, (x, at[1]), style)
+
+
 def draw_slur(draw_list: DrawList, ends: tuple[tuple[float, float], tuple[float, float]], bow: float) -> None:
     """A slur between two points, whose middle is `bow` lower (negative: higher) than they are."""
     (x0, y0), (x1, y1) = ends
@@ -66,10 +86,11 @@ def draw_slur(draw_list: DrawList, ends: tuple[tuple[float, float], tuple[float,
     for k in range(_SLUR_STEPS + 1):
         share = k / _SLUR_STEPS
         points.append((x0 + (x1 - x0) * share, y0 + (y1 - y0) * share + bow * 4 * share * (1 - share)))
-    for k, (start, end) in enumerate(pairwise(points)):
+    for k, ((ax, ay), (bx, by)) in enumerate(pairwise(points)):
         share = (k + 0.5) / _SLUR_STEPS
         width = SLUR_END + (SLUR_MIDDLE - SLUR_END) * 4 * share * (1 - share)
-        draw_list.line(start, end, width, INK)
+        over_x, over_y = (bx - ax) * _SLUR_OVERLAP, (by - ay) * _SLUR_OVERLAP
+        draw_list.line((ax - over_x, ay - over_y), (bx + over_x, by + over_y), width, INK)
 
 
 def time_signature(draw_list: DrawList, meter: MeterChange, left: float) -> None:
@@ -87,7 +108,7 @@ def signature_width(draw_list: DrawList, meter: MeterChange) -> float:
 
 
 def _signature_scale(meter: MeterChange) -> float:
-    scale = _GROUPS if meter.groups else 1.0
+    scale = _GROUPS if meter.groups else _FIGURES
     return min(scale, _WIDEST / figures_width(str(meter).partition("/")[0]))
 
 

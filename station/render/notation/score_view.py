@@ -17,6 +17,7 @@ from station.render.gpu.shape_renderer import ShapeRenderer, Transform
 from station.render.notation import note_shapes
 from station.render.notation.engraving import Engraver
 from station.render.notation.free_strip import strip_paper, strip_shapes
+from station.render.notation.head_places import heads_x
 from station.render.notation.highway import LINE_SHARE, NAMES_SHARE, SHOWN_S, Highway, lane_height, lanes
 from station.render.notation.judgement_marks import draw_dynamics, draw_mark, off_db
 from station.render.notation.staff import PLACES, height
@@ -102,6 +103,8 @@ class ScoreView:
         self._led: Score | None = None
         self._reached: tuple[Score, NDArray[np.int8] | None] | None = None
         self._reach = _USUAL_REACH
+        self._headed: Score | None = None
+        self._heads_x = np.zeros(0)
         self._lead = _LEAST_LEAD
 
     def reach(self, snapshot: Snapshot) -> tuple[float, float]:
@@ -224,6 +227,12 @@ class ScoreView:
         note_shapes.time_signature(draw_list, snapshot.score.tempo_map.meter_at(tick), _SIGNATURE_X)
         return draw_list.shapes()
 
+    def _heads(self, score: Score) -> NDArray[np.float64]:
+        """Where each stroke's head stands beside its time."""
+        if self._headed is not score:
+            self._headed, self._heads_x = score, heads_x(score)
+        return self._heads_x
+
     # --- judgements ---------------------------------------------------------------------------------------------------
 
     def _judgements(self, snapshot: Snapshot, window_s: tuple[float, float], spaces_per_s: float) -> NDArray[np.void]:
@@ -235,10 +244,10 @@ class ScoreView:
             for i in range(int(first), int(last)):
                 if marks["label"][i] != PENDING and not score.is_grace[i]:
                     draw_list.time_s = float(score.tempo_map.seconds_at(score.notes["tick"][i]))
-                    y = height(PLACES[Piece(int(score.notes["piece"][i]))].step)
-                    draw_mark(draw_list, marks[i], y, spaces_per_s)
+                    at = float(self._heads(score)[i]), height(PLACES[Piece(int(score.notes["piece"][i]))].step)
+                    draw_mark(draw_list, marks[i], at, spaces_per_s)
                     draw_dynamics(
-                        draw_list, off_db(int(score.notes["velocity"][i]), float(marks["velocity_error"][i])), y
+                        draw_list, off_db(int(score.notes["velocity"][i]), float(marks["velocity_error"][i])), at
                     )
         for extra in snapshot.extras:
             if window_s[0] <= extra.time_s <= window_s[1]:

@@ -11,11 +11,11 @@ import numpy as np
 from station.core.pieces import Limb
 from station.core.units import PPQ
 from station.music.score import Score
-from station.music.tempo_words import tempo_words
+from station.music.tempo_words import read_tempo_words
 from station.render.notation.engraving import Engraver
-from station.render.notation.line_breaks import lines
+from station.render.notation.line_breaks import line_count, lines
 from station.render.notation.sheet_bars import sheet_bars
-from station.render.notation.sheet_key import KEY_HEIGHT, draw_key
+from station.render.notation.sheet_key import draw_key
 from station.render.notation.sheet_line import LineInk, LineSetter
 from station.render.notation.sheet_words import LineWord, TempoSign
 from station.render.notation.swing_words import SwingMark, swing_marks
@@ -96,7 +96,7 @@ class _SheetPages:
 
     def may_be_one(self, space: float) -> bool:
         """Whether all may be on one page, and on few lines where they are of the largest size."""
-        count = len(lines(self._bars, self._width / space))
+        count = line_count(self._bars, self._width / space)
         return count * _LEAST_LINE * space < self._size[1] and (space < SPACES[0] or count <= _FEW_LINES)
 
     def pages(self, space: float) -> list[Ink]:
@@ -104,21 +104,22 @@ class _SheetPages:
         found = [
             self._setter.line(boxes, self._bars, MARGIN, space) for boxes in lines(self._bars, self._width / space)
         ]
-        pages = self._filled(found, space)
+        key, key_height = self._key(space)
+        pages = self._filled(found, space, key_height)
         self._heads(pages)
         for page in pages:
             page.ink += [line.ink.moved(y) for y, line in page.lines]
-        pages[-1].ink.append(self._key(space))
+        pages[-1].ink.append(key)
         return [Ink.joined(page.ink) for page in pages]
 
     # --- lines on pages -----------------------------------------------------------------------------------------------
 
-    def _filled(self, found: Sequence[LineInk], space: float) -> list[_Page]:
+    def _filled(self, found: Sequence[LineInk], space: float, key_height: float) -> list[_Page]:
         """The lines from the top of the first page down, on as many pages as they need with the key below the last."""
         pages, bottom = [_Page(MARGIN + self._head_height())], self._size[1] - MARGIN
         gap = _BETWEEN * space
         for k, line in enumerate(found):
-            key = KEY_HEIGHT * space if k == len(found) - 1 else 0.0
+            key = key_height if k == len(found) - 1 else 0.0
             if pages[-1].y + line.bottom - line.top + key > bottom:
                 self._spread(pages[-1], space)
                 pages.append(_Page(MARGIN + _RUNNING_HEAD))
@@ -135,11 +136,12 @@ class _SheetPages:
         more = min(left / (len(page.lines) - 1), (_MOST_BETWEEN - _BETWEEN) * space)
         page.lines = [(y + k * more, line) for k, (y, line) in enumerate(page.lines)]
 
-    def _key(self, space: float) -> Ink:
+    def _key(self, space: float) -> tuple[Ink, float]:
+        """The key at the foot of a page, and how high it is."""
         draw_list = DrawList(self._atlas)
-        draw_key(draw_list, self._score, self._width / space, self._with_sticking)
-        top = self._size[1] - MARGIN - KEY_HEIGHT * space
-        return filled(draw_list.shapes(), self._atlas, PaperSpot((MARGIN, top), space))
+        key_height = space * draw_key(draw_list, self._score, self._width / space, self._with_sticking)
+        spot = PaperSpot((MARGIN, self._size[1] - MARGIN - key_height), space)
+        return filled(draw_list.shapes(), self._atlas, spot), key_height
 
     # --- heads and feet -----------------------------------------------------------------------------------------------
 
@@ -211,7 +213,7 @@ def _words_in_order(
         found.append((0, 0.0, LineWord(0.0, tempo=first)))
     found += [(bar, 0.0, LineWord(0.0, section=name)) for bar, name in words.sections]
     found += [(bar, 0.0, LineWord(0.0, swing=mark)) for bar, mark in swing.items()]
-    for change in tempo_words(tempo):
+    for change in read_tempo_words(tempo):
         if change.tick < score.end_tick:
             bar = int(tempo.bars_at(change.tick))
             at_s, start_s = tempo.seconds_at([change.tick, tempo.bar_start(bar)]).tolist()

@@ -112,7 +112,7 @@ def _with_lines(bars: list[SheetBar], starts: set[int]) -> list[SheetBar]:
     """A double line before a section, and the last line at the end."""
     found = [
         replace(bar, line=BarLine.DOUBLE)
-        if after.bar in starts and bar.line is BarLine.PLAIN and not after.opens_repeat
+        if after.bar in starts and bar.line is BarLine.PLAIN and not after.opens_repeat and after.volta is None
         else bar
         for bar, after in pairwise(bars)
     ]

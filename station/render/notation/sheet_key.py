@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,21 +11,22 @@ from station.core.labels import piece_name
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.music.loudness_marks import FADE, GROW
 from station.music.score import Score
-from station.render.notation.chord_width import LETTER_SIZE
 from station.render.notation.head_places import EDGE_X, HEAD_SIGNS
-from station.render.notation.note_shapes import draw_brackets, draw_head
+from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_letters
 from station.render.notation.staff import NoteHead, head_of, height, ledger_steps, step_of
 from station.render.notation.staff_rows import OPEN_FROM, WIDE_FROM, shown_limbs
+from station.render.notation.written_strokes import feet_of, written_strokes
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 from station.render.text.sign_outlines import HAIRPIN_LINE, LEDGER_LINE, LEDGER_OUT, STAFF_LINE, STEM, sign_box
 
-KEY_HEIGHT = 17.6
-_STAFF_Y = 4.6
-_NAMES_Y, _LINE = 9.4, 1.8
-_SIGNS_Y = 14.2
-_SLOT = 9.0
+_STAFF_Y, _NAMES_Y, _LINE = 4.6, 9.4, 1.8
+"""From the top of a row of notes to its staff's middle line and to the first line of names, and to the next line."""
+_AFTER_NAMES, _SIGN_ROW, _BELOW = 1.2, 2.8, 1.0
+"""Between the names and what follows, from one row of signs to the next, and below the last one's words."""
+_SLOT, _LEAST_SLOT = 9.0, 7.0
+"""What a note of the key takes across, and the least of it, which holds the longest word of a name."""
 _NAME = 1.45
 _BRACKETS_X = EDGE_X + sign_box("bracket_left").width / 2 + 0.03
 _GRACE, _GRACE_STEM = 0.62, 1.7
@@ -32,29 +34,40 @@ _GRACE, _GRACE_STEM = 0.62, 1.7
 Draw = Callable[[DrawList, tuple[float, float]], None]
 
 
-def draw_key(draw_list: DrawList, score: Score, width: float, with_sticking: bool) -> None:
-    """Draw the key, `width` wide, from y = 0 down to `KEY_HEIGHT`; nothing where nothing is used."""
+def draw_key(draw_list: DrawList, score: Score, width: float, with_sticking: bool) -> float:
+    """Draw the key, `width` wide, from y = 0 down; returns how far. Nothing where nothing is used."""
     used = list(notes_used(score))
     if not used:
-        return
-    slot = min(_SLOT, width / len(used))
-    _staff(draw_list, len(used) * slot)
+        return 0.0
+    rows = ceil(len(used) / max(int(width / _LEAST_SLOT), 1))
+    in_row = ceil(len(used) / rows)
+    slot, y = min(_SLOT, width / in_row), 0.0
+    for row in range(rows):
+        y = _notes_row(draw_list, used[row * in_row : (row + 1) * in_row], slot, y)
+    return _signs(draw_list, list(signs_used(score, with_sticking)), width, y + _SIGN_ROW / 2)
+
+
+def _notes_row(draw_list: DrawList, used: list[tuple[Piece, NoteHead, str]], slot: float, top: float) -> float:
+    """Notes on a staff with their names below; returns where the row ends."""
+    _staff(draw_list, len(used) * slot, top + _STAFF_Y)
+    style, most = TypeStyle(_NAME, INK, Face.REGULAR, 0.5), 1
     for k, (piece, head, name) in enumerate(used):
         x, step = (k + 0.5) * slot, step_of(piece)
         half = sign_box(HEAD_SIGNS[head]).width / 2 + LEDGER_OUT
         for line in ledger_steps(step):
-            ledger = _STAFF_Y + height(line)
+            ledger = top + _STAFF_Y + height(line)
             draw_list.line((x - half, ledger), (x + half, ledger), LEDGER_LINE, INK_SOFT)
-        draw_head(draw_list, head, (x, _STAFF_Y + height(step)), 1.0)
-        style = TypeStyle(_NAME, INK, Face.REGULAR, 0.5)
-        for row, words in enumerate(draw_list.broken(name, style, slot - 0.6)):
-            draw_list.text(words, (x, _NAMES_Y + _LINE * row), style)
-    _signs(draw_list, list(signs_used(score, with_sticking)), width)
+        draw_head(draw_list, head, (x, top + _STAFF_Y + height(step)), 1.0)
+        lines = draw_list.broken(name, style, slot - 0.6)
+        most = max(most, len(lines))
+        for row, words in enumerate(lines):
+            draw_list.text(words, (x, top + _NAMES_Y + _LINE * row), style)
+    return top + _NAMES_Y + _LINE * (most - 1) + _AFTER_NAMES
 
 
-def _staff(draw_list: DrawList, width: float) -> None:
+def _staff(draw_list: DrawList, width: float, middle: float) -> None:
     for k in range(-2, 3):
-        y = _STAFF_Y + k - STAFF_LINE / 2
+        y = middle + k - STAFF_LINE / 2
         draw_list.box((0.0, y), (width, STAFF_LINE), INK_SOFT)
 
 
@@ -96,6 +109,8 @@ def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
         yield partial(_graces, count=1), "flam"
     if (graced == Ornament.DRAG).any():
         yield partial(_graces, count=2), "drag"
+    if written_strokes(score, feet_of(score)).is_hidden.any():
+        yield _diddle, "two strokes, one hand"
     if (notes["articulation"] == Articulation.BUZZ).any():
         yield partial(_sign, name="buzz"), "buzz roll"
     if (notes["choke_ticks"] > 0).any():
@@ -132,17 +147,18 @@ def _sign(draw_list: DrawList, at: tuple[float, float], name: str) -> None:
     draw_list.sign(name, at, INK)
 
 
-def _signs(draw_list: DrawList, signs: list[tuple[Draw, str]], width: float) -> None:
-    """The signs side by side, in as many lines as they need."""
-    x, y = 0.0, _SIGNS_Y
+def _signs(draw_list: DrawList, signs: list[tuple[Draw, str]], width: float, top: float) -> float:
+    """The signs side by side from `top` down, in as many lines as they need; returns where they end."""
+    x, y = 0.0, top
     style = TypeStyle(_NAME, INK)
     for draw, words in signs:
         wide = 3.6 + draw_list.width(words, style) + 2.0
         if x + wide > width:
-            x, y = 0.0, y + 2.8
+            x, y = 0.0, y + _SIGN_ROW
         draw(draw_list, (x + 1.4, y))
         draw_list.text(words, (x + 3.6, y + 0.5), style)
         x += wide
+    return y + _BELOW if signs else top - _SIGN_ROW / 2
 
 
 def _ghost(draw_list: DrawList, at: tuple[float, float]) -> None:
@@ -153,6 +169,14 @@ def _ghost(draw_list: DrawList, at: tuple[float, float]) -> None:
 def _splash(draw_list: DrawList, at: tuple[float, float]) -> None:
     draw_head(draw_list, NoteHead.CROSS, (at[0], at[1] - 0.6), 1.0)
     draw_list.sign("hat_open", (at[0], at[1] + 0.8), INK)
+
+
+def _diddle(draw_list: DrawList, at: tuple[float, float]) -> None:
+    x, y = at[0] - EDGE_X, at[1] + 0.5
+    draw_head(draw_list, NoteHead.ROUND, (x, y), 1.0)
+    stem = x + EDGE_X - STEM / 2
+    draw_list.line((stem, y - STEM_FROM[NoteHead.ROUND][0]), (stem, y - 2.4), STEM, INK)
+    draw_list.sign("tremolo_1", (stem, y - 1.5), INK)
 
 
 def _hairpin(draw_list: DrawList, at: tuple[float, float], sign: str) -> None:
@@ -171,4 +195,5 @@ def _graces(draw_list: DrawList, at: tuple[float, float], count: int) -> None:
 
 
 def _letters(draw_list: DrawList, at: tuple[float, float]) -> None:
-    draw_list.text("R L", (at[0], at[1] + 0.5), TypeStyle(LETTER_SIZE, INK_SOFT, Face.BOLD, 0.5))
+    for letter, x in (("R", -0.7), ("L", 0.7)):
+        draw_letters(draw_list, letter, (at[0] + x, at[1] + 0.5))

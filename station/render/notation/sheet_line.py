@@ -13,7 +13,7 @@ from station.music.repeats import written_forms
 from station.music.score import Score
 from station.render.notation import note_shapes
 from station.render.notation.bar_columns import BarColumns, bar_columns
-from station.render.notation.bar_lines import REPEAT_WIDTH, THIN, BarLine, Volta, draw_bar_line
+from station.render.notation.bar_lines import REPEAT_WIDTH, THIN, BarLine, Volta, draw_bar_line, line_width
 from station.render.notation.engraving import Engraver
 from station.render.notation.line_breaks import BarBox, SetBar
 from station.render.notation.sheet_bars import SheetBar
@@ -27,6 +27,8 @@ Floats = NDArray[np.float64]
 _CLEF_X, _AFTER_CLEF = 0.8, 0.5
 _CLEF_END = _CLEF_X + note_shapes.CLEF_WIDTH
 _BEFORE_DUE = 0.6
+_OVER_LINE_S = 1e-4
+"""What begins so long before its bar, or longer, comes over the bar line and begins there."""
 _SIGNATURE_X = _CLEF_END + note_shapes.SIGNATURE_GAP
 
 
@@ -77,7 +79,7 @@ class LineSetter:
         )
 
     def _columns_of(self, bar: SheetBar) -> BarColumns:
-        key = (self._form(bar.bar), bar.opens_repeat)
+        key = (self._form(bar.bar), bar.opens_repeat, bar.line)
         if key not in self._columns:
             tempo = self._score.tempo_map
             ends = [tempo.bar_start(bar.bar), tempo.bar_start(bar.bar + 1)]
@@ -86,7 +88,7 @@ class LineSetter:
                 self._shapes(bar.bar, opens_line=False),
                 end_s - start_s,
                 lambda times_s: tempo.ticks_at(times_s + start_s),
-                REPEAT_WIDTH if bar.opens_repeat else 0.0,
+                (REPEAT_WIDTH if bar.opens_repeat else 0.0, line_width(bar.line)),
             )
         return self._columns[key]
 
@@ -135,8 +137,8 @@ class LineSetter:
         bar = self._bars[box.index]
         tempo = self._score.tempo_map
         ends = tempo.seconds_at([tempo.bar_start(bar.bar), tempo.bar_start(bar.bar + 1)])
-        times_s = np.append(self._columns_of(bar).times_s, ends[1] - ends[0])
-        return Ruler(times_s, lead + np.append(box.places, box.right))
+        times_s = [-_OVER_LINE_S, *self._columns_of(bar).times_s, ends[1] - ends[0]]
+        return Ruler(np.array(times_s), lead + np.array([box.left, *box.places, box.right]))
 
     def _signatures(self, staff: DrawList, boxes: Sequence[BarBox], lead: float) -> None:
         for box in boxes:

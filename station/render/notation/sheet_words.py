@@ -5,7 +5,7 @@ of endings stand over them, and above all one row of sections, tempi and swing, 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from station.core.units import PPQ
 from station.render.notation.bar_lines import Volta, draw_volta
@@ -29,6 +29,8 @@ _LOWEST = -2.9
 _VOLTA_HEIGHT = 1.7
 _FRAME, _FRAME_LINE = 0.45, 0.13
 """A section's name stands in a frame, so far off and so thick."""
+_LONGEST_NAME = 36.0
+"""A longer name is cut: half a line of the largest staff (our choice)."""
 RAMPS = {1: "accel. to", -1: "rit. to"}
 
 
@@ -52,8 +54,10 @@ class LineWord:
 
 
 def draw_number(draw_list: DrawList, skyline: Skyline, x: float, number: str) -> None:
-    """A bar's number above its left bar line."""
-    _low(draw_list, skyline, (x, x + draw_list.width(number, _NUMBER)), number, _NUMBER)
+    """A bar's number over the middle of its left bar line."""
+    width = draw_list.width(number, _NUMBER)
+    left = max(x - width / 2, 0.0)
+    _low(draw_list, skyline, (left, left + width), number, _NUMBER)
 
 
 def draw_times(draw_list: DrawList, skyline: Skyline, x: float, times: int) -> None:
@@ -64,7 +68,7 @@ def draw_times(draw_list: DrawList, skyline: Skyline, x: float, times: int) -> N
 
 def _low(draw_list: DrawList, skyline: Skyline, ends_x: tuple[float, float], text: str, style: TypeStyle) -> None:
     """A line of text as low as it goes."""
-    y = min(_LOWEST, skyline.top_over(*ends_x) - _AIR)
+    y = min(_LOWEST, skyline.top_over(ends_x[0] - _AIR, ends_x[1] + _AIR) - _AIR)
     draw_list.text(text, (ends_x[1] if style.align else ends_x[0], y), style)
     skyline.add(ends_x[0], ends_x[1], y - _CAPITAL * style.size, y)
 
@@ -80,8 +84,11 @@ def draw_voltas(draw_list: DrawList, skyline: Skyline, voltas: Sequence[tuple[fl
 
 
 def draw_words(draw_list: DrawList, skyline: Skyline, words: Sequence[LineWord]) -> None:
-    """The upper row; what would meet its neighbour on the left stands a row higher."""
-    ends = [word.x + _drawn(DrawList(draw_list.atlas), word, 0.0) for word in words]
+    """The upper row; what would meet its neighbour on the left stands a row higher, and nothing leaves the line."""
+    lengths = [_drawn(DrawList(draw_list.atlas), word, 0.0) for word in words]
+    most = [max(skyline.width - length, 0.0) for length in lengths]
+    words = [replace(word, x=min(word.x, x)) for word, x in zip(words, most, strict=True)]
+    ends = [word.x + length for word, length in zip(words, lengths, strict=True)]
     rows: list[float] = []
     row_of = []
     for word, end in zip(words, ends, strict=True):
@@ -90,7 +97,7 @@ def draw_words(draw_list: DrawList, skyline: Skyline, words: Sequence[LineWord])
         row_of.append(row)
     for row in range(len(rows)):
         chosen = [(word, end) for word, end, of in zip(words, ends, row_of, strict=True) if of == row]
-        y = min(_LOWEST, *(skyline.top_over(word.x, end) for word, end in chosen)) - _AIR - _FRAME
+        y = min(_LOWEST, *(skyline.top_over(word.x - _AIR, end + _AIR) for word, end in chosen)) - _AIR - _FRAME
         for word, end in chosen:
             _drawn(draw_list, word, y)
             skyline.add(word.x, end, y - _SECTION.size * _CAPITAL - _FRAME, y + _FRAME)
@@ -109,6 +116,7 @@ def _drawn(draw_list: DrawList, word: LineWord, y: float) -> float:
 
 
 def _framed(draw_list: DrawList, text: str, at: tuple[float, float]) -> float:
+    text = draw_list.fitted(text, _SECTION, _LONGEST_NAME)
     (x, y), width = at, draw_list.width(text, _SECTION) + 2 * _FRAME
     top, bottom = y - _CAPITAL * _SECTION.size - _FRAME, y + _FRAME
     for edge in (top, bottom):

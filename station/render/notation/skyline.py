@@ -16,6 +16,7 @@ class Skyline:
     """The upper and the lower edge of a line `width` long, at first those of the staff."""
 
     def __init__(self, width: float) -> None:
+        self.width = width
         count = max(int(np.ceil(width / _STEP)), 1)
         self._top: Floats = np.full(count, -STAFF_EDGE)
         self._bottom: Floats = np.full(count, STAFF_EDGE)

@@ -25,6 +25,8 @@ beyond the kick's."""
 _FLAGGED = 3.75
 """And so far beyond a head with flags, which are three and a quarter long: Gould's stems of 3½ spaces clear round
 heads, but not the corners of crosses."""
+_OVER_DOT = 0.25
+"""And as much farther where a dot stands half a space above the head, right of the stem."""
 _BARE_STAFF = 2.75
 """Where a voice without strokes has its edge: the staff's, and a head beside it."""
 _BEAMED, _UNDER_BEAM = 2.0, 1.0
@@ -109,15 +111,20 @@ def shown_limbs(score: Score, limbs: NDArray[np.int8]) -> NDArray[np.int8]:
 
 
 def stem_end(
-    heights: Sequence[float], is_up: bool, beams: int = 1, has_flags: bool = False, rests: Sequence[float] = ()
+    heights: Sequence[float],
+    is_up: bool,
+    beams: int = 1,
+    flagged_dots: int | None = None,
+    rests: Sequence[float] = (),
 ) -> float:
     """Where the stems of one group of chords end, flags and beams within, whose heads stand at `heights`.
 
-    `beams`: the most that a note of it has; `has_flags`: one of them bears flags; `rests`: the edges, towards the
-    stems' ends, of rests between its notes.
+    `beams`: the most that a note of it has; `flagged_dots`: how many dots has one that bears flags, None where none
+    does; `rests`: the edges, towards the stems' ends, of rests between its notes.
     """
     beam = BEAM_STEP * max(beams - 1, 0) + BEAM
-    beyond = max(_BEAMED, beam + _UNDER_BEAM, _FLAGGED + flag_overhang(beams) if has_flags else 0.0)
+    flagged = 0.0 if flagged_dots is None else _FLAGGED + flag_overhang(beams) + _OVER_DOT * (flagged_dots > 0)
+    beyond = max(_BEAMED, beam + _UNDER_BEAM, flagged)
     edges = [edge + (-1 if is_up else 1) * (beam + STACK_GAP) for edge in rests]
     if is_up:
         return min(_UP_BEAM_Y, min(heights) - beyond, *edges)
@@ -179,7 +186,7 @@ def _bar_reach(notes: NDArray[np.void], closing: NDArray[np.bool_], way: int) ->
     written = notes["tick"] - notes["swing_ticks"]
     beams = _most_beams(written)
     rests = [rest_edge(4 << k, way < 0, ()) for k in range(1, beams + 1)] if beams > _PLAIN_BEAMS else []
-    stem = stem_end(heights, way < 0, beams, has_flags=True, rests=rests)
+    stem = stem_end(heights, way < 0, beams, flagged_dots=1, rests=rests)
     has_tuplets = (written % _PLAIN_GRID != 0).any()
     return stem + way * (_tallest(notes, closing) + (TUPLET_HEIGHT if has_tuplets else 0.0))
 

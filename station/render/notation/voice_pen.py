@@ -144,8 +144,9 @@ class VoicePen:
         beams = max(value.value.beams for value in group.strokes)
         first, last = group.strokes[0].tick, group.strokes[-1].tick
         rests = [self._rest_edge(rest, voice) for rest in group.rests if first < rest.tick < last]
-        has_flags = any(a == b and group.strokes[a].value.beams for a, b in beam_runs(group))
-        return stem_end(heights, voice.is_up, beams, has_flags, rests)
+        flagged = [group.strokes[a].value for a, b in beam_runs(group) if a == b]
+        dots = max((value.dots for value in flagged), default=None)
+        return stem_end(heights, voice.is_up, beams, dots, rests)
 
     def _rest_edge(self, rest: TimedValue, voice: StaffVoice) -> float:
         others = self._pen.heads_at(self._bar.start + rest.tick, voice)

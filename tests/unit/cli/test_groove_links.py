@@ -28,6 +28,15 @@ def test_a_link_that_is_wrong_is_told_in_a_line(capsys: pytest.CaptureFixture[st
     assert "Div: expected how many cells a whole note has" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("percent", [10, 20, 30, 45])
+def test_its_swing_is_the_lessons(percent: int, tmp_path: Path) -> None:
+    out = tmp_path / "rock.toml"
+    assert main(["lesson", "import", f"{LINK}&Swing={percent}", "--out", str(out)]) == 0
+    lesson = read_lesson(out)
+    assert lesson.swing.ratio == pytest.approx((100 + percent) / (100 - percent), abs=1e-3)
+    assert "xx xx xx xx" in out.read_text()
+
+
 @pytest.mark.parametrize("ending", ["groove", "h2song", "h2pattern"])
 def test_a_lesson_goes_there_and_back(ending: str, tmp_path: Path) -> None:
     there, back = tmp_path / f"rock.{ending}", tmp_path / "back.toml"

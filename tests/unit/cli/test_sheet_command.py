@@ -7,8 +7,13 @@ from pathlib import Path
 import pytest
 
 from station.cli.command_line import main
+from station.cli.input.read_scores import load_part
+from station.core.units import PPQ
 from station.drills.library import find_lesson
-from station.scenes.sheets import lesson_labels
+from station.drills.writing.lesson_part import part_of
+from station.music.formats.format_table import writer_for
+from station.render.notation.swing_words import swing_marks
+from station.scenes.sheets import lesson_labels, on_grid
 from tests.unit.cli.test_cli import refused
 
 UNTITLED = bytes.fromhex("4d546864 00000006 0000 0001 01e0  4d54726b 0000000d 00 992640 8360 892640 00 ff2f00")
@@ -50,3 +55,25 @@ def test_what_cannot_be_is_refused_in_one_line(tmp_path: Path, capsys: pytest.Ca
     assert "expected bars within 1-2" in said("x.pdf", "--end-bar", "0")
     assert "no such choice" in said("x.pdf", "--paper", "a3")
     assert list(tmp_path.iterdir()) == []
+
+
+def midi_of(lesson: str) -> bytes:
+    write = writer_for(Path("x.mid")).write
+    assert write
+    return write(part_of(find_lesson(lesson))).data
+
+
+def test_a_midi_file_that_swings_is_written_straight_under_its_mark(tmp_path: Path) -> None:
+    """A one drop at 3:2: its late eighths are three fifths into the beat, and no quintuplets."""
+    path = tmp_path / "one-drop.mid"
+    path.write_bytes(midi_of("reggae-one-drop"))
+    score = on_grid(load_part(str(path))).score
+    assert {bar: round(mark.ratio, 2) for bar, mark in swing_marks(score).items()} == {0: 1.5}
+    assert set((score.as_written.notes["tick"] % (PPQ // 2)).tolist()) == {0}
+
+
+def test_a_score_on_the_grid_stays(tmp_path: Path) -> None:
+    path = tmp_path / "rock.mid"
+    path.write_bytes(midi_of("rock-1"))
+    before = load_part(str(path))
+    assert on_grid(before).score.notes["tick"].tolist() == before.score.notes["tick"].tolist()

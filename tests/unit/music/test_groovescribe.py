@@ -99,6 +99,12 @@ def test_lines_that_are_missing_are_filled_as_on_the_page() -> None:
     assert strokes(part, Piece.SNARE) == [PPQ]
 
 
+def test_a_link_without_any_line_is_the_groove_that_the_page_begins_with() -> None:
+    part = read_url("https://www.mikeslessons.com/gscribe?TimeSig=4/4&Div=8")
+    assert strokes(part, Piece.HIHAT) == [i * EIGHTH for i in range(8)]
+    assert strokes(part, Piece.SNARE) == [PPQ, 3 * PPQ]
+
+
 def test_swing_is_so_many_percent_longer() -> None:
     part = read_url(ROCK + "&Swing=20")  # 1.2 to 0.8
     assert part.swing == Swing(1.5, EIGHTH)

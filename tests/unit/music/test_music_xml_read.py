@@ -7,18 +7,26 @@ from pathlib import Path
 import pytest
 
 from station.core.errors import BadInput
+from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
 from station.music.formats.format_table import read_part
 from station.music.formats.music_xml.music_xml_format import MUSIC_XML
 from station.music.formats.music_xml.music_xml_reader import read_music_xml
+from station.music.formats.music_xml.xml_instruments import XmlInstrument
 from station.music.loudness_marks import LoudnessMark
 from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange
 
 _SHARED = Path(__file__).parents[3].parent / "shared" / "data" / "charts" / "musicxml"
 _NUMBERS = {"kick": 36, "snare": 38, "stick": 37, "hat": 42, "open": 46, "foot": 44, "crash": 49, "ride": 51}
+
+
+_PITCHED = (
+    b"<score-partwise><part id='P'><measure><note><pitch><step>C</step><octave>4</octave></pitch><duration>1</duration>"
+    b"</note></measure></part></score-partwise>"
+)
 
 
 def _score(
@@ -47,7 +55,8 @@ def _score(
 def _note(name: str, duration: int, more: str = "", kind: str = "quarter", before: str = "", voice: int = 1) -> str:
     return (
         f"<note>{before}<unpitched><display-step>C</display-step><display-octave>5</display-octave></unpitched>"
-        f'<duration>{duration}</duration><instrument id="{name}"/><voice>{voice}</voice><type>{kind}</type>{more}</note>'
+        f'<duration>{duration}</duration><instrument id="{name}"/><voice>{voice}</voice><type>{kind}</type>{more}'
+        "</note>"
     )
 
 
@@ -208,6 +217,14 @@ def test_repeats_and_sections_are_written_out() -> None:
     assert [(s.name, s.first_bar, s.last_bar) for s in part.sections] == [("verse", 0, 0), ("verse", 1, 2)]
 
 
+def test_bare_coda_signs_and_words() -> None:
+    """D.C. al coda as programs write it that have no `sound` for it."""
+    coda = "<direction><direction-type><coda/></direction-type></direction>"
+    da_capo = "<direction><direction-type><words>D.C. al Coda</words></direction-type></direction>"
+    part = _read(_note("kick", 48) + coda, _note("snare", 48) + da_capo, coda + _note("hat", 48))
+    assert _struck(part) == [(0, Piece.KICK), (4, Piece.SNARE), (8, Piece.KICK), (12, Piece.HIHAT)]
+
+
 def test_a_repeated_bar_sounds() -> None:
     style = '<attributes><measure-style><measure-repeat type="start">1</measure-repeat></measure-style></attributes>'
     part = _read(_note("kick", 48), style + _rest(48))
@@ -235,8 +252,8 @@ def test_timewise_is_the_same_music() -> None:
 
 def test_compressed_files() -> None:
     container = (
-        '<container><rootfiles><rootfile full-path="score.xml"/><rootfile full-path="s.pdf" media-type="application/pdf"'
-        "/></rootfiles></container>"
+        '<container><rootfiles><rootfile full-path="score.xml"/><rootfile full-path="s.pdf"'
+        ' media-type="application/pdf"/></rootfiles></container>'
     )
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w") as archive:
@@ -247,26 +264,45 @@ def test_compressed_files() -> None:
 
 
 def test_notes_without_instruments_are_known_by_their_line() -> None:
-    part = _read(
-        _note("unknown", 24).replace("<display-step>C</display-step><display-octave>5", "<display-step>F</display-step><display-octave>4")
-        + _note("unknown", 24, "<notehead>x</notehead>").replace("<display-step>C", "<display-step>G")
-    )  # fmt: skip
+    low = _note("unknown", 24).replace(">C</display-step><display-octave>5", ">F</display-step><display-octave>4")
+    cross = _note("unknown", 24, "<notehead>x</notehead>").replace("<display-step>C", "<display-step>G")
+    part = _read(low + cross)
     assert _struck(part) == [(0, Piece.KICK), (2, Piece.HIHAT)]
+
+
+@pytest.mark.parametrize(
+    ("instrument", "strike"),
+    [
+        (XmlInstrument("Snare (Electric)", "", 40), NoteMeaning(Piece.SNARE)),
+        (XmlInstrument("", "", 40), NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.RIM_SHOT)),
+        (XmlInstrument("Rim Shot", "", 38), NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.RIM_SHOT)),
+        (XmlInstrument("Side Stick", "", 37), NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK)),
+        (XmlInstrument("Tom 5", "", 41), NoteMeaning(Piece.FLOOR_TOM_2)),
+        (XmlInstrument("Hi-Hat Open", "", 46), NoteMeaning(Piece.HIHAT, Zone.BOW, openness=1.0)),
+        (XmlInstrument("Ride (Bell)", "", None), NoteMeaning(Piece.RIDE, Zone.BELL)),
+        (XmlInstrument("open high conga", "", 63), NoteMeaning(Piece.PERCUSSION)),
+        (XmlInstrument("", "metal.cymbal.splash", None), NoteMeaning(Piece.SPLASH, Zone.EDGE)),
+        (XmlInstrument("Pedal Hi-Hat", "", None), NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, 0.0)),
+        (XmlInstrument("Drumset", "", None), None),
+    ],
+)
+def test_what_instruments_are(instrument: XmlInstrument, strike: NoteMeaning | None) -> None:
+    """Names and numbers as MuseScore, Finale and Sibelius write them."""
+    assert instrument.meaning() == strike
 
 
 @pytest.mark.parametrize(
     ("data", "place", "fault"),
     [
         (b"<html/>", "line 1", "score-partwise"),
-        (_score("<attributes><time><senza-misura/></time></attributes>" + _rest(48) + _note("kick", 4)), "bar 1", "meter"),
+        (_score("<attributes><time><senza-misura/></time></attributes>" + _note("kick", 48)), "bar 1", "meter"),
         (_score(_note("kick", 48)).replace(b"<duration>48", b"<duration>1e9"), "bar 1", "duration"),
         (_score(_note("kick", 48)).replace(b"<divisions>12", b"<divisions>0"), "bar 1", "divisions"),
         (_score(_note("kick", 48)).replace(b"<beats>4", b"<beats>0"), "bar 1", "beats"),
         (_score(_note("kick", 48)).replace(b"<duration>48", b"<duration>999999999"), "bar 1", "longer"),
         (_score(), "", "no part"),
         (_score(_rest(48)).replace(b"percussion", b"G"), "", "no drums"),
-        (b"<score-partwise><part id='P'><measure><note><pitch><step>C</step></pitch></note></measure></part></score-partwise>",
-         "", "pitched"),
+        (_PITCHED, "", "pitched"),
         (b"PK\x03\x04 no zip", "", "zip"),
     ],
 )  # fmt: skip

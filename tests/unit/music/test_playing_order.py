@@ -40,6 +40,8 @@ def test_jumps() -> None:
     segno, d_s = BarSigns(segno=""), BarSigns(dal_segno="")
     to_coda, coda = BarSigns(to_coda=""), BarSigns(coda="")
     assert _order(_plain(), segno, to_coda, d_s, coda) == [1, 2, 3, 4, 2, 3, 5]
+    named = BarSigns(to_coda="coda"), BarSigns(da_capo=True), BarSigns(coda="")
+    assert _order(_plain(), *named) == [1, 2, 3, 1, 2, 4]
     repeated = BarSigns(repeat_times=2)
     assert _order(repeated, BarSigns(da_capo=True)) == [1, 1, 2, 1, 2]
     assert _order(_plain(), _ending(1, times=2), _ending(2), BarSigns(da_capo=True)) == [1, 2, 1, 3, 4, 1, 3, 4]

@@ -4,7 +4,7 @@ import pytest
 
 from station.core.units import PPQ
 from station.music.tempo import TempoChange, TempoMap
-from station.music.tempo_words import TempoWord, tempo_words
+from station.music.tempo_words import TempoWord, read_tempo_words, tempo_words
 
 BAR = 4 * PPQ
 STEP = PPQ // 4
@@ -54,3 +54,17 @@ def test_a_jump_at_the_end_of_a_ramp_is_no_part_of_it() -> None:
         TempoWord(BAR, 84.0, 2 * BAR, -1),
         TempoWord(2 * BAR, 60.0),
     ]
+
+
+def read(changes: list[TempoChange]) -> list[TempoWord]:
+    whole = TempoMap.build([TempoChange.from_bpm(0, 100.0), *changes])
+    return [TempoWord(word.tick, round(word.tempo_bpm, 1)) for word in read_tempo_words(whole)]
+
+
+def test_how_a_played_tempo_wavers_is_nothing_to_read() -> None:
+    wavering = [TempoChange.from_bpm(k * PPQ, 100.0 + (-1) ** k * 2) for k in range(1, 12)]
+    assert read([*wavering, TempoChange.from_bpm(12 * PPQ, 100.0)]) == [TempoWord(12 * PPQ, 100.0)]
+    jump = [TempoChange.from_bpm(5 * PPQ, 110.0), TempoChange.from_bpm(6 * PPQ, 102.0), *wavering[6:]]
+    assert read([*wavering[:4], *jump])[:2] == [TempoWord(5 * PPQ, 110.0), TempoWord(6 * PPQ, 102.0)]
+    small = [TempoChange.from_bpm(BAR, 102.0), TempoChange.from_bpm(3 * BAR, 104.0)]
+    assert [word.tempo_bpm for word in read(small)] == [102.0, 104.0], "what holds for a bar is meant"

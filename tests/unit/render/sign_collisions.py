@@ -6,17 +6,19 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 from station.music.score import Score
 from station.render.notation.engraving import Engraver
-from station.render.notation.line_breaks import BarBox, ruler, systems
-from station.render.text.draw_list import ShapeKind
-from station.render.text.paper import OutlineAtlas, PaperSpot, filled
-from station.render.text.sign_outlines import SIGNS
+from station.render.notation.line_breaks import lines
+from station.render.notation.sheet_bars import sheet_bars
+from station.render.notation.sheet_line import LineSetter
+from station.render.text.paper import SQUARE, Filled, OutlineAtlas
+from station.render.text.sign_outlines import BEAM, SIGNS, STEM
 
-A_LINE = 96.0
-"""Staff spaces: what a line of A4 with margins of 15 mm holds of a staff of 7 mm behind clef and meter."""
+A_LINE = 102.8
+"""Staff spaces: 180 mm between the margins of A4, in a staff of 7 mm."""
 _CELL = 0.04
 """Of a staff space: how fine the grid is."""
 _TOUCH = 3
@@ -57,47 +59,37 @@ class Inked:
 
 
 def inked_lines(score: Score, width: float = A_LINE) -> Iterator[list[Inked]]:
-    """The signs of each line of the score on paper."""
+    """The signs of each line of the score on paper, with its numbers and bar lines."""
     atlas, names = _letters()
-    engraver = Engraver(score, atlas, meter_words=False)
-    for boxes in systems(score, width):
-        line = [_bar_line(box.left) for box in boxes[1:]]
-        for box in boxes:
-            line += _bar_signs(engraver, box, atlas, names, box is boxes[0])
-        yield line
+    bars = sheet_bars(score, {})
+    setter = LineSetter(Engraver(score, atlas, as_written=True), bars, {}, atlas)
+    set_bars = setter.set_bars()
+    for boxes in lines(set_bars, width):
+        ink = setter.line(boxes, set_bars, 0.0, 1.0).ink
+        yield [
+            sign for number, area in zip(ink.numbers.tolist(), ink, strict=True) if (sign := _sign(number, area, names))
+        ]
 
 
 @cache
-def _letters() -> tuple[OutlineAtlas, dict[float, str]]:
-    """The outlines, and the signs' names by what their shapes bear."""
+def _letters() -> tuple[OutlineAtlas, dict[int, str]]:
+    """The outlines, and the signs' names by the numbers of theirs."""
     atlas = OutlineAtlas()
-    return atlas, {atlas.sign(name).uv[0]: name for name in SIGNS}
+    return atlas, {round(atlas.sign(name).uv[0]): name for name in SIGNS}
 
 
-def _bar_line(x: float) -> Inked:
-    corners = np.array([[x - 0.08, -2.0], [x + 0.08, -2.0], [x + 0.08, 2.0], [x - 0.08, 2.0]])
-    return Inked("bar line", "", (corners,))
-
-
-def _bar_signs(
-    engraver: Engraver, box: BarBox, atlas: OutlineAtlas, names: dict[float, str], opens_line: bool
-) -> Iterator[Inked]:
-    spot = PaperSpot((0.0, 0.0), 1.0, ruler(engraver.score, box))
-    shapes = engraver.bar(box.bar, with_line=False, opens_line=opens_line)
-    for k in range(len(shapes)):
-        kind, name = _kind(shapes[k], names)
-        if kind:
-            for area in filled(shapes[k : k + 1], atlas, spot):
-                yield Inked(kind, name, area.contours)
-
-
-def _kind(row: np.void, names: dict[float, str]) -> tuple[str, str]:
-    """The class of a shape and its sign's name; nothing for stems, ledger lines, ties, slurs, hairpins."""
-    if row["kind"] == ShapeKind.GLYPH:
-        name = names.get(float(row["uv"][0]), "")
-        return _CLASSES.get(name.split("_")[0], _TEXT_CLASS), name
-    is_beam = row["kind"] == ShapeKind.BOX and np.isclose(row["half"][1], 0.25)
-    return ("beam" if is_beam else ""), ""
+def _sign(number: int, area: Filled, names: dict[int, str]) -> Inked | None:
+    """A sign with its class; None for stems, staff and ledger lines, ties, slurs, hairpins, slashes."""
+    if number in names:
+        kind = _CLASSES.get(names[number].split("_")[0])
+        return Inked(kind, names[number], area.contours) if kind else None
+    if number > SQUARE + 2:
+        return Inked(_TEXT_CLASS, "", area.contours)
+    wide, high = np.ptp(area.contours[0], axis=0).tolist()
+    if number == SQUARE and high == pytest.approx(BEAM, abs=0.01) and wide > BEAM:
+        return Inked("beam", "", area.contours)
+    is_line = number == SQUARE and high == pytest.approx(4.0, abs=0.01) and wide > STEM + 0.01
+    return Inked("bar line", "", area.contours) if is_line else None
 
 
 def collisions(score: Score, width: float = A_LINE) -> Counter[tuple[str, str]]:
@@ -144,4 +136,4 @@ def _inside(sign: Inked, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDAr
                 falls = (y1 <= y) & (y0 > y)
                 right = x0 + (y - y0) / (y1 - y0) * (x1 - x0) > x
                 winding += (rises & right).astype(np.int64) - (falls & right).astype(np.int64)
-    return winding != 0
+    return np.asarray(winding != 0)

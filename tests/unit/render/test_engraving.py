@@ -173,7 +173,13 @@ def test_flams_and_drags() -> None:
     assert small["centre"][0] < -1, "before the main note"
     assert small["time_s"][0] == 0.5, "on its tick: its spacing belongs to the hand"
     shapes = bar_of(main, flam)
-    assert (letters(shapes, "l"), letters(shapes, "R")) == (1, 1), "lR, as drummers write a flam"
+    assert (letters(shapes, "l"), letters(shapes, "L"), letters(shapes, "R")) == (0, 1, 1), "no l that could be an I"
+    from station.render.text.fonts import Face
+
+    left, right = (np.array(ATLAS.letter(letter, Face.BOLD).uv, np.float32) for letter in "LR")
+    small, large = (shapes[(shapes["uv"] == uv).all(axis=1)][0] for uv in (left, right))
+    assert small["half"][1] < 0.8 * large["half"][1], "the grace stroke's is small"
+    assert small["centre"][0] < large["centre"][0]
     drag = [dataclasses.replace(flam, lead_ms=ms, ornament=Ornament.DRAG) for ms in (80.0, 40.0)]
     places = of_sign(bar_of(main, *drag), "head_round")["centre"][:, 0]
     assert len(set(places.tolist())) == 3
@@ -345,7 +351,7 @@ def test_a_hairpin_opens_evenly_over_its_bars() -> None:
     engraver = Engraver(swell((0, "p"), (2, "<"), (6, "f")), ATLAS)
     first, second = (hairpin_openings(engraver.bar(bar)) for bar in (0, 1))
     assert first[0][0] == pytest.approx(1.0), "it begins on beat 3"
-    assert second[0][0] == pytest.approx(2.0)
+    assert second[0][0] == pytest.approx(2.0, abs=0.01), "at the bar line, or what no eye tells from it"
     assert first[0][1] < 0.05, "closed at first"
     assert first[-1][1] == pytest.approx(0.6, abs=0.05), "half way at the bar line: 1.2 spaces at the end"
     assert second[0][1] == pytest.approx(first[-1][1], abs=0.05)

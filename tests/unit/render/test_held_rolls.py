@@ -22,7 +22,7 @@ Shapes = NDArray[np.void]
 
 def columns(score: Score) -> BarColumns:
     """Those of the first bar, two seconds long."""
-    return bar_columns(Engraver(score, Atlas()).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at, 0.0)
+    return bar_columns(Engraver(score, Atlas()).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at)
 
 
 def roll(tick: int, length: int, swing: int = 0) -> Note:

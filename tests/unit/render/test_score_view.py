@@ -45,7 +45,7 @@ def marked(label: Label, asynchrony_ms: float = np.nan) -> set[ShapeKind]:
     row = np.zeros(1, MARK_DTYPE)
     row["label"], row["asynchrony_ms"] = label, asynchrony_ms
     draw_list = DrawList(Atlas())
-    draw_mark(draw_list, row[0], 0.0, 12.0)
+    draw_mark(draw_list, row[0], (0.0, 0.0), 12.0)
     return {ShapeKind(int(k)) for k in draw_list.shapes()["kind"]}
 
 
@@ -61,7 +61,7 @@ def test_arrows_point_where_the_hit_fell(asynchrony_ms: float, side: int) -> Non
     row = np.zeros(1, MARK_DTYPE)
     row["label"], row["asynchrony_ms"] = Label.MATCH, asynchrony_ms
     draw_list = DrawList(Atlas())
-    draw_mark(draw_list, row[0], 0.0, 12.0)
+    draw_mark(draw_list, row[0], (0.0, 0.0), 12.0)
     arrow = draw_list.shapes()[draw_list.shapes()["kind"] == ShapeKind.TRIANGLE][0]
     assert np.sign(arrow["centre"][0]) == side
     assert np.sign(arrow["axis"][0]) == side
@@ -103,7 +103,7 @@ def test_no_strength_is_no_wedge() -> None:
     assert off_db(80, float("nan")) is None
     for nothing in (None, 3.0, -3.0):
         draw_list = DrawList(Atlas())
-        draw_dynamics(draw_list, nothing, 0.0)
+        draw_dynamics(draw_list, nothing, (0.0, 0.0))
         assert len(draw_list) == 0
 
 
@@ -111,7 +111,7 @@ def test_no_strength_is_no_wedge() -> None:
 def test_the_wedge_points_up_when_too_loud_and_down_when_too_soft(louder_db: float, way: int) -> None:
     """Heights run downwards: above the head is negative."""
     draw_list = DrawList(Atlas())
-    draw_dynamics(draw_list, louder_db, 0.0)
+    draw_dynamics(draw_list, louder_db, (0.0, 0.0))
     wedge = draw_list.shapes()[0]
     assert wedge["kind"] == ShapeKind.TRIANGLE
     assert np.sign(wedge["centre"][1]) == way
@@ -156,7 +156,7 @@ def test_the_groups_of_a_meter_have_room_between_the_clef_and_the_notes() -> Non
         for groups, unit in (((4,), 4), ((12,), 8), ((2, 2, 3), 8), ((3,) * 10, 16))
     )
     leads = [lead_spaces(score, Atlas()) for score in (plain, twelve, seven, long)]
-    assert leads[0] == pytest.approx(1.4 + 1.528 + 0.8 + 1.88 + 1.6, abs=0.01), "clef and 4 by the font's metadata"
+    assert leads[0] == pytest.approx(1.4 + 1.528 + 0.8 + 0.96 * 1.88 + 1.6, abs=0.01), "clef, 4 by the font's metadata"
     assert leads == sorted(leads)
     assert leads[2] > 8.5
     assert leads[3] < 14, "the smaller the more groups there are"

@@ -13,6 +13,7 @@ from station.core.pieces import Piece
 from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.drills.reading.lesson_file import parse_lesson
+from station.music.loudness_marks import LoudnessMark
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.files.pdf_file import pdf
@@ -22,6 +23,7 @@ from station.render.palette import INK, INK_FAINT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 from station.render.text.paper import Filled, Ink, OutlineAtlas, PaperSpot, filled
+from station.render.text.sign_outlines import HAIRPIN_LINE
 from station.scenes.sheets import lesson_labels
 
 A4 = PAPERS["a4"]
@@ -210,6 +212,23 @@ def sign_places(page: Ink, name: str) -> list[tuple[float, float]]:
     forms = [k for k, contours in enumerate(page.outlines) if contours and len(np.concatenate(contours)) == len(shape)]
     same = [k for k in forms if np.allclose(np.concatenate(page.outlines[k]), shape)]
     return sorted((m[0], m[4]) for m in page.matrices[np.isin(page.numbers, same)].tolist())
+
+
+def test_a_hairpin_goes_on_over_a_bar_line_and_a_new_meter() -> None:
+    strokes = [Note(k * PPQ, Piece.SNARE) for k in range(8)]
+    tempo_map = TempoMap.build([], [MeterChange(0, 4, 4), MeterChange(4 * PPQ, 9, 8)])
+    score = replace(Score.from_notes(strokes, tempo_map), loudness=(LoudnessMark(PPQ, "<"), LoudnessMark(7 * PPQ, "f")))
+    (page,) = sheet(score, SheetWords("T"), A4)
+    space = max(SPACES)
+    lines = [
+        shape.contours[0] for shape in page if np.ptp(shape.contours[0][:, 1]) == pytest.approx(space * HAIRPIN_LINE)
+    ]
+    spans = sorted((float(line[:, 0].min()), float(line[:, 0].max())) for line in lines)
+    assert len(spans) > 32, "its level steps, two at a time"
+    reached = spans[0][1]
+    for left, right in spans:
+        assert left <= reached + 0.01
+        reached = max(reached, right)
 
 
 def swung_at(ratio: float) -> Score:

@@ -16,10 +16,11 @@ from station.render.notation.bar_lines import BarLine, Volta
 from station.render.notation.engraving import Engraver
 from station.render.notation.line_breaks import SetBar, lines
 from station.render.notation.sheet_bars import number_words, sheet_bars
+from station.render.notation.sheet_words import LineWord, draw_words
 from station.render.notation.skyline import Skyline
 from station.render.palette import INK
 from station.render.text.atlas import Atlas
-from station.render.text.draw_list import DrawList
+from station.render.text.draw_list import DrawList, ShapeKind
 from tests.unit.render.scores import BAR, rock, score_of
 
 ATLAS = Atlas()
@@ -35,7 +36,7 @@ def columns_of(*times_s: float, half: float = 0.5, length_s: float = 4.0, y: flo
         draw_list.time_s = time_s
         draw_list.ellipse((0.0, 0.0), (0.5, 0.5), INK)
         draw_list.ellipse((0.0, y), (half, 0.5), INK)
-    return bar_columns(draw_list.shapes(), length_s, lambda t: np.rint(t * PPQ).astype(np.int64), 0.0)
+    return bar_columns(draw_list.shapes(), length_s, lambda t: np.rint(t * PPQ).astype(np.int64))
 
 
 def test_a_value_twice_as_long_takes_as_much_more_each_time() -> None:
@@ -55,7 +56,7 @@ def test_neighbours_keep_their_distance_where_they_are_level_and_only_there() ->
         draw_list.time_s = time_s
         draw_list.ellipse((0.0, 0.0), (0.5, 0.5), INK)
         draw_list.ellipse((0.0, y), (2.0, 0.5), INK)
-    apart = bar_columns(draw_list.shapes(), 4.0, lambda t: np.rint(t * PPQ).astype(np.int64), 0.0)
+    apart = bar_columns(draw_list.shapes(), 4.0, lambda t: np.rint(t * PPQ).astype(np.int64))
     assert apart.least[0] == pytest.approx(1.25), "one is below, the other above"
 
 
@@ -63,21 +64,20 @@ def test_grace_strokes_on_a_bar_s_first_beat_keep_off_the_bar_line() -> None:
     flams = find_lesson("flam").score
     plain = rock()
     inset = [
-        bar_columns(Engraver(s, ATLAS).bar(0, with_line=False), 3.0, s.tempo_map.ticks_at, 0.0).inset
-        for s in (plain, flams)
+        bar_columns(Engraver(s, ATLAS).bar(0, with_line=False), 3.0, s.tempo_map.ticks_at).inset for s in (plain, flams)
     ]
     assert inset[1] > inset[0] + 1.0
 
 
 def test_voices_and_letters_share_their_columns() -> None:
     score = rock()
-    columns = bar_columns(Engraver(score, ATLAS).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at, 0.0)
+    columns = bar_columns(Engraver(score, ATLAS).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at)
     assert columns.times_s.tolist() == [k / 4 for k in range(8)], "a column for each eighth, kicks and snares on them"
 
 
 def test_a_whole_rest_stands_in_the_middle_of_its_bar() -> None:
     score = score_of(Note(BAR, Piece.SNARE))
-    columns = bar_columns(Engraver(score, ATLAS).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at, 0.0)
+    columns = bar_columns(Engraver(score, ATLAS).bar(0, with_line=False), 2.0, score.tempo_map.ticks_at)
     places = columns.places(1.3)
     assert places[1] == pytest.approx(places[2] / 2)
 
@@ -208,3 +208,29 @@ def test_words_stand_over_what_is_below_them() -> None:
     assert skyline.top_over(11.0, 30.0) == -5.0
     assert skyline.top_over(13.0, 30.0) == -2.0
     assert (skyline.top, skyline.bottom) == (-5.0, 3.0)
+
+
+def placed_words(*words: LineWord, below: float = -2.0) -> list[tuple[float, float, float]]:
+    """Left, right and lowest edge of what each word's frame is, over a line 60 wide."""
+    draw_list, skyline = DrawList(ATLAS), Skyline(60.0)
+    skyline.add(0.0, 60.0, below, 2.0)
+    draw_words(draw_list, skyline, words)
+    shapes = draw_list.shapes()
+    flat = shapes[(shapes["kind"] == ShapeKind.BOX) & (np.abs(shapes["axis"][:, 0]) == 1)]
+    edges = [(float(s["centre"][0] - s["half"][0]), float(s["centre"][0] + s["half"][0])) for s in flat]
+    lowest = {edge: max(float(s["centre"][1]) for s, e in zip(flat, edges, strict=True) if e == edge) for edge in edges}
+    return sorted((*edge, y) for edge, y in lowest.items())
+
+
+def test_words_that_would_meet_stand_in_two_rows_above_all_else() -> None:
+    (_, one_end, one), (two_start, _, two) = placed_words(LineWord(0.0, "verse"), LineWord(2.0, "chorus"), below=-6.0)
+    assert two_start < one_end, "side by side they would meet"
+    assert two < one - 1.0 < -7.0
+    apart = placed_words(LineWord(0.0, "verse"), LineWord(30.0, "chorus"))
+    assert apart[0][2] == apart[1][2], "else in one"
+
+
+def test_no_word_leaves_its_line() -> None:
+    ((left, right, _),) = placed_words(LineWord(55.0, "a name that is far too long for where it stands " * 3))
+    assert right == pytest.approx(60.0, abs=0.01)
+    assert right - left < 40.0

@@ -90,3 +90,11 @@ def test_rests_of_two_voices_keep_clear_of_the_other_s_heads() -> None:
     assert not collisions(score)
     heights = {sign.name: sign.box[1] for line in inked_lines(score) for sign in line if sign.kind == "rest"}
     assert heights, "there are rests to keep clear"
+
+
+def test_a_dot_keeps_clear_of_its_flag() -> None:
+    """A dotted eighth alone in its beat, on the top line or a ledger line, where its stem is shortest."""
+    for piece in (Piece.RIDE, Piece.CRASH_1):
+        score = score_of(Note(PPQ // 4, piece), Note(PPQ, Piece.SNARE))
+        assert any(sign.name == "dot" for line in inked_lines(score) for sign in line)
+        assert not collisions(score), piece

@@ -31,6 +31,6 @@ def _holds_link(data: bytes) -> bool:
 
 GROOVESCRIBE = MusicFormat("GrooveScribe", (".groove",), _read_file, _holds_link, _MOST_BYTES, write_groove, KEEPS)
 """A file with nothing in it but a link, to be pasted or sent."""
-GROOVE_TEXT = MusicFormat("GrooveScribe", (".url", ".txt"), _read_file, _holds_link, _MOST_BYTES)
+GROOVE_TEXT = MusicFormat("GrooveScribe link", (".url", ".txt"), _read_file, _holds_link, _MOST_BYTES)
 """A link that a browser or a person put into a file."""
 GROOVESCRIBE_MIDI = MusicFormat("GrooveScribe's MIDI", MIDI.endings, read_groove_midi, is_groove_midi, MIDI.most_bytes)

@@ -82,8 +82,7 @@ def is_groove_url(text: str) -> bool:
     if len(text) > _MOST_LINK or not _LINK.fullmatch(text.strip()):
         return False
     fields = _fields(text.strip())
-    has_line = any(name in fields for name in ("H", "S", "K"))
-    return has_line and len(fields.keys() & {*_SETTINGS, *_LINES}) >= 2
+    return not fields.keys().isdisjoint((*LETTERS, "TIMESIG", "DIV")) and len(fields.keys() & {*_SETTINGS, *_LINES}) >= 2
 
 
 def find_groove_url(text: str) -> str:

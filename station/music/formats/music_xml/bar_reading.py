@@ -31,8 +31,8 @@ _BEAT_UNITS = {
     name: Fraction(4 * PPQ, 2**k) for k, name in enumerate(("whole", "half", "quarter", "eighth", "16th", "32nd"))
 }
 _SWING_UNITS = {"eighth": PPQ // 2, "16th": PPQ // 4}
-MOST_NOTES = 200_000
-"""Of a part (our choice: hours of drums)."""
+MOST_NOTES = 20_000
+"""Of a part; two seconds of reading (our choice: a thousand bars of twenty notes)."""
 _LONGEST_BAR = 256 * PPQ
 _FINEST = 10**6
 """Divisions of a quarter, and the denominator from which on places round: far below what can be heard (our choice)."""

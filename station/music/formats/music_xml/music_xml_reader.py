@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from itertools import zip_longest
 from xml.etree.ElementTree import Element
 
 from station.core.errors import BadInput
@@ -16,7 +17,7 @@ from station.music.formats.music_xml.strokes_reading import PlayedBar, strokes_o
 from station.music.formats.music_xml.written_bars import STOP, LostMarks, WrittenBar
 from station.music.formats.playing_order import playing_order
 from station.music.formats.safe_xml import parse_xml, text_of
-from station.music.loudness_marks import FADE, GROW, USUAL, LoudnessMark
+from station.music.loudness_marks import GROW, USUAL, LoudnessMark
 from station.music.score import Score
 from station.music.swing import STRAIGHT, Swing
 from station.music.tempo import MeterChange, TempoChange, TempoMap
@@ -26,7 +27,7 @@ _MARKS = tuple(VELOCITY_OF_MARK)
 _FINEST_METER = 64
 """A bar of another length than its meter's gets a meter in these units at the finest (our choice)."""
 _WRITERS = ("composer", "arranger", "transcriber", "lyricist")
-_MOST_STROKES = 500_000
+_MOST_STROKES = 50_000
 """As played, of repeats that multiply (our choice)."""
 
 
@@ -63,7 +64,16 @@ def _written_bars(
             lost.add("grace notes after the last note", reader.bars[-1].name)
         readers.append(reader)
     count = max(len(reader.bars) for reader in readers)
-    return [_merged([reader.bars[i] for reader in readers if i < len(reader.bars)], len(drums)) for i in range(count)]
+    bars = [_merged([reader.bars[i] for reader in readers if i < len(reader.bars)], len(drums)) for i in range(count)]
+    _tell_codas_apart(bars)
+    return bars
+
+
+def _tell_codas_apart(bars: Sequence[WrittenBar]) -> None:
+    """Of two bare coda signs, without a word where to go on, the first is left and the second is gone to."""
+    codas = [bar.signs for bar in bars if bar.signs.coda is not None]
+    if len(codas) > 1 and not any(bar.signs.to_coda is not None for bar in bars):
+        codas[0].to_coda, codas[0].coda = codas[-1].coda, None
 
 
 def _merged(bars: Sequence[WrittenBar], drum_count: int) -> WrittenBar:
@@ -175,24 +185,24 @@ def _loudness(bars: Sequence[WrittenBar], ticks: Sequence[int]) -> tuple[Loudnes
         key=lambda each: (each[0], each[1] != STOP),
     )
     found: list[LoudnessMark] = []
-    for i, (tick, sign) in enumerate(signs):
+    level = USUAL
+    for (tick, sign), after in zip_longest(signs, signs[1:]):
         if sign != STOP:
             found.append(LoudnessMark(tick, sign))
-        elif _needs_a_mark(found, signs[i + 1 :], tick, ticks[-1]):
-            found.append(LoudnessMark(tick, _stepped(found)))
+        elif found and found[-1].is_hairpin and not _is_answered(tick, after) and tick < ticks[-1]:
+            found.append(LoudnessMark(tick, _stepped(level, found[-1].sign)))
+        level = level if not found or found[-1].is_hairpin else found[-1].sign
     return tuple(mark for i, mark in enumerate(found) if not i or mark != found[i - 1])
 
 
-def _needs_a_mark(found: Sequence[LoudnessMark], later: Sequence[tuple[int, str]], tick: int, end: int) -> bool:
-    is_answered = bool(later) and later[0][0] - tick <= PPQ and later[0][1] != STOP
-    return bool(found) and found[-1].is_hairpin and not is_answered and tick < end
+def _is_answered(tick: int, after: tuple[int, str] | None) -> bool:
+    """Whether a mark says soon after a hairpin's end at `tick` how loud it is now."""
+    return after is not None and after[0] - tick <= PPQ and after[1] != STOP
 
 
-def _stepped(found: Sequence[LoudnessMark]) -> str:
-    """The mark one step beyond the one before the hairpin that is open."""
-    before = next((mark.sign for mark in reversed(found) if not mark.is_hairpin), USUAL)
-    at = _MARKS.index(before) + (1 if found[-1].sign == GROW else -1)
-    assert found[-1].sign in (GROW, FADE), "an open hairpin"
+def _stepped(level: str, hairpin: str) -> str:
+    """The mark one step beyond `level`, the way that the hairpin goes."""
+    at = _MARKS.index(level) + (1 if hairpin == GROW else -1)
     return _MARKS[min(max(at, 0), len(_MARKS) - 1)]
 
 

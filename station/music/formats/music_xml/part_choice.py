@@ -8,6 +8,7 @@ all of them are read together.
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from xml.etree.ElementTree import Element
 
 from station.core.errors import BadInput
@@ -20,7 +21,7 @@ _MOST_PARTS = 500
 """Our choice: an orchestra has a tenth of it."""
 
 
-@dataclass(slots=True)
+@dataclass
 class FilePart:
     """One part: its `name`, its `instruments` by id, whether any is on channel 10, and its `measures` in order."""
 
@@ -29,7 +30,7 @@ class FilePart:
     is_on_drum_channel: bool = False
     measures: list[Element] = field(default_factory=list)
 
-    @property
+    @cached_property
     def drum_notes(self) -> list[Element]:
         """The notes that are drums."""
         notes = [note for measure in self.measures for note in measure.iter("note")]
@@ -90,16 +91,19 @@ def drum_parts(parts: Sequence[FilePart], source: str) -> list[FilePart]:
     drums = [part for part in parts if part.drum_notes] or [part for part in parts if part.has_percussion_clef]
     if not drums:
         raise BadInput(source, "", "has no drums: all notes are pitched, and no part plays on MIDI channel 10")
-    best = max(drums, key=lambda part: (len(_pieces(part)), len(part.drum_notes)))
-    return [best] if len(_pieces(best)) > 1 else drums
+    kits = [_pieces(part) for part in drums]
+    best = max(range(len(drums)), key=lambda i: (len(kits[i]), len(drums[i].drum_notes)))
+    return [drums[best]] if len(kits[best]) > 1 else drums
 
 
 def _pieces(part: FilePart) -> set[object]:
     """The different pieces of a kit that the part has: by instrument, else by line."""
-    found: set[object] = set()
-    for note in part.drum_notes:
-        instrument = note.find("instrument")
-        known = part.instruments.get("" if instrument is None else instrument.get("id", ""))
-        strike = known.meaning() if known is not None else None
-        found.add(text_of(note, "unpitched/display-step") if strike is None else strike.piece)
+    used = {(_instrument_id(note), note.findtext("unpitched/display-step")) for note in part.drum_notes}
+    strikes = {name: part.instruments[name].meaning() for name, _ in used if name in part.instruments}
+    found: set[object] = {step if (strike := strikes.get(name)) is None else strike.piece for name, step in used}
     return found - {Piece.PERCUSSION}
+
+
+def _instrument_id(note: Element) -> str:
+    instrument = note.find("instrument")
+    return "" if instrument is None else instrument.get("id", "")

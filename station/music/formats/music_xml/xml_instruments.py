@@ -208,6 +208,8 @@ def _refined(strike: NoteMeaning, words: str) -> NoteMeaning:
         return replace(strike, zone=Zone.RIM, articulation=Articulation.CROSS_STICK)
     if piece in _DRUMS and re.search(r"rim[- ]?shot", words):
         return replace(strike, zone=Zone.RIM, articulation=Articulation.RIM_SHOT)
+    if piece is Piece.SNARE and strike.articulation is Articulation.RIM_SHOT and words and "rim" not in words:
+        return plain_strike(piece)  # General MIDI's number of rim shots is its electric snare's
     if piece is Piece.HIHAT:
         strike = replace(strike, openness=_worded_openness(words, strike.openness))
     for zone, pattern in _ZONE_WORDS:
