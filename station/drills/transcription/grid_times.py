@@ -105,8 +105,7 @@ class _Music:
 def _written(music: _Music, meant: Meant) -> GridTimes:
     """The rows of the score where they are meant."""
     spans, score = music.take.spans, music.score
-    swing = _named_swing(music.take, meant)
-    meant = recut(meant, spans, swing)
+    meant = _named(music.take, meant)
     moved = score.notes.copy()
     moved["tick"][music.mains] = meant.ticks(spans)
     moved["swing_ticks"][music.mains] = meant.ticks(spans) - meant.straight_ticks(spans)
@@ -118,7 +117,7 @@ def _written(music: _Music, meant: Meant) -> GridTimes:
     return GridTimes(
         Score.from_array(moved[origin], music.tempo_map, end, score.title, score.loudness),
         origin,
-        swing,
+        meant.swing,
         _beat_ticks(music.tempo_map),
         _beats(spans, meant),
         meant.lean_s * _MS_PER_S,
@@ -139,11 +138,17 @@ def played_meant(take: Take) -> Meant:
     return Meant(span, cell, reading.cells, feel.swing, late_s + feel.lean_s, feel.spread_s)
 
 
-def _named_swing(take: Take, meant: Meant) -> Swing:
-    """The swing as a teacher names it; triplets may be one though none was needed to read them."""
+def _named(take: Take, meant: Meant) -> Meant:
+    """The strokes under the swing that a teacher names; triplets may be one though none was needed to read them.
+
+    A swing by triplets stays where straight cells would have to be finer than thirty-seconds.
+    """
     if meant.swing.ratio not in (STRAIGHT, TRIPLETS):
-        return meant.swing
-    return triplet_swing(take.spans, meant.span, meant.places(take.spans), take.piece)
+        return meant
+    swing = triplet_swing(take.spans, meant.span, meant.places(take.spans), take.piece)
+    named = recut(meant, take.spans, swing)
+    is_finer = bool(np.any((named.cells > meant.cells) & (take.spans.lengths < named.cells * PPQ // 8)))
+    return meant if is_finer else named
 
 
 def _lengths(take: Take, meant: Meant, lengths: Ints) -> Ints:
