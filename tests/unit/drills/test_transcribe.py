@@ -87,6 +87,14 @@ def test_a_bar_that_only_a_grace_stroke_needed_is_no_bar() -> None:
 # --- times ------------------------------------------------------------------------------------------------------------
 
 
+def test_two_flams_alike_in_loudness_share_what_suits_both() -> None:
+    """0.3 of 116 is 35 and of 78 is 23; 35 / 116 would have 24."""
+    lead = 30 * MS
+    strokes = [snare(2 * QUARTER - lead, 35), snare(2 * QUARTER, 116), snare(3 * QUARTER - lead, 23)]
+    found = lesson_from(snare(0, 116), snare(QUARTER, 78), *strokes, snare(3 * QUARTER, 78))
+    assert [n.velocity for n in found.score if n.lead_ms] == [35, 23]
+
+
 def test_human_sixteenths_go_to_the_nearest() -> None:
     late = (12, -9, 15, 4)
     played = [snare(i * SIXTEENTH + late[i % 4] * MS) for i in range(4, 16)]
