@@ -41,7 +41,7 @@ _DRAG_SOFT = 0.62
 RUN_MS = 120.0
 """So near to other strokes of its drum a pair is part of a run: sixteenths at 125 bpm (our choice)."""
 _NEXT_HAND = 1.25
-"""So much louder than rebounds is the stroke of the other hand that follows them: rebounds lose a third (our choice)."""
+"""So much louder than rebounds is the other hand's stroke after them: rebounds lose a third (our choice)."""
 _ALIKE = 0.5
 """Both strokes of a drag are of one bounce: the softer has at least this share of the louder (our choice)."""
 _APART = 1.3

@@ -166,6 +166,21 @@ def test_strokes_faster_than_two_hands_are_marked() -> None:
     assert len(lesson.score) + len(lesson.beyond) == 64
 
 
+def test_kicks_too_fast_for_one_foot_are_for_two() -> None:
+    """Sixteenths at 200 bpm, as a double pedal plays them; after a rest of an eighth the right foot is on the beat."""
+    fast = TempoMap.constant(200)
+    kicks = [Note(i * SIXTEENTH, Piece.KICK) for i in range(16) if i not in (5, 6, 7)]
+    found = lesson_from(*kicks, tempo_map=fast)
+    assert len(found.beyond) == 0
+    feet = {n.tick // SIXTEENTH: n.limb for n in found.score}
+    assert feet == {i: Limb.LEFT_FOOT if i % 2 else Limb.RIGHT_FOOT for i in range(16) if i not in (5, 6, 7)}
+
+
+def test_kicks_that_one_foot_can_play_are_the_right_foots() -> None:
+    found = lesson_from(*(Note(i * SIXTEENTH, Piece.KICK) for i in (0, 1, 6, 7, 8)))
+    assert {n.limb for n in found.score} == {Limb.RIGHT_FOOT}
+
+
 def test_the_last_kick_makes_room_for_the_first_of_the_next_loop() -> None:
     """A sixty-fourth before the end of the bar is 31 ms from its start, where the same foot plays again."""
     lesson = lesson_from(Note(0, Piece.KICK), Note(WHOLE - QUARTER // 16, Piece.KICK))
