@@ -37,7 +37,8 @@ _EMPTY = 3 * SPREAD
 _ENOUGH = 8
 """So many strokes of a piece tell its levels (our choice)."""
 _AS_OURS = 9.5
-"""Strokes so near to the station's own levels, in the mean, are meant as those: a spread and a lean (our choice)."""
+"""Strokes so near to the station's own levels, in the mean, are meant as those: a spread and a lean (our choice). One
+piece may lie further off by two standard errors of that mean, each a share of 1 / √(2n) for n strokes."""
 _STRAYS = 0.05
 _CLEAR = 1.5 * SPREAD
 """Two of a hundred strokes stray so far that they are nearer to the next level; where a piece has no more than that
@@ -172,8 +173,10 @@ _ANY = tuple(Dynamic)
 def _are_ours(kinds: Iterable[Sequence[int]]) -> bool:
     """Whether the station's own levels, two of them at least, with human spread are all that a take has."""
     known = list(kinds)
-    many = [heard for heard in known if len(heard) >= _ENOUGH] or known
-    return len(set().union(*map(_common, known))) > 1 and all(_distance(heard) <= _AS_OURS for heard in many)
+    many = [heard for heard in known if len(heard) >= _ENOUGH]
+    if any(_distance(heard) > _AS_OURS * (1 + 2 / sqrt(2 * len(heard))) for heard in many):
+        return False
+    return len(set().union(*map(_common, known))) > 1 and _distance([v for heard in known for v in heard]) <= _AS_OURS
 
 
 def _distance(heard: Sequence[int]) -> float:
