@@ -25,7 +25,7 @@ _STAFF_Y, _NAMES_Y, _LINE = 4.6, 9.4, 1.8
 """From the top of a row of notes to its staff's middle line and to the first line of names, and to the next line."""
 _AFTER_NAMES, _SIGN_ROW, _BELOW = 1.2, 2.8, 1.0
 """Between the names and what follows, from one row of signs to the next, and below the last one's words."""
-_SLOT, _LEAST_SLOT = 9.0, 7.0
+_SLOT, _LEAST_SLOT = 9.0, 8.3
 """What a note of the key takes across, and the least of it, which holds the longest word of a name."""
 _NAME = 1.45
 _BRACKETS_X = EDGE_X + sign_box("bracket_left").width / 2 + 0.03

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece
+from station.core.pieces import Articulation, Piece, Zone
 from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.drills.reading.lesson_file import parse_lesson
@@ -18,7 +18,7 @@ from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.files.pdf_file import pdf
 from station.render.notation.sheet import MARGIN, PAPERS, SPACES, SheetWords, sheet
-from station.render.notation.sheet_key import notes_used, signs_used
+from station.render.notation.sheet_key import draw_key, notes_used, signs_used
 from station.render.palette import INK, INK_FAINT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -282,3 +282,18 @@ def test_an_even_change_of_tempo_at_the_start_is_told_after_the_tempo_that_it_le
     )
     page = sheet(score, SheetWords("T", beats_a_minute=60.0), A4)[0]
     assert figures(page, "beat_4") == 2, "from this tempo to that"
+
+
+@pytest.mark.parametrize("space", SPACES)
+def test_no_name_in_the_key_is_cut(space: float) -> None:
+    """However many there are: all pieces, and a cross-stick, whose name is among the longest words."""
+    notes = [Note(k * PPQ, piece) for k, piece in enumerate(Piece)]
+    notes.append(Note(0, Piece.SNARE, Zone.RIM, articulation=Articulation.CROSS_STICK))
+    atlas = OutlineAtlas()
+    ellipsis = round(atlas.letter("…", Face.REGULAR).uv[0])
+    for count in range(4, len(notes)):
+        draw_list = DrawList(atlas)
+        score = Score.from_notes(notes[-count:], TempoMap.constant(80))
+        draw_key(draw_list, score, range(score.bar_count), (A4[0] - 2 * MARGIN) / space, with_sticking=False)
+        shapes = draw_list.shapes()
+        assert not (shapes["uv"][:, 0] == ellipsis).any(), count
