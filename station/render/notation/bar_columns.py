@@ -3,7 +3,7 @@
 Units are staff spaces, y down. What is drawn at one moment of the score is a column; how much room it takes is measured
 on its engraved shapes, band by band of the staff's height, so that a letter below may reach under a neighbour's stem.
 Between columns are springs: at ease each is as long as its time asks (Gould, "Behind Bars", 2011: space grows with
-duration, yet more slowly; here by so much each time it doubles), and none is shorter than its neighbours allow.
+duration, yet more slowly; here by the same ratio each time it doubles), and none is shorter than its neighbours allow.
 """
 
 from collections.abc import Callable, Sequence
@@ -16,9 +16,9 @@ from station.core.units import PPQ
 
 Floats = NDArray[np.float64]
 
-_EIGHTH, _DOUBLED = 2.9, 0.95
-"""The room at ease of an eighth from its note to the next, and what a value twice as long has more; our choice: four
-bars of eighths in a line of A4, a half note is given twice what an eighth is."""
+_EIGHTH, _DOUBLED = 2.9, 2**0.5
+"""The room at ease of an eighth from its note to the next: four bars of them in a line of A4 (our choice), and how many
+times that a value twice as long has: so a half note is given twice what an eighth is, as engravers do (Gould: 1.4)."""
 _SHORTEST = PPQ // 16
 """Values below a sixty-fourth are given as much as it."""
 _INSET = 1.65
@@ -85,7 +85,7 @@ def bar_columns(
     doublings = np.log2(np.maximum(np.diff(ticks), _SHORTEST) / (PPQ / 2))
     inset, least = _packed(left, right, beside)
     is_silent = len(times_s) == 2 and not np.isfinite(right[0]).any() and abs(2 * times_s[1] - length_s) < 1e-3
-    return BarColumns(times_s, least, np.maximum(_EIGHTH + _DOUBLED * doublings, 0.0), inset, is_silent)
+    return BarColumns(times_s, least, _EIGHTH * _DOUBLED**doublings, inset, is_silent)
 
 
 def _extents(shapes: NDArray[np.void], times_s: Floats) -> tuple[Floats, Floats]:

@@ -42,9 +42,9 @@ def columns_of(*times_s: float, half: float = 0.5, length_s: float = 4.0, y: flo
 def test_a_value_twice_as_long_takes_as_much_more_each_time() -> None:
     columns = columns_of(0.0, 0.5, 1.5, 3.5, length_s=4.0)
     eighth, quarter, half, last = columns.ease.tolist()
-    assert quarter - eighth == pytest.approx(half - quarter)
+    assert quarter / eighth == pytest.approx(half / quarter)
     assert last == pytest.approx(eighth)
-    assert eighth < quarter < 2 * eighth, "more room for more time, yet not as much more"
+    assert 1.4 < quarter / eighth < 1.6, "more room for more time, yet not as much more"
 
 
 def test_neighbours_keep_their_distance_where_they_are_level_and_only_there() -> None:
