@@ -96,9 +96,10 @@ class _SheetPages:
         return self._size[0] - 2 * MARGIN
 
     def may_be_one(self, space: float) -> bool:
-        """Whether all may be on one page, and on few lines where they are of the largest size."""
+        """Whether all may be on one page, and of the largest size on few lines of several bars each."""
         count = line_count(self._bars, self._width / space)
-        return count * _LEAST_LINE * space < self._size[1] and (space < SPACES[0] or count <= _FEW_LINES)
+        few = max(min(_FEW_LINES, len(self._bars) // 2), 1)
+        return count * _LEAST_LINE * space < self._size[1] and (space < SPACES[0] or count <= few)
 
     def pages(self, space: float) -> list[Ink]:
         """Lay out everything."""

@@ -297,3 +297,10 @@ def test_no_name_in_the_key_is_cut(space: float) -> None:
         draw_key(draw_list, score, range(score.bar_count), (A4[0] - 2 * MARGIN) / space, with_sticking=False)
         shapes = draw_list.shapes()
         assert not (shapes["uv"][:, 0] == ellipsis).any(), count
+
+
+def test_no_staff_is_so_large_that_a_line_holds_one_bar_of_two() -> None:
+    """Two bars of sixteenths with ghosts, one of which fills a line of the largest staff."""
+    lesson = find_lesson("second-line-1")
+    page = sheet(lesson.played_once, SheetWords("T"), A4)[0]
+    assert figures(page, "clef") == 1
