@@ -35,9 +35,9 @@ from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.swing import STRAIGHT
 
-_LEVELS_FROM = (10.5, 15.3, 20.8, 25.4)
-"""From which difficulty on a lesson is of level 2, 3, 4, 5: half way between the medians of the lessons that
-ship, which are 8.2, 12.8, 17.8, 23.8 and 27.0."""
+_LEVELS_FROM = (13.0, 18.5, 23.7, 27.9)
+"""From which difficulty on a lesson is of level 2, 3, 4, 5: half way between the medians of the lessons that ship, at
+the tempo to reach, which are 10.0, 16.0, 21.0, 26.4 and 29.4."""
 _TAGS = ("import",)
 
 
@@ -86,7 +86,7 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         about=_printable(part.about),
         tags=_TAGS,
         loop=(0, score.bar_count - 1),
-        swing=times.swing if part.swing.ratio == STRAIGHT else part.swing,
+        swing=part.swing if times.swing.ratio == STRAIGHT and not times.spread_ms else times.swing,
         beat_ticks=times.beat_ticks if part.beat_ticks == PPQ else part.beat_ticks,
         velocities=velocities,
         beyond=Score.from_notes(beyond, score.tempo_map, score.end_tick).notes,
