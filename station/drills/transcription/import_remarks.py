@@ -13,9 +13,12 @@ from station.drills.transcription.ornament_finder import BOUNCE_MS, FoundOrnamen
 from station.drills.transcription.reach import Reach
 from station.music.score import Score
 from station.music.swing import Swing
+from station.music.tempo import TempoMap
 
 _BARS_NAMED = 8
 """Bars that a remark names (our choice: what fits a line)."""
+_TIDIED_BPM = 0.05
+"""A tempo that was only made readable differs less."""
 _TOLD_MS = 0.5
 """What is less rounds to no millisecond."""
 
@@ -50,10 +53,16 @@ def _on_tempo(before: Score, after: Score) -> Iterator[str]:
     """A lesson's tempo changes at bar lines, and not for what only wanders."""
     old, new = before.tempo_map, after.tempo_map
     within = any(change.tick != old.bar_start(int(old.bars_at(change.tick))) for change in old.tempos)
+    if len(old.tempos) == len(new.tempos) == 1 and abs(_bpm(old) - _bpm(new)) > _TIDIED_BPM:
+        yield f"no tempo in it: played at {_bpm(new):.4g}"
     if within or len(new.tempos) < len(old.tempos):
         changes = len(new.tempos) - 1
-        said = f"{changes} at bar lines" if changes else f"one tempo, {60e6 / new.tempos[0].us_per_quarter:.4g}"
+        said = f"{changes} at bar lines" if changes else f"one tempo, {_bpm(new):.4g}"
         yield f"{_counted(len(old.tempos) - 1, 'change')} of tempo written as {said}"
+
+
+def _bpm(tempo_map: TempoMap) -> float:
+    return 60e6 / tempo_map.tempos[0].us_per_quarter
 
 
 def _on_times(times: GridTimes, mains: Score) -> Iterator[str]:
@@ -66,9 +75,12 @@ def _on_times(times: GridTimes, mains: Score) -> Iterator[str]:
 
 
 def _shifts_ms(times: GridTimes, mains: Score) -> NDArray[np.float64]:
-    """How far each stroke moved at the lesson's tempo; from the end to the start of the music is no way."""
+    """How far each stroke moved; from the end to the start of the music is no way.
+
+    A take moved in time. What was on the grid moved in the music, at the lesson's tempo: its changes may lie elsewhere.
+    """
     tempo_map = times.score.tempo_map
-    before = tempo_map.ns_at(mains.notes["tick"][times.origin])
+    before = (mains.tempo_map if times.spread_ms else tempo_map).ns_at(mains.notes["tick"][times.origin])
     by = np.abs(before - tempo_map.ns_at(times.score.notes["tick"]))
     return np.asarray(np.minimum(by, np.abs(mains.length_ns - by)) / NS_PER_MS)
 
