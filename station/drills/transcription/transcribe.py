@@ -75,6 +75,9 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     part = replace(part, sections=_earlier(part.sections, empty_bars))
     is_stated = part.swing.stands_in_words and bool(mains.notes["swing_ticks"].any())
     times = stated_times(mains, part.swing) if is_stated else quantised_times(mains, part.is_played)
+    shifts_ns = _shifts_ns(times, mains)
+    silent = int(times.score.bar[0]) if times.spread_ms else 0  # of a take, the bars before the first stroke
+    times, part = times.from_bar(silent), replace(part, sections=_earlier(part.sections, silent))
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
     strokes, velocities = with_dynamics([as_letter(note) for note in score])
     strokes = unified(strokes) if times.spread_ms else strokes
@@ -100,7 +103,7 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     lesson = with_sticking(replace(lesson, level=_level(lesson, form)), form)
     read = parse_lesson(write_lesson(lesson, form), name, name).lesson
     assert read, "what write_lesson gives is a lesson"
-    return Transcribed(read, tuple(_remarks(ornaments, times, mains, reach, read)))
+    return Transcribed(read, tuple(_remarks(ornaments, times, shifts_ns, reach, read)))
 
 
 def _from_its_first_bar(score: Score, ornaments: FoundOrnaments) -> tuple[Score, int]:
@@ -148,8 +151,9 @@ def _ends(score: Score, part: DrumPart) -> list[int]:
 # --- what was done ----------------------------------------------------------------------------------------------------
 
 
-def _remarks(ornaments: FoundOrnaments, times: GridTimes, mains: Score, reach: Reach, lesson: Lesson) -> Iterator[str]:
-    moved = _shifts_ns(times, mains)
+def _remarks(
+    ornaments: FoundOrnaments, times: GridTimes, moved: NDArray[np.int64], reach: Reach, lesson: Lesson
+) -> Iterator[str]:
     if count := int(np.count_nonzero(moved)):
         lean = f", the take as a whole {abs(times.lean_ms):.0f} ms {_side(times.lean_ms)}" if times.lean_ms else ""
         yield f"{_counted(count, 'stroke')} moved onto the grid, by at most {moved.max() / NS_PER_MS:.0f} ms{lean}"
