@@ -97,6 +97,23 @@ def test_two_flams_alike_in_loudness_share_what_suits_both() -> None:
     assert [n.velocity for n in found.score if n.lead_ms] == [35, 23]
 
 
+def test_the_silent_bars_before_a_take_are_none_of_the_lesson() -> None:
+    """The first stroke comes 9 ms before its bar."""
+    cells = [c for c in range(17, 48) if c % 8 not in (3, 6)]
+    errors_ms = np.random.default_rng(5).normal(0, 8, len(cells))
+    strokes = [snare(c * EIGHTH + round(ms * MS)) for c, ms in zip(cells, errors_ms.tolist(), strict=True)]
+    found = lesson_from(snare(16 * EIGHTH - 9 * MS), *strokes)
+    assert found.score.bar_count == 4
+    assert (found.score.notes["tick"] // EIGHTH).tolist()[0] == 0
+
+
+def test_a_pick_up_has_a_grid_of_its_own() -> None:
+    grooves = [c for c in range(8, 40) if c % 8 not in (3, 6)]
+    text = lesson_from(*(snare(c * EIGHTH) for c in (6, 7, *grooves))).text
+    assert 'name = "pick-up"' in text
+    assert "times = 4" in text
+
+
 def test_human_sixteenths_go_to_the_nearest() -> None:
     late = (12, -9, 15, 4)
     played = [snare(i * SIXTEENTH + late[i % 4] * MS) for i in range(4, 16)]
