@@ -76,7 +76,7 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     part = replace(part, sections=_earlier(part.sections, empty_bars), swing=readable(part.swing))
     is_stated = part.swing.stands_in_words and bool(mains.notes["swing_ticks"].any())
     times = stated_times(mains, part.swing) if is_stated else quantised_times(mains, part.is_played)
-    shifts_ns = _shifts_ns(times, mains)
+    whole = times
     silent = int(times.score.bar[0]) if times.spread_ms else 0  # of a take, the bars before the first stroke
     times, part = times.from_bar(silent), replace(part, sections=_earlier(part.sections, silent))
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
@@ -104,11 +104,7 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     lesson = with_sticking(replace(lesson, level=_level(lesson, form)), form)
     read = parse_lesson(write_lesson(lesson, form), name, name).lesson
     assert read, "what write_lesson gives is a lesson"
-<<<<<<< HEAD
-    return Transcribed(read, tuple(remarks_on(ornaments, times, mains, reach, read)))
-=======
-    return Transcribed(read, tuple(_remarks(ornaments, times, shifts_ns, reach, read)))
->>>>>>> p11-ear
+    return Transcribed(read, tuple(remarks_on(ornaments, whole, mains, reach, read)))
 
 
 def _from_its_first_bar(score: Score, ornaments: FoundOrnaments) -> tuple[Score, int]:
@@ -151,49 +147,3 @@ def _ends(score: Score, part: DrumPart) -> list[int]:
     changes = {t.tick for t in score.tempo_map.tempos} | {m.tick for m in score.tempo_map.meters}
     ticks = changes | {score.tempo_map.bar_start(bar) for bar in bars}
     return sorted({tick for tick in ticks if 0 < tick < score.end_tick} | {score.end_tick})
-<<<<<<< HEAD
-=======
-
-
-# --- what was done ----------------------------------------------------------------------------------------------------
-
-
-def _remarks(
-    ornaments: FoundOrnaments, times: GridTimes, moved: NDArray[np.int64], reach: Reach, lesson: Lesson
-) -> Iterator[str]:
-    if count := int(np.count_nonzero(moved)):
-        lean = f", the take as a whole {abs(times.lean_ms):.0f} ms {_side(times.lean_ms)}" if times.lean_ms else ""
-        yield f"{_counted(count, 'stroke')} moved onto the grid, by at most {moved.max() / NS_PER_MS:.0f} ms{lean}"
-    if lesson.is_swung:
-        yield f"swing {lesson.swing.ratio:g}:1"
-    found = {"flam": ornaments.flams, "drag": ornaments.drags, "buzz": ornaments.buzzes}
-    if any(found.values()):
-        yield f"found {', '.join(_counted(count, name) for name, count in found.items() if count)}"
-    if ornaments.bounces:
-        yield f"{_counted(ornaments.bounces, 'double trigger')} left out"
-    if reach.merged:
-        yield f"{_counted(reach.merged, 'stroke')} fell into one cell with a louder one"
-    if reach.plain:
-        yield f"{_counted(reach.plain, 'ornament')} without grace strokes, for which no hand is free"
-    if reach.beyond:
-        bars = sorted({int(bar) + 1 for bar in lesson.score.tempo_map.bars_at(lesson.beyond["tick"])})
-        where = ", ".join(map(str, bars[:_BARS_NAMED])) + (" …" if len(bars) > _BARS_NAMED else "")
-        several = f"bar{'s' if len(bars) > 1 else ''} {where}"
-        yield f"{_counted(len(reach.beyond), 'stroke')} beyond two hands and two feet, written {BEYOND}: {several}"
-
-
-def _shifts_ns(times: GridTimes, mains: Score) -> NDArray[np.int64]:
-    """How far each stroke moved; from the end to the start of the music is no way."""
-    before = mains.tempo_map.ns_at(mains.notes["tick"][times.origin])
-    by = np.abs(before - times.score.tempo_map.ns_at(times.score.notes["tick"]))
-    return np.asarray(np.minimum(by, np.abs(mains.length_ns - by)))
-
-
-def _side(lean_ms: float) -> str:
-    return "late" if lean_ms > 0 else "early"
-
-
-def _counted(count: int, noun: str) -> str:
-    """The count and the noun, "1 flam" or "2 buzzes"."""
-    return f"{count} {noun}{'' if count == 1 else 'es' if noun.endswith('z') else 's'}"
->>>>>>> p11-ear
