@@ -230,18 +230,35 @@ def _nearest_joined(levels: Sequence[Level]) -> list[Level]:
 
 
 def _velocities(named: _Named) -> Velocities:
-    """The velocity of each dynamic on each piece; the usual one where a piece has no such stroke."""
-    usual = Velocities().usual
+    """The velocity of each dynamic, and of the pieces that differ; the usual one where no stroke says otherwise."""
+    usual = _usual_of(named)
     of_piece: dict[Piece, tuple[int, int, int]] = {}
     for piece in sorted(named):
-        ghost, normal, accent = (_tidy(named[piece].get(d), usual[d]) for d in Dynamic)
-        three = (min(ghost, normal), normal, max(normal, accent))
+        three = _rising(*(_tidy(named[piece].get(d), usual[d], Velocities().usual[d]) for d in Dynamic))
         if three != usual:
             of_piece[piece] = three
     return Velocities(usual, MappingProxyType(of_piece))
 
 
-def _tidy(level: Level | None, usual: int) -> int:
-    if level is None or (not level.is_exact and abs(level.middle - usual) <= _TIDY):
+def _usual_of(named: _Named) -> tuple[int, int, int]:
+    """What is said once for all pieces: of each dynamic the velocity that two of them share, or the only piece has."""
+    ours = Velocities().usual
+    said = [Counter(_tidy(own[d], ours[d], ours[d]) for own in named.values() if d in own) for d in Dynamic]
+    needed = min(2, len(named))
+    shared = [
+        max(heard, key=lambda v: (heard[v], v == usual)) if heard and max(heard.values()) >= needed else usual
+        for heard, usual in zip(said, ours, strict=True)
+    ]
+    return _rising(*shared)
+
+
+def _rising(ghost: int, normal: int, accent: int) -> tuple[int, int, int]:
+    """No ghost louder than a normal stroke, and no accent softer."""
+    return min(ghost, normal), normal, max(normal, accent)
+
+
+def _tidy(level: Level | None, usual: int, ours: int) -> int:
+    """The velocity of a level: `usual` where there is none, `ours` where it is near to that."""
+    if level is None:
         return usual
-    return level.middle
+    return ours if not level.is_exact and abs(level.middle - ours) <= _TIDY else level.middle

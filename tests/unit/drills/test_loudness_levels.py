@@ -98,4 +98,13 @@ def test_what_the_file_names_stays() -> None:
 
 def test_the_lesson_says_the_players_own_levels() -> None:
     notes = [Note(i, Piece.SNARE, velocity=v) for i, v in enumerate([22, 24, 26, 101, 102, 103] * 3)]
-    assert with_dynamics(notes)[1].of_piece[Piece.SNARE] == (24, 80, 102)
+    velocities = with_dynamics(notes)[1]
+    assert [velocities.of(Piece.SNARE, dynamic) for dynamic in Dynamic] == [24, 80, 102]
+    assert not velocities.of_piece, "one piece alone needs no table of its own"
+
+
+def test_what_pieces_share_is_said_once() -> None:
+    levels = {Piece.KICK: 110, Piece.SNARE: 110, Piece.HIHAT: 110, Piece.RIDE: 64}
+    velocities = with_dynamics([Note(i, piece, velocity=v) for i, (piece, v) in enumerate([*levels.items()] * 8)])[1]
+    assert velocities.usual == (32, 110, 116)
+    assert dict(velocities.of_piece) == {Piece.RIDE: (32, 64, 116)}

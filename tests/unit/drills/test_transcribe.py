@@ -14,7 +14,9 @@ from station.drills.writing.lesson_part import part_of
 from station.drills.writing.score_difference import score_difference
 from station.music.drum_part import DrumPart, PartSection
 from station.music.formats.smf.midi_part import MIDI
+from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
+from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from tests.unit.drills.reading import EIGHTH, QUARTER, SIXTEENTH, WHOLE, read
 
@@ -93,6 +95,23 @@ def test_two_flams_alike_in_loudness_share_what_suits_both() -> None:
     strokes = [snare(2 * QUARTER - lead, 35), snare(2 * QUARTER, 116), snare(3 * QUARTER - lead, 23)]
     found = lesson_from(snare(0, 116), snare(QUARTER, 78), *strokes, snare(3 * QUARTER, 78))
     assert [n.velocity for n in found.score if n.lead_ms] == [35, 23]
+
+
+def test_the_silent_bars_before_a_take_are_none_of_the_lesson() -> None:
+    """The first stroke comes 9 ms before its bar."""
+    cells = [c for c in range(17, 48) if c % 8 not in (3, 6)]
+    errors_ms = np.random.default_rng(5).normal(0, 8, len(cells))
+    strokes = [snare(c * EIGHTH + round(ms * MS)) for c, ms in zip(cells, errors_ms.tolist(), strict=True)]
+    found = lesson_from(snare(16 * EIGHTH - 9 * MS), *strokes)
+    assert found.score.bar_count == 4
+    assert (found.score.notes["tick"] // EIGHTH).tolist()[0] == 0
+
+
+def test_a_pick_up_has_a_grid_of_its_own() -> None:
+    grooves = [c for c in range(8, 40) if c % 8 not in (3, 6)]
+    text = lesson_from(*(snare(c * EIGHTH) for c in (6, 7, *grooves))).text
+    assert 'name = "pick-up"' in text
+    assert "times = 4" in text
 
 
 def test_human_sixteenths_go_to_the_nearest() -> None:
@@ -260,3 +279,34 @@ def test_every_import_says_its_dynamics_as_the_player_has_them() -> None:
     lesson = lesson_from(*ghosts_and_backbeats)
     assert Counter(n.dynamic for n in lesson.score) == {Dynamic.ACCENT: 2, Dynamic.GHOST: 6}
     assert {n.velocity for n in lesson.score} == {30, 112}
+
+
+# --- what a teacher reads ---------------------------------------------------------------------------------------------
+
+
+def test_tempo_and_swing_are_numbers_that_people_write() -> None:
+    """666,666 µs are 90.00009 a minute, cut off by a program that means 90; 39 : 25 is how Hydrogen says 1.56."""
+    pairs = [snare(beat * QUARTER) for beat in range(8)]
+    late = round(QUARTER / 2 * 2 * 39 / 64)
+    off = [Note(beat * QUARTER + late, Piece.SNARE, velocity=80, swing_ticks=late - EIGHTH) for beat in range(8)]
+    tempo_map = TempoMap.build([TempoChange(0, 666_666)])
+    part = DrumPart(Score.from_notes([*pairs, *off], tempo_map), swing=Swing(39 / 25))
+    found = transcribe(part, "x")
+    assert "tempo_bpm = 90\n" in found.lesson.text
+    assert "swing_ratio = 1.56\n" in found.lesson.text
+    assert found.remarks == ("swing 1.56:1 of eighths",)
+
+
+def test_changes_of_tempo_within_bars_are_no_moved_strokes() -> None:
+    tempos = [TempoChange.from_bpm(beat * QUARTER, 160 - 20 * (beat % 4)) for beat in range(16)]
+    part = DrumPart(Score.from_notes([snare(i * QUARTER) for i in range(16)], TempoMap.build(tempos)))
+    remarks = transcribe(part, "x").remarks
+    assert any(remark.startswith("15 changes of tempo written as ") for remark in remarks)
+    assert not any("moved" in remark for remark in remarks)
+
+
+def test_a_flam_beside_a_hi_hat_is_told_with_its_bar() -> None:
+    hats = [Note(i * QUARTER, Piece.HIHAT, Zone.BOW, velocity=80) for i in range(8)]
+    flam = Note(5 * QUARTER, Piece.SNARE, velocity=80, ornament=Ornament.FLAM)
+    part = DrumPart(Score.from_notes([*hats, *with_graces(flam)], TEMPO))
+    assert "1 ornament without grace strokes, for which no hand is free: bar 2" in transcribe(part, "x").remarks
