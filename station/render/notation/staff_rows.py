@@ -44,6 +44,8 @@ TUPLET_HEIGHT = sign_box("tuplet_0").height * TUPLET_SCALE + 2 * STACK_GAP
 """What a tuplet's number and bracket take."""
 _LETTERS, _WORDS, _LOUDNESS = 1.6, 1.9, 2.9
 """What rows of letters, of words and of loudness take, with the gap before them."""
+_SWING_WORDS = 2.6
+"""And a row of words with the mark of a swing, whose triplet has a bracket above it."""
 LETTER_LINE = 1.3
 """From one letter to that of the other hand over it."""
 _UNDER_WORD = 0.7
@@ -166,7 +168,8 @@ def staff_rows(score: Score, limbs: NDArray[np.int8] | None = None, bars: range 
     low = feet if has_feet else feet - _LETTERS
     loudness = low + _LOUDNESS - _UNDER_WORD
     bottom = (low + _LOUDNESS if score.loudness else low) + STACK_GAP
-    return StaffRows(words - _WORDS, words, hands_row, feet, loudness, bottom)
+    top = words - (_SWING_WORDS if score.notes["swing_ticks"].any() else _WORDS)
+    return StaffRows(top, words, hands_row, feet, loudness, bottom)
 
 
 def _both_hands(score: Score, shown: NDArray[np.int8], rows: NDArray[np.int64]) -> bool:

@@ -1,10 +1,12 @@
 """Bar lines where time rolls by: repeat signs where a loop comes again, brackets over endings, by counting shapes."""
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.core.units import PPQ
+from station.drills.library import find_lesson
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.render.notation.engraving import Engraver
@@ -64,3 +66,14 @@ def test_an_ending_has_its_bracket_and_its_pass_over_its_bars_each_time() -> Non
     bracketed = {bar: figures for bar, (spans, figures) in enumerate(found) if spans}
     assert bracketed == {3: [1], 7: [2], 11: [1], 15: [2]}
     assert all(spans == [2.0] for spans, _ in found if spans), "over the whole bar"
+
+
+@pytest.mark.parametrize("name", ["jazz-ride-1", "hip-hop-1", "half-time-shuffle-1", "rock-endings-1"])
+def test_no_word_leaves_the_panel(name: str) -> None:
+    """The staff's reach holds the mark of a swing of 2 : 1, whose triplet stands under a bracket."""
+    score = find_lesson(name).score
+    engraver = Engraver(score, ATLAS, numbers=BarNumbers(0, score.bar_count))
+    for bar in range(score.bar_count):
+        shapes = engraver.bar(bar)
+        letters = shapes[shapes["kind"] != ShapeKind.BOX]
+        assert (letters["centre"][:, 1] - letters["half"][:, 1]).min() >= engraver.rows_y.top - 0.05
