@@ -10,9 +10,9 @@ from math import ceil, floor
 
 from station.render.notation.note_values import Value
 from station.render.notation.staff import height
-from station.render.palette import INK
+from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList
-from station.render.text.sign_outlines import sign_box
+from station.render.text.sign_outlines import LEDGER_LINE, LEDGER_OUT, sign_box
 
 _HANDS_Y, _FEET_Y = -1.0, 3.0
 """Where the two voices' rests stand at the least: the staff's upper half, and below its lower lines (our choice)."""
@@ -22,6 +22,8 @@ _HEAD = 0.5
 _KICK = 1.5
 """The height of the kick's head, which the hands' rests keep above."""
 _DOT_GAP = 0.4
+_ON_A_LINE, _STAFF = (1, 2), 2.0
+"""Rests that hang from a line or sit on it, and have a ledger line where there is none: beyond the staff (Gould)."""
 
 
 def draw_rest(draw_list: DrawList, value: Value, is_up: bool, other_steps: Sequence[int] | None) -> None:
@@ -32,6 +34,9 @@ def draw_rest(draw_list: DrawList, value: Value, is_up: bool, other_steps: Seque
     name = f"rest_{min(value.base, 128)}"
     y = _lone_y(name) if other_steps is None else _shared_y(name, is_up, [height(step) for step in other_steps])
     draw_list.sign(name, (0.0, y), INK)
+    if value.base in _ON_A_LINE and abs(y) > _STAFF:
+        half = sign_box(name).width / 2 + LEDGER_OUT
+        draw_list.line((-half, y), (half, y), LEDGER_LINE, INK_SOFT)
     for k in range(value.dots):
         x = sign_box(name).right + _DOT_GAP + sign_box("dot").width * 1.5 * k
         draw_list.sign("dot", (x, y - 0.5), INK)

@@ -13,12 +13,15 @@ from station.music.loudness_marks import LoudnessMark
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.notation.engraving import Engraver
+from station.render.notation.note_values import Value
+from station.render.notation.rests import draw_rest
 from station.render.notation.staff import PLACES, NoteHead, head_of, height, ledger_steps
 from station.render.notation.staff_rows import staff_rows
 from station.render.notation.swing_words import swing_marks
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
-from station.render.text.draw_list import ShapeKind
+from station.render.text.draw_list import DrawList, ShapeKind
+from station.render.text.sign_outlines import sign_box
 from tests.unit.render.scores import BAR, rock, score_of
 
 ATLAS = Atlas()
@@ -441,3 +444,16 @@ def test_a_buzz_s_sign_stands_on_the_stem_clear_of_its_beams(step: int, beams_dr
     assert len(buzz) == PPQ // step
     assert (buzz["centre"][:, 1] - 0.464).min() > lowest, "its height in the metadata of the font"
     assert (buzz["centre"][:, 1] + 0.464).max() < of_sign(shapes, "head_round")["centre"][:, 1].min() - 0.5
+
+
+@pytest.mark.parametrize(("hands", "count"), [(True, 1), (False, 0)])
+def test_a_half_rest_below_the_staff_has_a_line_to_sit_on(hands: bool, count: int) -> None:
+    """The feet's rest stands below the staff beside hands, and on its middle line where the feet alone play."""
+    draw_list = DrawList(ATLAS)
+    draw_rest(draw_list, Value(2), False, [] if hands else None)
+    shapes = draw_list.shapes()
+    lines = shapes[shapes["kind"] == ShapeKind.BOX]
+    assert len(lines) == count
+    assert all(line["half"][0] > sign_box("rest_2").width / 2 for line in lines)
+    draw_rest(quarter := DrawList(ATLAS), Value(4), False, [])
+    assert len(quarter.shapes()) == 1, "a quarter's hangs nowhere"
