@@ -70,6 +70,8 @@ def write_dtx(part: DrumPart) -> WrittenFile:
     for (bar, lane), group in groupby(chips, key=lambda c: (c.bar, c.lane)):
         places = [(c.tick, sounds[c.lane, c.percent]) for c in group]
         lines.append(_objects(score, bar, lane, places, lost))
+    if score.closing_rest_bars:
+        lost[Loss(Feature.TIMES, "bars of rest at the end: a chart ends with the bar of its last chip")] = None
     return WrittenFile("".join(f"{line}\r\n" for line in lines).encode(), tuple(lost))
 
 
