@@ -47,7 +47,10 @@ def _of(each: MusicFormat) -> str:
     kept = [f"| {feature.value} | {keeps[feature] or 'all of it'} |" for feature in Feature if feature in keeps]
     lost = ", ".join(feature.value for feature in Feature if feature not in keeps)
     table = "\n".join(kept)
-    return f"\n## {each.name}\n\n| keeps | how far |\n|---|---|\n{table}\n\nLoses: {lost}.\n"
+    first = next(one for one in FORMATS if one.keeps is each.keeps)
+    if first is not each:
+        return f"\n## {each.name}\n\nKeeps and loses what {first.name} does.\n"
+    return f"\n## {each.name}\n\n| keeps | how far |\n|---|---|\n{table}\n\nLoses: {lost or 'only what the limits above say'}.\n"
 
 
 if __name__ == "__main__":
