@@ -79,7 +79,9 @@ def folded(score: Score, sections: Mapping[int, str] = _NO_NAMES, apart: Collect
     `sections` are names by the bar, from 0, where they begin: within a passage each pass has the same ones in the same
     places, or the passage begins one section. No passage reaches over a bar in `apart`.
     """
-    bars = [replace(form, section=sections.get(bar, "")) for bar, form in enumerate(_bar_forms(score))]
+    known: dict[_BarForm, _BarForm] = {}  # alike bars are one object, which lists compare at once
+    forms = (replace(form, section=sections.get(bar, "")) for bar, form in enumerate(_bar_forms(score)))
+    bars = [known.setdefault(form, form) for form in forms]
     ends = sorted({0, len(bars), *(bar for bar in apart if 0 < bar < len(bars))})
     return [passage for first, last in pairwise(ends) for passage in _best(bars, first, last)]
 
@@ -184,11 +186,10 @@ def _comes_again(bars: Sequence[_BarForm], first: int, again: int, length: int) 
     What holds anyway may stand at the beginning on paper and be left out when it is played again, never the reverse; a
     meter may always be told again.
     """
-    if any(bars[first + k].lasting != bars[again + k].lasting for k in range(length)):
-        return False
     one, other = bars[first], bars[again]
     back = all(b in ("", a) for a, b in zip((*one.new[1:], one.section), (*other.new[1:], other.section), strict=True))
-    return back and all(bars[first + k] == bars[again + k] for k in range(1, length))
+    alike = one.lasting == other.lasting and back
+    return alike and bars[first + 1 : first + length] == bars[again + 1 : again + length]
 
 
 # --- the cheapest way to write them -----------------------------------------------------------------------------------
@@ -197,9 +198,10 @@ def _comes_again(bars: Sequence[_BarForm], first: int, again: int, length: int) 
 def _best(bars: Sequence[_BarForm], start: int, end: int) -> list[Passage]:
     """The passages that write bars `start` up to `end` at the least cost; plain bars that follow each other are one."""
     costs: dict[int, tuple[float, Passage | None]] = {end: (0.0, None)}
+    times: _Times = {}
     for at in range(end - 1, start - 1, -1):
         costs[at] = 1.0 + costs[at + 1][0], None
-        for passage in _repeats(bars, at, end):
+        for passage in _repeats(bars, at, end, times):
             after = at + passage.times * passage.pass_length
             is_named = bars[at + passage.pass_length].section != ""
             signs = (_NAMED_SIGN if is_named else _SIGN) + _ENDINGS * bool(passage.endings)
@@ -224,24 +226,28 @@ def _chosen(costs: dict[int, tuple[float, Passage | None]], start: int, end: int
         yield Passage(plain, end - 1)
 
 
-def _repeats(bars: Sequence[_BarForm], at: int, end: int) -> Iterator[Passage]:
-    """Every passage that begins at `at` and comes again at once."""
+_Times = dict[tuple[int, int, int], int]
+"""How often passes follow each other, by their first bar, their length, and how many of their bars are alike."""
+
+
+def _repeats(bars: Sequence[_BarForm], at: int, end: int, times: _Times) -> Iterator[Passage]:
+    """Every passage that begins at `at` and comes again at once; `times` has those that begin later, and gets these."""
     for length in range(1, min(LONGEST_PASSAGE, (end - at) // 2) + 1):
         if bars[at].lasting != bars[at + length].lasting:
             continue
-        if (times := _times(bars, at, end, (length, length))) > 1:
-            yield Passage(at, at + length - 1, times)
+        if (plain := _count(bars, at, (length, length), times)) > 1:
+            yield Passage(at, at + length - 1, plain)
         for ending in _ENDING_LENGTHS:
-            if 2 * ending <= length and (times := _times(bars, at, end, (length, length - ending))) > 1:
-                yield _with_endings(bars, at, (length, ending), times)
+            if 2 * ending <= length and (count := _count(bars, at, (length, length - ending), times)) > plain:
+                yield _with_endings(bars, at, (length, ending), count)
 
 
-def _times(bars: Sequence[_BarForm], at: int, end: int, lengths: tuple[int, int]) -> int:
+def _count(bars: Sequence[_BarForm], at: int, lengths: tuple[int, int], times: _Times) -> int:
     """How often passes of so many bars follow each other whose first ones, so many, are alike, from once on."""
-    (whole, alike), times = lengths, 1
-    while at + (times + 1) * whole <= end and _comes_again(bars, at, at + times * whole, alike):
-        times += 1
-    return times
+    whole, alike = lengths
+    count = 1 + times.get((at + whole, whole, alike), 1) if _comes_again(bars, at, at + whole, alike) else 1
+    times[at, whole, alike] = count
+    return count
 
 
 def _with_endings(bars: Sequence[_BarForm], at: int, lengths: tuple[int, int], times: int) -> Passage:
