@@ -162,7 +162,7 @@ def _tempos(score: Score, lost: dict[Loss, None]) -> Iterator[str]:
 
 
 def _bpm(tempo: TempoChange) -> str:
-    return f"{60e6 / tempo.us_per_quarter:.9f}".rstrip("0").rstrip(".")
+    return f"{tempo.short_bpm():.9f}".rstrip("0").rstrip(".")
 
 
 def _objects(score: Score, bar: int, lane: int, places: Sequence[tuple[int, str]], lost: dict[Loss, None]) -> str:
