@@ -110,3 +110,17 @@ def test_pulses_are_what_a_foot_taps() -> None:
     )
     assert MeterChange(0, 6, 8).pulses == ((0, 3 * eighth), (3 * eighth, 6 * eighth))
     assert MeterChange(0, 3, 4, (2, 1)).pulses == ((0, PPQ), (PPQ, 2 * PPQ), (2 * PPQ, 3 * PPQ))
+
+
+@pytest.mark.parametrize(
+    ("us_per_quarter", "beat_quarters", "bpm"),
+    [(833_333, 1.0, 72.0), (500_000, 1.0, 120.0), (327_869, 1.5, 122.0), (662_983, 1.0, 90.5)],
+)
+def test_a_tempo_has_the_shortest_number_that_means_it(us_per_quarter: int, beat_quarters: float, bpm: float) -> None:
+    """60 000 000 µs a minute by hand; 122 dotted quarters are 183 quarters, of 327 868.85 µs."""
+    assert TempoChange(0, us_per_quarter).short_bpm(beat_quarters) == bpm
+
+
+def test_a_tempo_of_no_short_number_keeps_its_microseconds() -> None:
+    change = TempoChange(0, 833_331)
+    assert TempoChange.from_bpm(0, change.short_bpm()) == change

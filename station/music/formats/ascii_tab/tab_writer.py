@@ -126,7 +126,7 @@ def _words(part: DrumPart, bar: int, lost: dict[Loss, None]) -> Iterator[str]:
     for tempo in tempo_map.tempos:
         if tempo.tick == start:
             meter = tempo_map.meter_at(start)
-            bpm = 60e6 / tempo.us_per_quarter / counted_quarters(meter.beats, meter.unit)
+            bpm = tempo.short_bpm(counted_quarters(meter.beats, meter.unit))
             yield f"Tempo: {bpm:.9f}".rstrip("0").rstrip(".")
         elif start < tempo.tick < end:
             lost[Loss(Feature.TEMPO, f"bar {bar + 1}: the tempo changes within the bar")] = None
