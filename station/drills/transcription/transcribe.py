@@ -76,8 +76,9 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     is_stated = part.swing.stands_in_words and bool(mains.notes["swing_ticks"].any())
     times = stated_times(mains, part.swing) if is_stated else quantised_times(mains, part.is_played)
     shifts_ns = _shifts_ns(times, mains)
-    silent = int(times.score.bar[0]) if times.spread_ms else 0  # of a take, the bars before the first stroke
-    times, part = times.from_bar(silent), replace(part, sections=_earlier(part.sections, silent))
+    if times.spread_ms:  # of a take, the bars that were played
+        part = replace(part, sections=_earlier(part.sections, int(times.score.bar[0])))
+        times = times.bars(int(times.score.bar[0]), int(times.score.bar[-1]))
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
     strokes, velocities = with_dynamics([as_letter(note) for note in score])
     strokes = unified(strokes) if times.spread_ms else strokes
