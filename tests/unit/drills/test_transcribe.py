@@ -141,6 +141,12 @@ def test_a_tempo_that_only_wanders_is_one_tempo() -> None:
     assert [t.us_per_quarter for t in lesson.score.tempo_map.tempos] == [500_000]
 
 
+def test_a_tempo_whose_microseconds_were_cut_off_is_the_whole_number() -> None:
+    """60 000 000 / 110 is 545 454.54…, which some programs round down."""
+    tempo_map = TempoMap.build([TempoChange(0, 545454)], [MeterChange(0, 4, 4)])
+    assert "tempo_bpm = 110\n" in lesson_from(snare(0), snare(QUARTER), tempo_map=tempo_map).text
+
+
 def test_a_tempo_that_really_changes_does() -> None:
     tempo_map = TempoMap.build([TempoChange(0, 500_000), TempoChange(WHOLE + 100, 400_000)])
     lesson = lesson_from(*(snare(i * WHOLE) for i in range(3)), tempo_map=tempo_map)

@@ -272,6 +272,14 @@ def test_a_flam_is_two_strokes() -> None:
     assert [round(ns / 1e6) for ns in back.onset_ns.tolist()] == [570, 600]  # a quarter at 100 bpm lasts 600 ms
 
 
+def test_a_grace_stroke_before_the_song_is_told() -> None:
+    """A song begins with its first bar; what leads it would fall on its note."""
+    grace = Note(0, Piece.SNARE, velocity=30, dynamic=Dynamic.GHOST, ornament=Ornament.FLAM, lead_ms=30)
+    part = part_of(grace, Note(0, Piece.SNARE, ornament=Ornament.FLAM))
+    assert Feature.FLAMS in lost(part)
+    assert len(written(part).score) == 1
+
+
 def test_a_tempo_change_within_a_bar_is_told() -> None:
     tempo_map = TempoMap.build([TempoChange(0, 500_000), TempoChange(PPQ, 400_000)])
     assert lost(part_of(Note(0, Piece.KICK), tempo_map=tempo_map)) == {Feature.TEMPO}

@@ -211,7 +211,7 @@ def _events(score: Score, losses: LostBars, for_kit: bool = False) -> list[_Even
         tick = note.tick
         if note.lead_ms > 0:
             tick = int(score.tempo_map.ticks_at_ns(onset_ns))
-            if for_kit or tick < -LEAD_LAG_TICKS * SCORE_TICKS:
+            if for_kit or tick < 0:
                 feature = Feature.FLAMS if note.ornament is Ornament.FLAM else Feature.DRAGS
                 losses.add(feature, "grace strokes that a pattern has no tempo for, or before the song begins", bar)
                 continue
