@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
-from statistics import median
+from statistics import fmean, median
 
 from station.core.pieces import TOMS, Articulation, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS, PPQ
@@ -40,8 +40,9 @@ _SOFT = 0.75
 _DRAG_SOFT = 0.62
 RUN_MS = 120.0
 """So near to other strokes of its drum a pair is part of a run: sixteenths at 125 bpm (our choice)."""
-_CELLS_OF_TWO = 3
-"""From the stroke before two to the one after them."""
+_CELLS_OF_TWO, _CELLS_BESIDE = 2.5, 1.75
+"""From the stroke before two of a run to the one after them are three cells, about a flam two; what is farther from
+the next stroke is the end of a run."""
 _LATE_HAND = 1.1
 _NEXT_HAND = 1.2
 """So much louder than rebounds is the other hand's stroke after them: rebounds lose a third; where it also
@@ -157,19 +158,25 @@ def _without_chains(line: Sequence[_Stroke], score: Score) -> list[_Stroke]:
 def _are_of_runs(starts: Sequence[float], ends: Sequence[float]) -> list[bool]:
     """Whether each chain, from `starts` to `ends` (ms), stands where a run of strokes needs two.
 
-    Three cells of the run lie then between the strokes before and after; where it is too short to tell, they are near.
+    Three cells of the run lie then between the strokes before and after; at its end or begin a whole cell beside it.
     """
     found: list[bool] = []
-    for i in range(len(starts)):
+    for i, (start, end) in enumerate(zip(starts, ends, strict=True)):
         before, after = ends[max(i - 2, 0) : i], starts[i + 1 : i + 3]
-        if not (before and after):
-            found.append(False)
-            continue
-        near = min(starts[i] - before[-1], after[0] - ends[i])
-        cell = min([b - a for a, b in (*pairwise(before), *pairwise(after))], default=inf)
-        is_of_two = round((after[0] - before[-1]) / cell) == _CELLS_OF_TWO
-        found.append(is_of_two and near <= 2 * RUN_MS if cell <= RUN_MS else near <= RUN_MS)
+        gaps = [b - a for a, b in (*pairwise(before), *pairwise(after)) if b - a <= RUN_MS]
+        left, right = start - before[-1] if before else inf, after[0] - end if after else inf
+        if gaps:
+            found.append(_is_of_run(left / fmean(gaps), end - start, right / fmean(gaps), fmean(gaps)))
+        else:
+            found.append(max(left, right) < inf and min(left, right) <= RUN_MS)
     return found
+
+
+def _is_of_run(left: float, wide_ms: float, right: float, cell_ms: float) -> bool:
+    """Whether two strokes `wide_ms` apart, so many cells after a run's stroke and before its next, are two of it."""
+    if max(left, right) <= _CELLS_BESIDE:
+        return left + wide_ms / cell_ms + right >= _CELLS_OF_TWO
+    return 1 <= left <= _CELLS_BESIDE or 1 < right <= _CELLS_BESIDE
 
 
 def _begins_another(chain: Sequence[_Stroke], stroke: _Stroke) -> bool:

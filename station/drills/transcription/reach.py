@@ -25,14 +25,14 @@ _SET_FIRST = (Piece.PERCUSSION, Piece.CLAP, Piece.TAMBOURINE, Piece.COWBELL)
 class Reach:
     """Main strokes that the player can make, and those `beyond`, each in order.
 
-    `merged` counts strokes that fell into one cell with a louder one of their piece, `plain` ornaments that lost their
-    grace strokes.
+    `merged` counts strokes that fell into one cell with a louder one of their piece, `plain` has those of `asked` that
+    lost their grace strokes.
     """
 
     asked: tuple[Note, ...]
     beyond: tuple[Note, ...]
     merged: int
-    plain: int
+    plain: tuple[Note, ...]
 
     @property
     def marks(self) -> frozenset[tuple[int, Piece]]:
@@ -60,7 +60,7 @@ def within_reach(notes: Sequence[Note], graces: Graces, tempo_map: TempoMap, end
         tuple(kept),
         tuple(beyond.values()),
         merged=len(notes) - len(kept) - len(beyond),
-        plain=sum(_is_graced(single[i]) and not _is_graced(n) for i, n in asked.items()),
+        plain=tuple(n for i, n in sorted(asked.items()) if _is_graced(single[i]) and not _is_graced(n)),
     )
 
 

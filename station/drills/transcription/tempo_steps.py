@@ -7,14 +7,13 @@ from station.music.tempo import TempoChange, TempoMap
 
 WANDERS = 1.06
 """A band that keeps its tempo stays within 6 % from its slowest to its fastest bar: ± 3 % (our choice)."""
-_US_PER_MINUTE = 60_000_000
 _RUN = 3
 """So many changes in one direction are meant (our choice)."""
 
 
 def steady(tempo_map: TempoMap, bar_count: int) -> TempoMap:
     """The map, its changes at bars, with one tempo for each stretch of bars over which it only wanders."""
-    rates = [_whole(tempo_map.us_per_quarter_at(tempo_map.bar_start(bar))) for bar in range(bar_count)]
+    rates = [_said(tempo_map.us_per_quarter_at(tempo_map.bar_start(bar))) for bar in range(bar_count)]
     found: list[TempoChange] = []
     start = 0
     while start < bar_count:
@@ -27,10 +26,10 @@ def steady(tempo_map: TempoMap, bar_count: int) -> TempoMap:
     return TempoMap.build(found, tempo_map.meters)
 
 
-def _whole(us_per_quarter: int) -> int:
-    """The whole number of beats a minute that a program may have meant which cuts microseconds off."""
-    whole = TempoChange.from_bpm(0, round(_US_PER_MINUTE / us_per_quarter)).us_per_quarter
-    return whole if abs(whole - us_per_quarter) <= 1 else us_per_quarter
+def _said(us_per_quarter: int) -> int:
+    """The tempo in tenths of a beat a minute where a file means one: programs cut off what is below a microsecond."""
+    tenths = TempoChange.from_bpm(0, round(60e6 / us_per_quarter, 1)).us_per_quarter
+    return tenths if abs(tenths - us_per_quarter) <= 1 else us_per_quarter
 
 
 def _wandering_until(rates: Sequence[int], start: int) -> int:
@@ -50,7 +49,7 @@ def _mean(tempo_map: TempoMap, rates: Sequence[int], first_bar: int) -> TempoCha
     """The mean tempo of bars, in tenths of a beat a minute."""
     lengths = [tempo_map.bar_start(bar + 1) - tempo_map.bar_start(bar) for bar in _bars(first_bar, len(rates))]
     mean = sum(rate * ticks for rate, ticks in zip(rates, lengths, strict=True)) / sum(lengths)
-    return TempoChange.from_bpm(tempo_map.bar_start(first_bar), round(_US_PER_MINUTE / mean, 1))
+    return TempoChange.from_bpm(tempo_map.bar_start(first_bar), round(60e6 / mean, 1))
 
 
 def _bars(first: int, count: int) -> range:

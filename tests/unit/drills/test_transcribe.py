@@ -14,7 +14,9 @@ from station.drills.writing.lesson_part import part_of
 from station.drills.writing.score_difference import score_difference
 from station.music.drum_part import DrumPart, PartSection
 from station.music.formats.smf.midi_part import MIDI
+from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
+from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from tests.unit.drills.reading import EIGHTH, QUARTER, SIXTEENTH, WHOLE, read
 
@@ -147,7 +149,10 @@ def heard_meter(bar: str, count: int = 12, *, is_meter_said: bool = False) -> st
     cells = [(i * EIGHTH, c) for i, c in enumerate(bar * count)]
     notes = [Note(tick, Piece.HIHAT) for tick, _ in cells] + [Note(tick, pieces[c]) for tick, c in cells if c in pieces]
     part = DrumPart(Score.from_notes(notes, TEMPO), is_meter_said=is_meter_said)
-    return str(transcribe(part, "x").lesson.score.tempo_map.meters[0])
+    found = transcribe(part, "x")
+    meter = str(found.lesson.score.tempo_map.meters[0])
+    assert (f"no meter in it: heard as {meter}" in found.remarks) is (meter != "4/4")
+    return meter
 
 
 @pytest.mark.parametrize(
@@ -305,3 +310,34 @@ def test_every_import_says_its_dynamics_as_the_player_has_them() -> None:
     lesson = lesson_from(*ghosts_and_backbeats)
     assert Counter(n.dynamic for n in lesson.score) == {Dynamic.ACCENT: 2, Dynamic.GHOST: 6}
     assert {n.velocity for n in lesson.score} == {30, 112}
+
+
+# --- what a teacher reads ---------------------------------------------------------------------------------------------
+
+
+def test_tempo_and_swing_are_numbers_that_people_write() -> None:
+    """666,666 µs are 90.00009 a minute, cut off by a program that means 90; 39 : 25 is how Hydrogen says 1.56."""
+    pairs = [snare(beat * QUARTER) for beat in range(8)]
+    late = round(QUARTER / 2 * 2 * 39 / 64)
+    off = [Note(beat * QUARTER + late, Piece.SNARE, velocity=80, swing_ticks=late - EIGHTH) for beat in range(8)]
+    tempo_map = TempoMap.build([TempoChange(0, 666_666)])
+    part = DrumPart(Score.from_notes([*pairs, *off], tempo_map), swing=Swing(39 / 25))
+    found = transcribe(part, "x")
+    assert "tempo_bpm = 90\n" in found.lesson.text
+    assert "swing_ratio = 1.56\n" in found.lesson.text
+    assert found.remarks == ("swing 1.56:1 of eighths",)
+
+
+def test_changes_of_tempo_within_bars_are_no_moved_strokes() -> None:
+    tempos = [TempoChange.from_bpm(beat * QUARTER, 160 - 20 * (beat % 4)) for beat in range(16)]
+    part = DrumPart(Score.from_notes([snare(i * QUARTER) for i in range(16)], TempoMap.build(tempos)))
+    remarks = transcribe(part, "x").remarks
+    assert any(remark.startswith("15 changes of tempo written as ") for remark in remarks)
+    assert not any("moved" in remark for remark in remarks)
+
+
+def test_a_flam_beside_a_hi_hat_is_told_with_its_bar() -> None:
+    hats = [Note(i * QUARTER, Piece.HIHAT, Zone.BOW, velocity=80) for i in range(8)]
+    flam = Note(5 * QUARTER, Piece.SNARE, velocity=80, ornament=Ornament.FLAM)
+    part = DrumPart(Score.from_notes([*hats, *with_graces(flam)], TEMPO))
+    assert "1 ornament without grace strokes, for which no hand is free: bar 2" in transcribe(part, "x").remarks

@@ -11,10 +11,13 @@ from fractions import Fraction
 
 from station.core.errors import BadInput
 from station.core.pieces import CHOKEABLE, HALF_OPEN, Articulation, Dynamic, Piece
+from station.core.units import PPQ
 from station.core.utf8 import utf8_text
 from station.music.drum_part import DrumPart, PartSection
+from station.music.formats.ascii_tab.tab_beats import in_whole_bars
 from station.music.formats.ascii_tab.tab_letters import CHOKE, LETTERS, RESTS, TabStroke
-from station.music.formats.ascii_tab.tab_text import TabBar, TabRow, TabSystem, TabText, tab_text
+from station.music.formats.ascii_tab.tab_lines import TabBar
+from station.music.formats.ascii_tab.tab_text import TabRow, TabSystem, TabText, tab_text
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
@@ -87,8 +90,10 @@ class _Reader:
     def bars(self, text: TabText) -> Iterator[_Bar]:
         """The bars as the text has them."""
         stated: tuple[int, int] | None = None
-        for system in text.systems:
-            stated = system.meter or stated
+        for typed in text.systems:
+            stated = typed.meter or stated
+            system, said = in_whole_bars(typed, stated)
+            self.lost.update(dict.fromkeys(said))
             count = max(len(row.bars) for row in system.rows)
             bars = [self.bar(system, k, stated) for k in range(count)]
             if bars:
@@ -122,7 +127,7 @@ class _Reader:
                 struck = self.struck(letter, row)
                 found.append(_Stroke(i * cell, cell, struck.piece or row.meaning.piece, struck))
             else:
-                place = f"line {row.line}, column {bar.column + i}"
+                place = f"line {row.line}, column {bar.columns[i]}"
                 raise BadInput(self.source, place, f"{letter!r} is no stroke; expected one of {' '.join(letters)} -")
         return found
 
@@ -189,6 +194,15 @@ def _choke(found: list[_Stroke], at: Fraction, cell: Fraction, row: TabRow) -> N
         found.append(_Stroke(at, cell, row.meaning.piece, struck, cell))
 
 
+def counted_quarters(beats: int, unit: int) -> float:
+    """How many quarter notes the beat has that a tempo above a tab counts: a dotted one in 6/8, 9/8 and 12/8.
+
+    A tab says no groups.
+    """
+    ticks: int = MeterChange(0, beats, unit).usual_beat_ticks
+    return ticks / PPQ
+
+
 # --- the whole --------------------------------------------------------------------------------------------------------
 
 
@@ -207,12 +221,12 @@ def _written_out(bars: Sequence[_Bar]) -> Iterator[_Bar]:
 
 def _score(bars: Sequence[_Bar], title: str) -> Score:
     tick, notes, meters = 0, list[Note](), list[MeterChange]()
-    first = next((bar.tempo_bpm for bar in bars if bar.tempo_bpm), _USUAL_BPM)
+    first = next((bar.tempo_bpm * counted_quarters(*bar.meter) for bar in bars if bar.tempo_bpm), _USUAL_BPM)
     tempos = [TempoChange.from_bpm(0, first)]
     for bar in bars:
         meters.append(MeterChange(tick, *bar.meter))
         if bar.tempo_bpm:
-            tempos.append(TempoChange.from_bpm(tick, bar.tempo_bpm))
+            tempos.append(TempoChange.from_bpm(tick, bar.tempo_bpm * counted_quarters(*bar.meter)))
         notes += [row for s in bar.strokes for row in with_graces(_note(s, tick, meters[-1].bar_ticks))]
         tick += meters[-1].bar_ticks
     return Score.from_notes(notes, TempoMap.build(tempos, meters), tick, title)
