@@ -27,7 +27,8 @@ class DrumPart:
     ornament with its grace strokes (`grace_strokes`), limb, openness. `beat_ticks` is the beat that is counted (a
     dotted quarter in 6/8). `swing` is how the whole part swings: its notes lie where they sound, and those that
     notation writes straight have their `swing_ticks`. `sections` cover no bar twice. `is_played`: its times are as
-    somebody played them, and on no grid. `lost` says, a line each, what the file has and this value has not.
+    somebody played them, and on no grid. `is_meter_said`: the file says its meter; else its 4/4 is only what is usual.
+    `lost` says, a line each, what the file has and this value has not.
     """
 
     score: Score
@@ -37,4 +38,5 @@ class DrumPart:
     swing: Swing = field(default_factory=Swing)
     sections: tuple[PartSection, ...] = ()
     is_played: bool = False
+    is_meter_said: bool = True
     lost: tuple[str, ...] = ()

@@ -54,13 +54,11 @@ class GridTimes:
     lean_ms: float = 0.0
     spread_ms: float = 0.0
 
-    def from_bar(self, first: int) -> "GridTimes":
-        """The same without its first bars, which are empty."""
-        if not first:
-            return self
+    def bars(self, first: int, last: int) -> "GridTimes":
+        """Bars `first` to `last` inclusive, outside which there is no stroke."""
         start = self.score.tempo_map.bar_start(first)
         beats = tuple(replace(beat, tick=beat.tick - start) for beat in self.beats)
-        return replace(self, score=self.score.bars(first, self.score.bar_count - 1), beats=beats)
+        return replace(self, score=self.score.bars(first, last), beats=beats)
 
 
 def quantised_times(score: Score, is_played: bool) -> GridTimes:

@@ -28,6 +28,7 @@ def remarks_on(
 ) -> Iterator[str]:
     """The remarks on a `lesson` made of the strokes `mains` of a file."""
     yield from _on_tempo(mains, lesson.score)
+    yield from _on_meter(mains, lesson.score)
     yield from _on_times(times, mains)
     if lesson.is_swung:
         yield f"swing {lesson.swing.ratio:.3g}:1 of {_unit(lesson.swing)}"
@@ -47,6 +48,12 @@ def remarks_on(
     if reach.beyond:
         bars = _bars(lesson.score, lesson.beyond["tick"])
         yield f"{_counted(len(reach.beyond), 'stroke')} beyond two hands and two feet, written {BEYOND}: {bars}"
+
+
+def _on_meter(before: Score, after: Score) -> Iterator[str]:
+    old, new = before.tempo_map.meters, after.tempo_map.meters
+    if len(old) == len(new) == 1 and (old[0].beats, old[0].unit) != (new[0].beats, new[0].unit):
+        yield f"no meter in it: heard as {new[0]}"
 
 
 def _on_tempo(before: Score, after: Score) -> Iterator[str]:

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
-from statistics import median
+from statistics import fmean, median
 
 from station.core.pieces import TOMS, Articulation, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS, PPQ
@@ -40,8 +40,13 @@ _SOFT = 0.75
 _DRAG_SOFT = 0.62
 RUN_MS = 120.0
 """So near to other strokes of its drum a pair is part of a run: sixteenths at 125 bpm (our choice)."""
-_NEXT_HAND = 1.25
-"""So much louder than rebounds is the other hand's stroke after them: rebounds lose a third (our choice)."""
+_CELLS_OF_TWO, _CELLS_BESIDE = 2.5, 1.75
+"""From the stroke before two of a run to the one after them are three cells, about a flam two; what is farther from
+the next stroke is the end of a run."""
+_LATE_HAND = 1.1
+_NEXT_HAND = 1.2
+"""So much louder than rebounds is the other hand's stroke after them: rebounds lose a third; where it also
+comes so much later than a rebound would, less will do (our choice)."""
 _ALIKE = 0.5
 """Both strokes of a drag are of one bounce: the softer has at least this share of the louder (our choice)."""
 _APART = 1.3
@@ -146,19 +151,45 @@ def _without_chains(line: Sequence[_Stroke], score: Score) -> list[_Stroke]:
             chains[-1].append(stroke)
         else:
             chains.append([stroke])
-    before = [-inf, *(chain[-1].ms for chain in chains[:-1])]
-    after = [*(chain[0].ms for chain in chains[1:]), inf]
-    is_run = [min(c[0].ms - b, a - c[-1].ms) <= RUN_MS for b, c, a in zip(before, chains, after, strict=True)]
+    is_run = _are_of_runs([chain[0].ms for chain in chains], [chain[-1].ms for chain in chains])
     return [found for chain, inside in zip(chains, is_run, strict=True) for found in _meant(chain, inside, score)]
+
+
+def _are_of_runs(starts: Sequence[float], ends: Sequence[float]) -> list[bool]:
+    """Whether each chain, from `starts` to `ends` (ms), stands where a run of strokes needs two.
+
+    Three cells of the run lie then between the strokes before and after; at its end or begin a whole cell beside it.
+    """
+    found: list[bool] = []
+    for i, (start, end) in enumerate(zip(starts, ends, strict=True)):
+        before, after = ends[max(i - 2, 0) : i], starts[i + 1 : i + 3]
+        gaps = [b - a for a, b in (*pairwise(before), *pairwise(after)) if b - a <= RUN_MS]
+        left, right = start - before[-1] if before else inf, after[0] - end if after else inf
+        if gaps:
+            found.append(_is_of_run(left / fmean(gaps), end - start, right / fmean(gaps), fmean(gaps)))
+        else:
+            found.append(max(left, right) < inf and min(left, right) <= RUN_MS)
+    return found
+
+
+def _is_of_run(left: float, wide_ms: float, right: float, cell_ms: float) -> bool:
+    """Whether two strokes `wide_ms` apart, so many cells after a run's stroke and before its next, are two of it."""
+    if max(left, right) <= _CELLS_BESIDE:
+        return left + wide_ms / cell_ms + right >= _CELLS_OF_TWO
+    return 1 <= left <= _CELLS_BESIDE or 1 < right <= _CELLS_BESIDE
 
 
 def _begins_another(chain: Sequence[_Stroke], stroke: _Stroke) -> bool:
     """Whether the stroke is none of the chain: it is a drag's, or the first stroke of the next hand after rebounds."""
     if stroke.leads_ms or chain[-1].leads_ms:
         return True
-    heard = [s.note.velocity for s in chain]
-    is_louder = stroke.note.velocity >= _NEXT_HAND * median(heard[1:] or heard)
-    return len(chain) >= _FEWEST and is_louder and max(heard) > _SOFT * stroke.note.velocity
+    if len(chain) < _FEWEST:
+        return False
+    heard, velocity = [s.note.velocity for s in chain], stroke.note.velocity
+    gap = median(b.ms - a.ms for a, b in pairwise(chain))
+    is_late = stroke.ms - chain[-1].ms >= _NEXT_HAND * gap
+    is_louder = velocity >= (_LATE_HAND if is_late else _NEXT_HAND) * median(heard[1:])
+    return is_louder and max(heard) > _SOFT * velocity
 
 
 def _meant(chain: Sequence[_Stroke], is_run: bool, score: Score) -> list[_Stroke]:

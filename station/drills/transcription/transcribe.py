@@ -18,10 +18,11 @@ from station.drills.lesson import Lesson
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.transcription.diddle_finder import with_diddles
 from station.drills.transcription.form_finder import found_form
-from station.drills.transcription.grid_times import quantised_times
+from station.drills.transcription.grid_times import GridTimes, quantised_times
 from station.drills.transcription.import_remarks import remarks_on
 from station.drills.transcription.letters import as_letter, unified
 from station.drills.transcription.loudness_levels import with_dynamics
+from station.drills.transcription.meter_finder import with_heard_meter
 from station.drills.transcription.ornament_finder import FoundOrnaments, found_ornaments
 from station.drills.transcription.reach import within_reach
 from station.drills.transcription.ringing import with_lengths
@@ -34,6 +35,7 @@ from station.music.drum_part import DrumPart, PartSection
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.swing import STRAIGHT
+from station.music.tempo import TempoMap
 
 _LEVELS_FROM = (13.0, 18.5, 23.7, 27.9)
 """From which difficulty on a lesson is of level 2, 3, 4, 5: half way between the medians of the lessons that ship, at
@@ -75,10 +77,11 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     mains, empty_bars = _from_its_first_bar(part.score, ornaments)
     part = replace(part, sections=_earlier(part.sections, empty_bars), swing=readable(part.swing))
     is_stated = part.swing.stands_in_words and bool(mains.notes["swing_ticks"].any())
-    times = stated_times(mains, part.swing) if is_stated else quantised_times(mains, part.is_played)
+    times = stated_times(mains, part.swing) if is_stated else _heard_times(mains, part)
     whole = times
-    silent = int(times.score.bar[0]) if times.spread_ms else 0  # of a take, the bars before the first stroke
-    times, part = times.from_bar(silent), replace(part, sections=_earlier(part.sections, silent))
+    if times.spread_ms:  # of a take, the bars that were played
+        part = replace(part, sections=_earlier(part.sections, int(times.score.bar[0])))
+        times = times.bars(int(times.score.bar[0]), int(times.score.bar[-1]))
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
     strokes, velocities = with_dynamics([as_letter(note) for note in score])
     strokes = unified(strokes) if times.spread_ms else strokes
@@ -105,6 +108,16 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     read = parse_lesson(write_lesson(lesson, form), name, name).lesson
     assert read, "what write_lesson gives is a lesson"
     return Transcribed(read, tuple(remarks_on(ornaments, whole, mains, reach, read)))
+
+
+def _heard_times(mains: Score, part: DrumPart) -> GridTimes:
+    """The main strokes on the grid, under the meter that is heard where the file says none."""
+    times = quantised_times(mains, part.is_played)
+    heard = times.score if part.is_meter_said else with_heard_meter(times.score)
+    if heard is times.score:
+        return times
+    tempo_map = TempoMap.build(mains.tempo_map.tempos, heard.tempo_map.meters)
+    return quantised_times(Score.from_array(mains.notes, tempo_map, None, mains.title, mains.loudness), part.is_played)
 
 
 def _from_its_first_bar(score: Score, ornaments: FoundOrnaments) -> tuple[Score, int]:

@@ -63,6 +63,23 @@ def test_two_strokes_of_a_fast_roll_that_come_close_are_no_flam() -> None:
     assert names(*((ms, 80 - i % 2) for i, ms in enumerate(times))) == ["stroke"] * 6
 
 
+def test_two_strokes_of_a_run_as_close_as_a_flam_leave_no_hole_in_it() -> None:
+    """Sixteenths at 150 bpm, 100 ms apart, one 29 ms late and the next 29 ms early."""
+    times = (500, 600, 700, 800 + 29, 900 - 29, 1000, 1100, 1200)
+    assert names(*((ms, 80 - i % 2) for i, ms in enumerate(times))) == ["stroke"] * 8
+
+
+def test_a_run_whose_other_strokes_are_uneven_has_no_hole_either() -> None:
+    """Thirty-seconds 77 ms apart at which a player's gaps are 60 to 95 ms, and one of them 40."""
+    times = (500, 562, 654, 749, 789, 881, 946)
+    assert names(*((ms, 80 - i % 2) for i, ms in enumerate(times))) == ["stroke"] * 7
+
+
+def test_two_hands_alike_on_every_stroke_of_a_run_are_flams() -> None:
+    """The same sixteenths, each a flam of 25 ms whose grace stroke is too loud."""
+    assert names(*((500 + 100 * i + ms, 80) for i in range(8) for ms in (-25, 0))) == ["flam"] * 8
+
+
 def test_of_a_roll_without_gaps_each_hands_stroke_is_a_buzz() -> None:
     """The other hand strikes while the last rebounds still sound."""
     one = ((0, 80), (32, 55), (64, 52), (96, 56), (128, 50))

@@ -143,6 +143,37 @@ def test_a_tempo_that_only_wanders_is_one_tempo() -> None:
     assert [t.us_per_quarter for t in lesson.score.tempo_map.tempos] == [500_000]
 
 
+def heard_meter(bar: str, count: int = 12, *, is_meter_said: bool = False) -> str:
+    """What a part is heard in whose bar of eighths has kicks (k) and snares (s), over a hi-hat on every one."""
+    pieces = {"k": Piece.KICK, "s": Piece.SNARE}
+    cells = [(i * EIGHTH, c) for i, c in enumerate(bar * count)]
+    notes = [Note(tick, Piece.HIHAT) for tick, _ in cells] + [Note(tick, pieces[c]) for tick, c in cells if c in pieces]
+    part = DrumPart(Score.from_notes(notes, TEMPO), is_meter_said=is_meter_said)
+    found = transcribe(part, "x")
+    meter = str(found.lesson.score.tempo_map.meters[0])
+    assert (f"no meter in it: heard as {meter}" in found.remarks) is (meter != "4/4")
+    return meter
+
+
+@pytest.mark.parametrize(
+    ("bar", "meter"),
+    [("k-s-s-", "3/4"), ("k--s--", "6/8"), ("k-s-k-s", "7/8"), ("k--k--s-k-", "5/4"), ("k-s-kks-", "4/4")],
+)
+def test_a_file_that_says_no_meter_is_heard(bar: str, meter: str) -> None:
+    assert heard_meter(bar) == meter
+
+
+def test_a_meter_that_the_file_says_stays() -> None:
+    """Three against four is music, too."""
+    assert heard_meter("k-s-s-", is_meter_said=True) == "4/4"
+
+
+def test_a_tempo_whose_microseconds_were_cut_off_is_the_whole_number() -> None:
+    """60 000 000 / 110 is 545 454.54…, which some programs round down."""
+    tempo_map = TempoMap.build([TempoChange(0, 545454)], [MeterChange(0, 4, 4)])
+    assert "tempo_bpm = 110\n" in lesson_from(snare(0), snare(QUARTER), tempo_map=tempo_map).text
+
+
 def test_a_tempo_that_really_changes_does() -> None:
     tempo_map = TempoMap.build([TempoChange(0, 500_000), TempoChange(WHOLE + 100, 400_000)])
     lesson = lesson_from(*(snare(i * WHOLE) for i in range(3)), tempo_map=tempo_map)

@@ -27,7 +27,8 @@ _CUT = (Loss(Feature.TIMES, "bars of rest at the end: a MIDI file is read to the
 
 def read_midi_part(data: bytes, source: str) -> DrumPart:
     """The drums of a MIDI file; raises `BadInput` of `source`."""
-    return DrumPart(score_from_midi(parse_midi(data, source)))
+    contents = parse_midi(data, source)
+    return DrumPart(score_from_midi(contents), is_meter_said=any(track.meters for track in contents.tracks))
 
 
 def write_midi_part(part: DrumPart) -> WrittenFile:
