@@ -311,5 +311,5 @@ def test_on_one_tick_an_earlier_track_comes_first() -> None:
 def test_an_electric_snare_alone_is_a_snare_and_beside_38_a_rim_shot(
     numbers: tuple[int, ...], struck: list[Articulation]
 ) -> None:
-    data = file(header(1, 1, 480), track(*(drum(96 * (i > 0), number) for i, number in enumerate(numbers))))
+    data = file(*(drum(96 * (i > 0), number) for i, number in enumerate(numbers)))
     assert [note.articulation for note in read_midi_part(data, "song.mid").score] == struck
