@@ -1,16 +1,16 @@
 """Throws broken files at every importer: only `BadInput` may come out, in time and within memory.
 
-    python benchmarks/fuzz_formats.py --inputs 100000 --seed 1 [--format DTX] [--files FOLDER …] [--whole]
+    python -m benchmarks.fuzz_formats --inputs 100000 --seed 1 [--format DTX] [--files FOLDER …] [--whole]
 
 Seeds are files of the station's own making in every format that it writes, and those found in FOLDER. An input is a
-seed with some bytes, numbers or lines changed, cut, doubled or swapped with those of another seed, or a zip of such.
-`--whole` goes on to the lesson. Prints a table, and keeps each input that fails in `--keep`.
+seed with some bytes or lines changed, cut, doubled or swapped with those of another seed, broken in the ways of its
+kind (`hostile_bytes`), or a zip of such; some are files of another format. `--whole` goes on to the lesson.
+Prints a table, and keeps each input that fails in `--keep`.
 """
 
 import argparse
 import io
 import random
-import re
 import resource
 import signal
 import time
@@ -20,18 +20,29 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import mido
+
+from benchmarks.hostile_bytes import ways_for
 from station.core.errors import BadInput
 from station.drills.library import shipped_lessons
 from station.drills.transcription.transcribe import transcribe
 from station.drills.writing.lesson_part import part_of
 from station.drills.writing.lesson_writer import write_lesson
 from station.music.drum_part import DrumPart
+from station.music.formats.clone_hero.clone_hero_format import NOTES_MIDI
 from station.music.formats.format_table import FORMATS
+from station.music.formats.groovescribe.groove_formats import GROOVE_TEXT, GROOVESCRIBE
 from station.music.formats.music_format import MusicFormat
 
 LIMIT_S, LIMIT_MB = 2.0, 500
 _LESSONS = 12
-_NUMBERS = (b"0", b"-1", b"1", b"99999999999999999999", b"1e308", b"NaN", b"2147483648", b"65536", b"0.0000001", b"")
+_MOST_BYTES = 2_000_000
+"""Of an input (our choice: what grows, grows no further)."""
+_NAME = "input"
+_STRANGERS = 0.03
+"""So many inputs are files of another format (our choice)."""
+_OUR_FAULT = ("became", "internal")
+"""Words of refusals that blame the file for what a writer of ours did."""
 
 
 class TooSlow(Exception):
@@ -56,8 +67,26 @@ def seeds_of(known: MusicFormat, folders: Sequence[Path]) -> list[bytes]:
             with suppress(BadInput):
                 found.append(known.write(part_of(lesson)).data)
     files = (path for folder in folders for path in sorted(folder.rglob("*")))
-    found += [p.read_bytes() for p in files if p.suffix.lower() in known.endings and p.stat().st_size < 200_000]
+    strangers = (p.read_bytes() for p in files if p.suffix.lower() in known.endings and p.stat().st_size < 200_000)
+    found += [data for data in strangers if known.recognises(data)]
+    if known is NOTES_MIDI:
+        found.append(_game_notes())
+    if known is GROOVE_TEXT:
+        found += seeds_of(GROOVESCRIBE, ())
     return found or [b"station", b"<score/>", bytes(range(256))]
+
+
+def _game_notes() -> bytes:
+    """A `notes.mid` with every number that the games' drums know, by another program's writer."""
+    track = mido.MidiTrack([mido.MetaMessage("track_name", name="PART DRUMS")])
+    for number in (96, 97, 98, 99, 100, 101, 109, 110, 112, 25, *range(26, 52), 126, 127, 95, 84, 85, 60, 61) * 3:
+        track.append(mido.Message("note_on", note=number, velocity=1 + number % 127, time=60))
+        track.append(mido.Message("note_off", note=number, time=30))
+    events = mido.MidiTrack([mido.MetaMessage("track_name", name="EVENTS")])
+    events += [mido.MetaMessage("text", text=f"[section {name}]", time=960) for name in ("intro", "verse")]
+    midi, file = mido.MidiFile(tracks=[mido.MidiTrack([mido.MetaMessage("set_tempo")]), track, events]), io.BytesIO()
+    midi.save(file=file)
+    return file.getvalue()
 
 
 def mutated(seeds: Sequence[bytes], rng: random.Random) -> bytes:
@@ -66,8 +95,13 @@ def mutated(seeds: Sequence[bytes], rng: random.Random) -> bytes:
     if data[:2] == b"PK" and rng.random() < 0.7:
         return _repacked(data, rng)
     for _ in range(rng.choice((1, 1, 1, 2, 4, 16))):
-        data = rng.choice(_WAYS)(data, seeds, rng)
+        data = rng.choice(_WAYS if rng.random() < 0.5 else ways_for(data))(data, seeds, rng)[:_MOST_BYTES]
     return data
+
+
+def _inputs(seeds: Sequence[bytes], strangers: Sequence[bytes], count: int, rng: random.Random) -> Iterator[bytes]:
+    for _ in range(count):
+        yield mutated(strangers if rng.random() < _STRANGERS else seeds, rng)
 
 
 def _repacked(data: bytes, rng: random.Random) -> bytes:
@@ -104,14 +138,6 @@ def _splice(data: bytes, seeds: Sequence[bytes], rng: random.Random) -> bytes:
     return data[:a] + other[b : b + rng.choice((10, 100, 10_000))] + data[a:]
 
 
-def _number(data: bytes, _: Sequence[bytes], rng: random.Random) -> bytes:
-    places = list(re.finditer(rb"[0-9]+", data[:100_000]))
-    if not places:
-        return data + rng.choice(_NUMBERS)
-    at = rng.choice(places)
-    return data[: at.start()] + rng.choice(_NUMBERS) + data[at.end() :]
-
-
 def _swap_lines(data: bytes, _: Sequence[bytes], rng: random.Random) -> bytes:
     lines = data.split(b"\n")
     a, b = rng.randrange(len(lines)), rng.randrange(len(lines))
@@ -125,8 +151,6 @@ _WAYS: tuple[Callable[[bytes, Sequence[bytes], random.Random], bytes], ...] = (
     _cut,
     _double,
     _splice,
-    _number,
-    _number,
     _swap_lines,
 )
 
@@ -139,25 +163,32 @@ def run(known: MusicFormat, inputs: Iterator[bytes], then: Callable[[DrumPart], 
         signal.setitimer(signal.ITIMER_PROF, LIMIT_S)
         try:
             known.recognises(data)
-            part = known.read(data, "input")
+            part = known.read(data, _NAME)
             then(part)
             tally.read += 1
-        except BadInput:
+        except BadInput as fault:
             tally.refused += 1
+            if fault.source != _NAME or any(word in fault.fault for word in _OUR_FAULT):
+                tally.failures.append(_kept(known, data, fault, len(tally.failures), keep))
         except Exception as fault:
-            where = keep / f"{known.name.replace(' ', '-')}-{len(tally.failures)}{known.endings[0]}"
-            keep.mkdir(parents=True, exist_ok=True)
-            where.write_bytes(data)
-            tally.failures.append(f"{where}: {type(fault).__name__} {str(fault)[:100]}")
+            tally.failures.append(_kept(known, data, fault, len(tally.failures), keep))
         finally:
             signal.setitimer(signal.ITIMER_PROF, 0)
         tally.slowest_s = max(tally.slowest_s, time.process_time() - before)
     return tally
 
 
+def _kept(known: MusicFormat, data: bytes, fault: Exception, number: int, keep: Path) -> str:
+    """The input in a file, and a line that says where and what came of it."""
+    keep.mkdir(parents=True, exist_ok=True)
+    where = keep / f"{known.name.replace(' ', '-').replace('/', '-')}-{number}{known.endings[0]}"
+    where.write_bytes(data)
+    return f"{where}: {type(fault).__name__} {str(fault)[:150]}"
+
+
 def _as_lesson(part: DrumPart) -> None:
     if len(part.score):
-        write_lesson(transcribe(part, "input").lesson)
+        write_lesson(transcribe(part, _NAME).lesson)
 
 
 def _too_slow(*_: object) -> None:
@@ -187,7 +218,8 @@ def main() -> None:
     _limit_memory()
     for known in chosen:
         rng = random.Random(f"{options.seed} {known.name}")
-        inputs = (mutated(seeds[known.name], rng) for _ in range(options.inputs))
+        strangers = [data for name, found in seeds.items() if name != known.name for data in found[:3]]
+        inputs = _inputs(seeds[known.name], strangers or seeds[known.name], options.inputs, rng)
         tally = run(known, inputs, _as_lesson if options.whole else lambda _: None, options.keep)
         print(
             f"{known.name:14} {len(seeds[known.name]):3} seeds {tally.read:8} read {tally.refused:8} refused "

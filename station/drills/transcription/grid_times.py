@@ -3,7 +3,7 @@
 `quantised_times` is the only door. Times and ticks are those of `Score`; leans are positive where strokes come late.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,6 +53,14 @@ class GridTimes:
     beats: tuple[BeatCells, ...]
     lean_ms: float = 0.0
     spread_ms: float = 0.0
+
+    def from_bar(self, first: int) -> "GridTimes":
+        """The same without its first bars, which are empty."""
+        if not first:
+            return self
+        start = self.score.tempo_map.bar_start(first)
+        beats = tuple(replace(beat, tick=beat.tick - start) for beat in self.beats)
+        return replace(self, score=self.score.bars(first, self.score.bar_count - 1), beats=beats)
 
 
 def quantised_times(score: Score, is_played: bool) -> GridTimes:

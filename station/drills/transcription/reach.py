@@ -11,6 +11,7 @@ from itertools import groupby
 
 from station.core.pieces import HALF_OPEN, Articulation, Limb, Ornament, Piece
 from station.drills.grid.tab_symbols import BEYOND_SYMBOLS, FOOT_OF, family_of
+from station.drills.transcription.two_feet import with_both_feet
 from station.motion.feasibility.playable import MAX_HANDS, unplayable_rows
 from station.music.grace_strokes import Graces, with_graces
 from station.music.score import Note, Score
@@ -45,7 +46,7 @@ _Asked = dict[int, Note]
 
 def within_reach(notes: Sequence[Note], graces: Graces, tempo_map: TempoMap, end_tick: int) -> Reach:
     """The main strokes `notes` parted into what one player can make and what is beyond them."""
-    single = _single(notes)
+    single = with_both_feet(_single(notes), tempo_map)
     asked = _at_once(single)
     for times in (1, 2):
         asked = _possible(asked, graces, Score.from_notes((), tempo_map, end_tick), times)

@@ -38,6 +38,10 @@ from station.music.swing import STRAIGHT
 _LEVELS_FROM = (13.0, 18.5, 23.7, 27.9)
 """From which difficulty on a lesson is of level 2, 3, 4, 5: half way between the medians of the lessons that ship, at
 the tempo to reach, which are 10.0, 16.0, 21.0, 26.4 and 29.4."""
+MOST_STROKES = 12_000
+"""Our choice: 20 minutes of ten a second, which take some seconds to read; the longest lesson that ships has 230."""
+_MOST_CHARACTERS = 2000
+"""Of a title, a name or what a file says of itself (our choice: a page)."""
 _TAGS = ("import",)
 
 
@@ -63,6 +67,8 @@ def transcribe(part: DrumPart, name: str, source: str = "") -> Transcribed:
 def _transcribed(part: DrumPart, name: str) -> Transcribed:
     if not len(part.score):
         raise BadInput(name, "", "there is no drum note in it")
+    if len(part.score) > MOST_STROKES:
+        raise BadInput(name, "", f"{len(part.score):,} strokes; at most {MOST_STROKES:,} become a lesson")
     if part.score.bar_count > MAX_BARS:
         raise BadInput(name, "", f"{part.score.bar_count} bars; a lesson has at most {MAX_BARS}")
     ornaments = found_ornaments(part.score, graces_of(part.score) if part.score.is_grace.any() else None)
@@ -70,6 +76,9 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     part = replace(part, sections=_earlier(part.sections, empty_bars), swing=readable(part.swing))
     is_stated = part.swing.stands_in_words and bool(mains.notes["swing_ticks"].any())
     times = stated_times(mains, part.swing) if is_stated else quantised_times(mains, part.is_played)
+    whole = times
+    silent = int(times.score.bar[0]) if times.spread_ms else 0  # of a take, the bars before the first stroke
+    times, part = times.from_bar(silent), replace(part, sections=_earlier(part.sections, silent))
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
     strokes, velocities = with_dynamics([as_letter(note) for note in score])
     strokes = unified(strokes) if times.spread_ms else strokes
@@ -95,7 +104,7 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     lesson = with_sticking(replace(lesson, level=_level(lesson, form)), form)
     read = parse_lesson(write_lesson(lesson, form), name, name).lesson
     assert read, "what write_lesson gives is a lesson"
-    return Transcribed(read, tuple(remarks_on(ornaments, times, mains, reach, read)))
+    return Transcribed(read, tuple(remarks_on(ornaments, whole, mains, reach, read)))
 
 
 def _from_its_first_bar(score: Score, ornaments: FoundOrnaments) -> tuple[Score, int]:
@@ -128,8 +137,8 @@ def _written(note: Note, velocities: Velocities) -> Note:
 
 
 def _printable(text: str) -> str:
-    """Of words that another program may have written, what can be printed, in one line."""
-    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
+    """Of words that another program may have written, what can be printed, in one line of no more than a page."""
+    return " ".join("".join(c if c.isprintable() else " " for c in text[:_MOST_CHARACTERS]).split())
 
 
 def _ends(score: Score, part: DrumPart) -> list[int]:

@@ -22,8 +22,7 @@ def at_bar_starts(score: Score) -> TempoMap:
             meters.append(_short_bar(after.tick - cut, cut, score))
     whole = TempoMap.build(old.tempos, [m for m in meters if m.tick < score.end_tick])
     tempos: list[TempoChange] = []
-    for change in old.tempos:
-        bar = int(whole.bars_at(change.tick))
+    for change, bar in zip(old.tempos, whole.bars_at([t.tick for t in old.tempos]).tolist(), strict=True):
         start, end = whole.bar_start(bar), whole.bar_start(bar + 1)
         tempos.append(replace(change, tick=start if change.tick - start < end - change.tick else end))
     return TempoMap.build(_changing(t for t in tempos if t.tick < score.end_tick), whole.meters)

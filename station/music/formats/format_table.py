@@ -33,6 +33,8 @@ FORMATS: tuple[MusicFormat, ...] = (
     TEXT_SCORE,
 )
 """Of several with the same ending, the choosy ones first."""
+MOST_STROKES = 50_000
+"""Of a file, whatever its format (our choice: 2,000 bars of 25): the rest of the program takes time for each."""
 
 
 def is_music_file(name: str) -> bool:
@@ -49,7 +51,10 @@ def read_part(path: Path) -> DrumPart:
     found = next((each for each in known if each.recognises(data)), known[-1])
     if len(data) > found.most_bytes:
         raise BadInput(path, "", f"is larger than {found.most_bytes >> 20} MiB, which no {found.name} file is")
-    return found.read(data, str(path))
+    part = found.read(data, str(path))
+    if len(part.score) > MOST_STROKES:
+        raise BadInput(path, "", f"{len(part.score):,} strokes; expected at most {MOST_STROKES:,}")
+    return part
 
 
 def writer_for(path: Path) -> MusicFormat:

@@ -37,10 +37,37 @@ def test_our_own_levels_are_what_they_are() -> None:
     assert velocities == Velocities()
 
 
+def test_accents_alone_on_a_piece_are_accents_where_the_take_has_our_levels() -> None:
+    """Eight strokes about 106 are no nearer to normal ones, for others of the take are those."""
+    hihat = [70, 86, 74, 75, 84, 71, 89, 68, 73, 80, 77, 70, 85, 72, 69, 78]
+    snare = [104, 99, 112, 103, 118, 102, 106, 101]
+    notes = [Note(i, Piece.HIHAT, velocity=v) for i, v in enumerate(hihat)]
+    notes += [Note(i, Piece.SNARE, velocity=v) for i, v in enumerate(snare)]
+    named = [n for n in with_dynamics(notes)[0] if n.piece is Piece.SNARE]
+    assert {n.dynamic for n in named} == {A}
+
+
 def test_two_groups_are_named_by_what_they_are_nearest_to() -> None:
     assert dynamics([40, 96] * 8) == [G, N] * 8
     assert dynamics([68, 120] * 8) == [N, A] * 8
     assert dynamics([24, 122] * 8) == [G, A] * 8
+
+
+def test_what_is_mostly_struck_is_no_accent() -> None:
+    """A snare of loud backbeats with a few ghosts, and a hi-hat that is loud but on its upbeats."""
+    assert dynamics([16, 127, 127, 127] * 4) == [G, N, N, N] * 4
+    assert dynamics([60, 127, 127, 127] * 4, Piece.HIHAT) == [G, N, N, N] * 4
+
+
+def test_what_is_mostly_struck_is_a_ghost_on_drums_alone() -> None:
+    assert dynamics([127, 18, 18, 18] * 4) == [A, G, G, G] * 4
+    assert dynamics([127, 18, 18, 18] * 4, Piece.HIHAT) == [A, N, N, N] * 4
+    assert dynamics([98, 48, 48, 48] * 4, Piece.KICK) == [A, N, N, N] * 4
+
+
+def test_three_levels_whose_loudest_prevails_are_two() -> None:
+    """Accents that are most strokes stand out from nothing: 64 and 95, nearest to each other, are one level."""
+    assert dynamics([64, 95, 127, 127, 127, 127] * 4, Piece.HIHAT) == [G, G, N, N, N, N] * 4
 
 
 def test_never_more_than_three() -> None:

@@ -89,6 +89,31 @@ def test_a_bar_that_only_a_grace_stroke_needed_is_no_bar() -> None:
 # --- times ------------------------------------------------------------------------------------------------------------
 
 
+def test_two_flams_alike_in_loudness_share_what_suits_both() -> None:
+    """0.3 of 116 is 35 and of 78 is 23; 35 / 116 would have 24."""
+    lead = 30 * MS
+    strokes = [snare(2 * QUARTER - lead, 35), snare(2 * QUARTER, 116), snare(3 * QUARTER - lead, 23)]
+    found = lesson_from(snare(0, 116), snare(QUARTER, 78), *strokes, snare(3 * QUARTER, 78))
+    assert [n.velocity for n in found.score if n.lead_ms] == [35, 23]
+
+
+def test_the_silent_bars_before_a_take_are_none_of_the_lesson() -> None:
+    """The first stroke comes 9 ms before its bar."""
+    cells = [c for c in range(17, 48) if c % 8 not in (3, 6)]
+    errors_ms = np.random.default_rng(5).normal(0, 8, len(cells))
+    strokes = [snare(c * EIGHTH + round(ms * MS)) for c, ms in zip(cells, errors_ms.tolist(), strict=True)]
+    found = lesson_from(snare(16 * EIGHTH - 9 * MS), *strokes)
+    assert found.score.bar_count == 4
+    assert (found.score.notes["tick"] // EIGHTH).tolist()[0] == 0
+
+
+def test_a_pick_up_has_a_grid_of_its_own() -> None:
+    grooves = [c for c in range(8, 40) if c % 8 not in (3, 6)]
+    text = lesson_from(*(snare(c * EIGHTH) for c in (6, 7, *grooves))).text
+    assert 'name = "pick-up"' in text
+    assert "times = 4" in text
+
+
 def test_human_sixteenths_go_to_the_nearest() -> None:
     late = (12, -9, 15, 4)
     played = [snare(i * SIXTEENTH + late[i % 4] * MS) for i in range(4, 16)]
@@ -158,6 +183,21 @@ def test_strokes_faster_than_two_hands_are_marked() -> None:
     lesson = lesson_from(*(Note(i * QUARTER // 16, Piece.HIHAT, Zone.BOW) for i in range(64)))
     assert 64 * 10 // 16 - 4 <= len(lesson.score) <= 64 * 10 // 16
     assert len(lesson.score) + len(lesson.beyond) == 64
+
+
+def test_kicks_too_fast_for_one_foot_are_for_two() -> None:
+    """Sixteenths at 200 bpm, as a double pedal plays them; after a rest of an eighth the right foot is on the beat."""
+    fast = TempoMap.constant(200)
+    kicks = [Note(i * SIXTEENTH, Piece.KICK) for i in range(16) if i not in (5, 6, 7)]
+    found = lesson_from(*kicks, tempo_map=fast)
+    assert len(found.beyond) == 0
+    feet = {n.tick // SIXTEENTH: n.limb for n in found.score}
+    assert feet == {i: Limb.LEFT_FOOT if i % 2 else Limb.RIGHT_FOOT for i in range(16) if i not in (5, 6, 7)}
+
+
+def test_kicks_that_one_foot_can_play_are_the_right_foots() -> None:
+    found = lesson_from(*(Note(i * SIXTEENTH, Piece.KICK) for i in (0, 1, 6, 7, 8)))
+    assert {n.limb for n in found.score} == {Limb.RIGHT_FOOT}
 
 
 def test_the_last_kick_makes_room_for_the_first_of_the_next_loop() -> None:

@@ -18,8 +18,8 @@ from station.music.tempo import MAX_BPM, MeterChange, TempoChange, TempoMap
 
 MOST_BYTES = 4 << 20
 """Our choice: the longest charts have some hundred kilobytes."""
-_MOST_CHIPS = 200_000
-"""Our choice: the longest charts have some ten thousand."""
+_MOST_CHIPS = 40_000
+"""Our choice, of strokes and of tempo changes: the longest charts have some ten thousand."""
 _LONGEST_BAR = 16.0
 """In whole notes; our choice, and more than any chart uses."""
 _LEAST_BPM = 0.1
@@ -200,6 +200,8 @@ def _tempo_map(chart: _Chart, starts: list[int]) -> TempoMap:
             else:
                 continue
             tempos.append(TempoChange.from_bpm(tick, _checked_bpm(chart, base + found, chips.line)))
+        if len(tempos) > _MOST_CHIPS:
+            raise chart.fault(chips.line, f"more than {_MOST_CHIPS} changes of tempo up to here")
     meters = [_at(start, length) for start, length in zip(starts, _bar_lengths(chart), strict=False)]
     return TempoMap.build(tempos, meters)
 

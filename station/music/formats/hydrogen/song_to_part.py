@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.note_map import NoteMeaning
@@ -32,12 +33,13 @@ from station.music.formats.hydrogen.song_contents import (
     Pattern,
     PatternNote,
 )
+from station.music.formats.playing_order import MOST_BARS
 from station.music.score import Note, Score
 from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 
-_MOST_STROKES = 500_000
-"""Hours of drums (our choice; a small file may ask for any number by its columns)."""
+_MOST_STROKES = 40_000
+"""Our choice: an hour of 11 a second; a small file may ask for any number by its columns."""
 _UNITS = (4, 8, 16, 32)
 _KNOWN_KITS = (ROCK_KIT, "GMkit", "")
 """Kits whose instruments are in General MIDI's order."""
@@ -50,6 +52,7 @@ def part_of_song(song: HydrogenSong, source: str) -> DrumPart:
     columns = _columns(song, source)
     starts = np.cumsum([0] + [_size(column) for column in columns]).tolist()
     band = _band(song.instruments)
+    curve = np.array(sorted(song.automation), float).reshape(-1, 2)
     of_kind = {one.kind: one.id for one in reversed(song.instruments) if one.kind}
     notes, chance = [], 0
     for index, column in enumerate(columns):
@@ -57,7 +60,7 @@ def part_of_song(song: HydrogenSong, source: str) -> DrumPart:
             for note in pattern.notes:
                 if note.position < pattern.size and note.probability > 0:
                     played = replace(note, instrument=of_kind.get(note.kind, note.instrument)) if note.kind else note
-                    notes.append(_Placed(starts[index] + note.position, _factor(song, index, note, column), played))
+                    notes.append(_Placed(starts[index] + note.position, _factor(curve, index, note, column), played))
                     chance += note.probability < 1
     swing = _swing(song.swing_factor)
     score = Score.from_notes(
@@ -96,6 +99,8 @@ def _columns(song: HydrogenSong, source: str) -> list[list[Pattern]]:
         if names not in flat:
             flat[names] = [by_name[name] for name in _with_virtual(names, song.virtual) if name in by_name]
         found.append(flat[names])
+        if len(found) > MOST_BARS:
+            raise BadInput(source, "", f"plays more than {MOST_BARS:,} columns")
         strokes += 1 + sum(1 + len(pattern.notes) for pattern in flat[names])
         if strokes > _MOST_STROKES:
             raise BadInput(source, "", f"plays more than {_MOST_STROKES:,} notes")
@@ -155,12 +160,11 @@ class _Placed:
     note: PatternNote
 
 
-def _factor(song: HydrogenSong, index: int, note: PatternNote, column: Sequence[Pattern]) -> float:
-    """What the song's curve of velocities says where the note is."""
-    if not song.automation:
+def _factor(curve: NDArray[np.float64], index: int, note: PatternNote, column: Sequence[Pattern]) -> float:
+    """What the song's curve of velocities (points of column and factor, shape (n, 2)) says where the note is."""
+    if not len(curve):
         return 1.0
-    x, y = zip(*sorted(song.automation), strict=True)
-    return float(np.interp(index + note.position / _size(column), x, y))
+    return float(np.interp(index + note.position / _size(column), curve[:, 0], curve[:, 1]))
 
 
 def _swing(factor: float) -> Swing:

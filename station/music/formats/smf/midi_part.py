@@ -5,7 +5,7 @@ from types import MappingProxyType
 
 from station.core.pieces import Articulation, Piece, Zone
 from station.music.drum_part import DrumPart
-from station.music.formats.music_format import Feature, MusicFormat, WrittenFile
+from station.music.formats.music_format import Feature, Loss, MusicFormat, WrittenFile
 from station.music.formats.smf.chunk_reader import MAX_BYTES, parse_midi
 from station.music.formats.smf.drum_tracks import score_from_midi
 from station.music.score import Score
@@ -19,6 +19,10 @@ _KEEPS: Mapping[Feature, str] = MappingProxyType(
         Feature.PIECES: "",
         Feature.TITLE: "",
     }
+)
+_MOVED = tuple(
+    Loss(feature, f"{feature.value}: all a bar later, for the grace strokes before the first")
+    for feature in (Feature.TIMES, Feature.TEMPO, Feature.METERS)
 )
 
 
@@ -42,9 +46,10 @@ def _with_a_plain_snare(score: Score) -> Score:
 
 def write_midi_part(part: DrumPart) -> WrittenFile:
     """The part as a MIDI file of format 1; raises `BadInput` for a tempo or meter that MIDI cannot write."""
-    from station.music.formats.smf.track_writer import score_bytes  # with mido, which a reader does without
+    from station.music.formats.smf.track_writer import bars_before, score_bytes  # with mido; a reader does without
 
-    return WrittenFile(score_bytes(part.score, part.score.title or "part"))
+    data = score_bytes(part.score, part.score.title or "part")
+    return WrittenFile(data, _MOVED if bars_before(part.score) else ())
 
 
 MIDI = MusicFormat(

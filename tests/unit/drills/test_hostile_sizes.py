@@ -1,0 +1,84 @@
+"""Files that ask for more than music has: each is refused in one line, before anything takes long."""
+
+from pathlib import Path
+from time import process_time
+
+import pytest
+
+from station.core.errors import BadInput
+from station.core.pieces import Piece
+from station.core.units import PPQ
+from station.drills.transcription.transcribe import transcribe
+from station.drills.transcription.whole_bars import at_bar_starts
+from station.music.drum_part import DrumPart
+from station.music.formats.dtx.dtx_reader import read_dtx
+from station.music.formats.format_table import read_part
+from station.music.formats.hydrogen.hydrogen_formats import HYDROGEN_SONG
+from station.music.score import Note, Score
+from station.music.tempo import TempoChange, TempoMap
+from tests.unit.music.hydrogen_xml import note, pattern, song
+
+_LIMIT_S = 2.0
+"""The time that an importer may take for any file."""
+
+
+def _snares(count: int, title: str = "") -> DrumPart:
+    notes = [Note(k * PPQ // 4, Piece.SNARE) for k in range(count)]
+    return DrumPart(Score.from_notes(notes, TempoMap.constant(120), title=title))
+
+
+def test_a_song_of_more_columns_than_music_has_bars() -> None:
+    with pytest.raises(BadInput, match=r"^a\.h2song: plays more than 5,000 columns$"):
+        HYDROGEN_SONG.read(song([pattern("a", note(0))], [["a"]] * 5_001), "a.h2song")
+
+
+def test_a_song_of_more_notes_than_its_columns_let_guess() -> None:
+    busy = pattern("a", *(note(k % 192) for k in range(1_000)))
+    with pytest.raises(BadInput, match="more than 40,000 notes"):
+        HYDROGEN_SONG.read(song([busy], [["a"]] * 40), "a.h2song")
+
+
+def test_a_curve_of_many_points_is_sorted_once() -> None:
+    points = "".join(f'<point x="{k}" y="1"/>' for k in range(20_000))
+    curve = f'<automationPaths><path adjust="velocity">{points}</path></automationPaths>'
+    data = song([pattern("a", *(note(k % 192) for k in range(1_000)))], [["a"]], curve)
+    before = process_time()
+    HYDROGEN_SONG.read(data, "a.h2song")
+    assert process_time() - before < _LIMIT_S
+
+
+@pytest.mark.parametrize(
+    ("channel", "said"), [("12", "more than 40000 drum chips"), ("03", r"line 2: more than 40000 changes of tempo")]
+)
+def test_a_dtx_chart_of_more_chips_than_any_has(channel: str, said: str) -> None:
+    text = f"#00012: 01\n#000{channel}: " + "50" * 40_001 + "\n"
+    with pytest.raises(BadInput, match=said):
+        read_dtx(text.encode(), "a.dtx")
+
+
+def test_a_midi_file_of_more_strokes_than_the_program_can_take(tmp_path: Path) -> None:
+    events = b"\0\x99\x26\x64" + b"\x01\x26\x64" * 50_000 + b"\0\xff\x2f\0"
+    path = tmp_path / "dense.mid"
+    path.write_bytes(b"MThd\0\0\0\x06\0\0\0\x01\x01\xe0MTrk" + len(events).to_bytes(4, "big") + events)
+    with pytest.raises(BadInput, match=r"dense\.mid: 50,001 strokes; expected at most 50,000$"):
+        read_part(path)
+
+
+def test_a_lesson_of_more_strokes_than_anybody_writes() -> None:
+    with pytest.raises(BadInput, match=r"^long\.mid: 12,001 strokes; at most 12,000 become a lesson$"):
+        transcribe(_snares(12_001), "long", "long.mid")
+
+
+def test_a_title_of_a_megabyte_is_cut_to_a_page() -> None:
+    assert transcribe(_snares(4, "A " * 500_000), "long").lesson.title == "A " * 999 + "A"
+
+
+def test_of_many_changes_of_tempo_the_last_before_a_bar_counts() -> None:
+    changes = [TempoChange(k * PPQ // 8, 400_000 + k) for k in range(10_000)]
+    score = Score.from_notes([Note(0, Piece.SNARE)], TempoMap.build(changes, []), 10_000 * PPQ // 8)
+    found = at_bar_starts(score)
+    assert [(t.tick, t.us_per_quarter) for t in found.tempos[:3]] == [
+        (0, 400_015),
+        (4 * PPQ, 400_047),
+        (8 * PPQ, 400_079),
+    ]
