@@ -38,6 +38,20 @@ class TempoChange:
         return cls(tick, round(_US_PER_MINUTE / tempo_bpm))
 
 
+_MOST_DECIMALS = 9
+"""So many tell all tempi of whole microseconds apart."""
+
+
+def tidy_bpm(us_per_quarter: int, beat_ticks: int = PPQ) -> float:
+    """Beats of `beat_ticks` a minute with the fewest decimals that give exactly this tempo again."""
+    exact = _US_PER_MINUTE / us_per_quarter * PPQ / beat_ticks
+    for decimals in range(_MOST_DECIMALS):
+        bpm = round(exact, decimals)
+        if bpm > 0 and TempoChange.from_bpm(0, bpm * beat_ticks / PPQ).us_per_quarter == us_per_quarter:
+            return bpm
+    return exact
+
+
 @dataclass(frozen=True, slots=True)
 class MeterChange:
     """From `tick` on, bars have `beats` beats of 1/`unit` note. A change in mid-bar starts a new bar there.

@@ -7,13 +7,14 @@ import numpy as np
 from station.core.errors import BadInput
 from station.core.pieces import Dynamic, Limb, Ornament
 from station.core.units import PPQ
-from station.drills.lesson import Lesson, tidy_bpm
+from station.drills.lesson import Lesson
 from station.drills.transcription.grid_times import quantised_times
 from station.drills.transcription.transcribe import transcribe
 from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart
 from station.music.score import Score
 from station.music.swing import triplets_spelled_out
+from station.music.tempo import tidy_bpm
 from station.render.files.pdf_file import pdf
 from station.render.notation.sheet import PAPERS, SheetWords, sheet
 from station.scenes.section_names import section_names

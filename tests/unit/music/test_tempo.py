@@ -4,7 +4,7 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.units import PPQ
-from station.music.tempo import BarPosition, MeterChange, TempoChange, TempoMap
+from station.music.tempo import BarPosition, MeterChange, TempoChange, TempoMap, tidy_bpm
 
 
 def test_unsaid_is_120_bpm_in_four() -> None:
@@ -110,3 +110,12 @@ def test_pulses_are_what_a_foot_taps() -> None:
     )
     assert MeterChange(0, 6, 8).pulses == ((0, 3 * eighth), (3 * eighth, 6 * eighth))
     assert MeterChange(0, 3, 4, (2, 1)).pulses == ((0, PPQ), (PPQ, 2 * PPQ), (2 * PPQ, 3 * PPQ))
+
+
+@pytest.mark.parametrize(
+    ("us_per_quarter", "beat_ticks", "bpm"),
+    [(789_474, PPQ, 76), (500_000, PPQ, 120), (666_667, 3 * PPQ // 2, 60), (480_000, PPQ, 125), (439_560, PPQ, 136.5)],
+)
+def test_a_tempo_is_said_with_the_fewest_decimals(us_per_quarter: int, beat_ticks: int, bpm: float) -> None:
+    """789,474 µs are 75.99997 a minute, the nearest to 76 that whole microseconds have."""
+    assert tidy_bpm(us_per_quarter, beat_ticks) == bpm

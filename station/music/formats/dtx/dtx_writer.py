@@ -24,7 +24,7 @@ from station.music.formats.dtx.dtx_lanes import (
 from station.music.formats.dtx.dtx_reader import MOST_BYTES, meter_of, read_dtx
 from station.music.formats.music_format import Feature, Loss, MusicFormat, WrittenFile
 from station.music.score import Note, Score
-from station.music.tempo import TempoChange
+from station.music.tempo import TempoChange, tidy_bpm
 
 _FINEST = 1920
 """Places a bar at the most: 2, 3 and 5 divide it; what falls between two moves to the nearer one (our choice)."""
@@ -156,7 +156,7 @@ def _tempos(score: Score, lost: dict[Loss, None]) -> Iterator[str]:
 
 
 def _bpm(tempo: TempoChange) -> str:
-    return f"{60e6 / tempo.us_per_quarter:.9f}".rstrip("0").rstrip(".")
+    return f"{tidy_bpm(tempo.us_per_quarter):.9f}".rstrip("0").rstrip(".")
 
 
 def _objects(score: Score, bar: int, lane: int, places: Sequence[tuple[int, str]], lost: dict[Loss, None]) -> str:
