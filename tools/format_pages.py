@@ -50,8 +50,11 @@ def _of(each: MusicFormat) -> str:
     """The table of one format that is written."""
     keeps = each.keeps or {}
     kept = [f"| {feature.value} | {keeps[feature] or 'all of it'} |" for feature in Feature if feature in keeps]
-    lost = ", ".join(feature.value for feature in Feature if feature not in keeps) or "nothing that a lesson has"
+    lost = ", ".join(feature.value for feature in Feature if feature not in keeps) or "only what the limits above say"
     table = "\n".join(kept)
+    first = next(one for one in FORMATS if one.keeps is each.keeps)
+    if first is not each:
+        return f"\n## {each.name}\n\nKeeps and loses what {first.name} does.\n"
     return f"\n## {each.name}\n\n| keeps | how far |\n|---|---|\n{table}\n\nLoses: {lost}.\n"
 
 

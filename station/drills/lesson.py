@@ -17,7 +17,6 @@ from station.drills.grid.stroke_settings import Velocities
 from station.drills.level_range import OF_DIFFICULTY, LevelRange
 from station.music.score import NOTE_DTYPE, Score
 from station.music.swing import STRAIGHT, Swing
-from station.music.tempo import tidy_bpm
 from station.scoring.analysis.fault_table import Asked
 from station.scoring.matching.hit_windows import Level
 
@@ -154,12 +153,12 @@ class Lesson:
     @property
     def tempo_bpm(self) -> float:
         """Tempo of the first bar in quarter notes a minute, as it was written."""
-        return tidy_bpm(self.score.tempo_map.tempos[0].us_per_quarter)
+        return self.score.tempo_map.tempos[0].short_bpm()
 
     @property
     def beats_a_minute(self) -> float:
         """Tempo of the first bar in the lesson's own beat, as it was written."""
-        return tidy_bpm(self.score.tempo_map.tempos[0].us_per_quarter, self.beat_ticks)
+        return self.score.tempo_map.tempos[0].short_bpm(self.beat_ticks / PPQ)
 
     @property
     def target_tempo_bpm(self) -> float:

@@ -165,6 +165,11 @@ class Score:
         return int(self.tempo_map.bars_at(max(self.end_tick - 1, 0))) + 1
 
     @property
+    def closing_rest_bars(self) -> int:
+        """How many bars follow the bar of the last stroke; all of them where there is no stroke."""
+        return self.bar_count - 1 - (int(self.bar[-1]) if len(self) else -1)
+
+    @property
     def length_ns(self) -> int:
         """Time from tick 0 to `end_tick`."""
         return int(self.tempo_map.ns_at(self.end_tick))

@@ -23,6 +23,8 @@ MIN_BPM, MAX_BPM = 10.0, 1000.0
 """Our choice: below a quarter note lasts six seconds, above no drummer follows; files outside still read."""
 
 _US_PER_MINUTE = 60_000_000
+_MOST_DECIMALS = 10
+"""They tell any two tempos to `MAX_BPM` apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,19 +39,21 @@ class TempoChange:
         """A change to `tempo_bpm` quarter notes a minute, rounded to whole microseconds as MIDI does."""
         return cls(tick, round(_US_PER_MINUTE / tempo_bpm))
 
+    def short_bpm(self, beat_quarters: float = 1.0) -> float:
+        """Beats of `beat_quarters` a minute, with the fewest decimals that mean this tempo.
+
+        At 72 a quarter lasts 833 333 whole microseconds: 72, though these alone would be 72.0000288.
+        """
+        exact = _US_PER_MINUTE / self.us_per_quarter / beat_quarters
+        near = (round(exact, decimals) for decimals in range(_MOST_DECIMALS))
+        return next((b for b in near if b and self._is(b * beat_quarters)), exact)
+
+    def _is(self, tempo_bpm: float) -> bool:
+        return TempoChange.from_bpm(self.tick, tempo_bpm) == self
+
 
 _MOST_DECIMALS = 9
 """So many tell all tempi of whole microseconds apart."""
-
-
-def tidy_bpm(us_per_quarter: int, beat_ticks: int = PPQ) -> float:
-    """Beats of `beat_ticks` a minute with the fewest decimals that give exactly this tempo again."""
-    exact = _US_PER_MINUTE / us_per_quarter * PPQ / beat_ticks
-    for decimals in range(_MOST_DECIMALS):
-        bpm = round(exact, decimals)
-        if bpm > 0 and TempoChange.from_bpm(0, bpm * beat_ticks / PPQ).us_per_quarter == us_per_quarter:
-            return bpm
-    return exact
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,6 @@ from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart
 from station.music.score import Score
 from station.music.swing import triplets_spelled_out
-from station.music.tempo import tidy_bpm
 from station.render.files.pdf_file import pdf
 from station.render.notation.sheet import PAPERS, SheetWords, sheet
 from station.scenes.section_names import section_names
@@ -26,7 +25,7 @@ Bars = tuple[int, int]
 def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
     """What stands on the sheet of a lesson's bars; where they hold its loop, that is repeated."""
     first, last = bars
-    beats = tidy_bpm(lesson.played_once.bars(*bars).tempo_map.tempos[0].us_per_quarter, lesson.beat_ticks)
+    beats = lesson.played_once.bars(*bars).tempo_map.tempos[0].short_bpm(lesson.beat_ticks / PPQ)
     loop = (lesson.loop[0] - first, lesson.loop[1] - first)
     return SheetWords(
         title=lesson.title,
@@ -43,7 +42,7 @@ def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
 def part_labels(part: DrumPart, bars: Bars, *, name: str) -> SheetWords:
     """What stands on the sheet of another part, called by its own title, else `name`."""
     score = part.score.bars(*bars)
-    beats = round(tidy_bpm(score.tempo_map.tempos[0].us_per_quarter, part.beat_ticks), 1)
+    beats = round(score.tempo_map.tempos[0].short_bpm(part.beat_ticks / PPQ), 1)
     return SheetWords(
         title=score.title or name,
         author=part.author,

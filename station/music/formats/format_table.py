@@ -12,7 +12,7 @@ from station.music.formats.groovescribe.groove_formats import GROOVE_TEXT, GROOV
 from station.music.formats.guitar_pro.guitar_pro_format import GUITAR_PRO, OLD_GUITAR_PRO
 from station.music.formats.hydrogen.hydrogen_formats import HYDROGEN_PATTERN, HYDROGEN_SONG
 from station.music.formats.music_format import MusicFormat
-from station.music.formats.music_xml.music_xml_format import MUSIC_XML
+from station.music.formats.music_xml.music_xml_format import COMPRESSED_MUSIC_XML, MUSIC_XML
 from station.music.formats.smf.midi_part import MIDI
 from station.music.formats.text_score import TEXT_SCORE
 
@@ -21,6 +21,7 @@ FORMATS: tuple[MusicFormat, ...] = (
     GROOVESCRIBE_MIDI,
     MIDI,
     MUSIC_XML,
+    COMPRESSED_MUSIC_XML,
     OLD_GUITAR_PRO,
     GUITAR_PRO,
     CHART,

@@ -93,6 +93,14 @@ def test_a_semicolon_that_would_begin_a_comment_is_told() -> None:
     assert {loss.feature for loss in written.lost} == {Feature.TITLE, Feature.ABOUT}
 
 
+def test_two_toms_of_one_lane_at_once_are_told() -> None:
+    toms = [Note(0, Piece.TOM_2), Note(0, Piece.TOM_3), Note(PPQ, Piece.COWBELL)]
+    written = write_dtx(DrumPart(Score.from_notes(toms, TempoMap(), 4 * PPQ)))
+    assert [note.piece for note in read_dtx(written.data, "a.dtx").score] == [Piece.TOM_2]
+    told = {loss.text for loss in written.lost if loss.feature is Feature.TIMES}
+    assert told == {"bar 1: strokes of one lane at once are one", "cowbell has no lane and is left out"}
+
+
 def test_a_line_is_cut_no_finer_than_its_own_strokes() -> None:
     lines = [f"#000{lane}" for lane in ("11", "12", "13")]
     text = write_dtx(part_of(find_lesson("rock-1"))).data.decode()

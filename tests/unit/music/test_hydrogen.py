@@ -272,6 +272,14 @@ def test_a_flam_is_two_strokes() -> None:
     assert [round(ns / 1e6) for ns in back.onset_ns.tolist()] == [570, 600]  # a quarter at 100 bpm lasts 600 ms
 
 
+def test_a_grace_stroke_before_the_song_is_left_out_and_told() -> None:
+    """Hydrogen 1.2 plays nothing before its first tick: h2cli plays such a lead on the stroke itself."""
+    grace = Note(0, Piece.SNARE, velocity=30, dynamic=Dynamic.GHOST, ornament=Ornament.FLAM, lead_ms=30)
+    part = part_of(grace, Note(0, Piece.SNARE, velocity=10, ornament=Ornament.FLAM))
+    assert [(n.tick, n.velocity) for n in written(part).score] == [(0, 10)]
+    assert lost(part) == {Feature.FLAMS}
+
+
 def test_what_lies_between_ticks_leads_and_never_lags() -> None:
     """Hydrogen 1.2 plays a lead and drops a lag when it exports: h2cli plays tick 12 with a lag of 0.1 at 12."""
     assert HYDROGEN_SONG.write is not None

@@ -1,6 +1,8 @@
 """What the writer puts into MusicXML, element by element as the 4.0 reference has them, and what it says is lost."""
 
+import zipfile
 from dataclasses import replace
+from pathlib import Path
 from xml.etree.ElementTree import Element, fromstring
 
 import pytest
@@ -11,6 +13,7 @@ from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart, PartSection
+from station.music.formats.format_table import read_part, writer_for
 from station.music.formats.music_format import Feature
 from station.music.formats.music_xml.music_xml_format import MUSIC_XML
 from station.music.formats.music_xml.music_xml_writer import write_music_xml
@@ -141,3 +144,22 @@ def test_what_is_lost_is_said() -> None:
 def test_a_meter_without_a_note_value_is_refused() -> None:
     with pytest.raises(BadInput, match="5/6"):
         write_music_xml(_part(_hand(0), tempo_map=TempoMap.build([], [MeterChange(0, 5, 6)])))
+
+
+def test_an_mxl_is_a_zip_file_whose_container_names_the_score(tmp_path: Path) -> None:
+    """As the MusicXML reference has it: `mimetype` first and not packed; MuseScore opens no other."""
+    part = part_of(find_lesson("rock-1"))
+    path = tmp_path / "rock-1.mxl"
+    form = writer_for(path)
+    assert form.write is not None
+    path.write_bytes(form.write(part).data)
+    with zipfile.ZipFile(path) as archive:
+        kind = archive.infolist()[0]
+        assert (kind.filename, kind.compress_type) == ("mimetype", zipfile.ZIP_STORED)
+        assert archive.read("mimetype") == b"application/vnd.recordare.musicxml"
+        root_file = fromstring(archive.read("META-INF/container.xml")).find("rootfiles/rootfile")
+        assert root_file is not None
+        assert root_file.get("media-type") == "application/vnd.recordare.musicxml+xml"
+        assert archive.read(root_file.get("full-path", "")) == write_music_xml(part).data
+    assert kept_differences(form, part) == []
+    assert len(read_part(path).score) == len(part.score)

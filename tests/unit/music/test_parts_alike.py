@@ -7,7 +7,8 @@ import pytest
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart, PartSection
-from station.music.formats.music_format import Feature
+from station.music.formats.dtx.dtx_writer import DTX
+from station.music.formats.music_format import Feature, MusicFormat
 from station.music.formats.smf.midi_part import MIDI
 from station.music.grace_strokes import with_graces
 from station.music.loudness_marks import LoudnessMark
@@ -97,3 +98,11 @@ def test_grace_strokes() -> None:
 def test_where_flams_are_not_kept_their_grace_strokes_may_be_strokes() -> None:
     flam = _part(*with_graces(replace(_STROKE, ornament=Ornament.FLAM)))
     assert kept_differences(MIDI, flam) == []
+
+
+@pytest.mark.parametrize("form", [MIDI, DTX], ids=lambda form: form.name)
+def test_bars_of_rest_at_the_end_are_told_where_they_get_lost(form: MusicFormat) -> None:
+    part = DrumPart(Score.from_notes([Note(0, Piece.KICK)], TempoMap(), 8 * PPQ, "Two bars, one of them a rest"))
+    assert form.write is not None
+    assert [loss.feature for loss in form.write(part).lost] == [Feature.TIMES]
+    assert kept_differences(form, part) == []

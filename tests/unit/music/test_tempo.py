@@ -4,7 +4,7 @@ import pytest
 
 from station.core.errors import BadInput
 from station.core.units import PPQ
-from station.music.tempo import BarPosition, MeterChange, TempoChange, TempoMap, tidy_bpm
+from station.music.tempo import BarPosition, MeterChange, TempoChange, TempoMap
 
 
 def test_unsaid_is_120_bpm_in_four() -> None:
@@ -113,9 +113,14 @@ def test_pulses_are_what_a_foot_taps() -> None:
 
 
 @pytest.mark.parametrize(
-    ("us_per_quarter", "beat_ticks", "bpm"),
-    [(789_474, PPQ, 76), (500_000, PPQ, 120), (666_667, 3 * PPQ // 2, 60), (480_000, PPQ, 125), (439_560, PPQ, 136.5)],
+    ("us_per_quarter", "beat_quarters", "bpm"),
+    [(833_333, 1.0, 72.0), (500_000, 1.0, 120.0), (327_869, 1.5, 122.0), (662_983, 1.0, 90.5)],
 )
-def test_a_tempo_is_said_with_the_fewest_decimals(us_per_quarter: int, beat_ticks: int, bpm: float) -> None:
-    """789,474 µs are 75.99997 a minute, the nearest to 76 that whole microseconds have."""
-    assert tidy_bpm(us_per_quarter, beat_ticks) == bpm
+def test_a_tempo_has_the_shortest_number_that_means_it(us_per_quarter: int, beat_quarters: float, bpm: float) -> None:
+    """60 000 000 µs a minute by hand; 122 dotted quarters are 183 quarters, of 327 868.85 µs."""
+    assert TempoChange(0, us_per_quarter).short_bpm(beat_quarters) == bpm
+
+
+def test_a_tempo_of_no_short_number_keeps_its_microseconds() -> None:
+    change = TempoChange(0, 833_331)
+    assert TempoChange.from_bpm(0, change.short_bpm()) == change

@@ -194,12 +194,13 @@ def _choke(found: list[_Stroke], at: Fraction, cell: Fraction, row: TabRow) -> N
         found.append(_Stroke(at, cell, row.meaning.piece, struck, cell))
 
 
-def counted_ticks(beats: int, unit: int) -> int:
-    """How long the beat is that a tempo above a tab counts: a dotted quarter in 6/8, 9/8 and 12/8.
+def counted_quarters(beats: int, unit: int) -> float:
+    """How many quarter notes the beat has that a tempo above a tab counts: a dotted one in 6/8, 9/8 and 12/8.
 
     A tab says no groups.
     """
-    return MeterChange(0, beats, unit).usual_beat_ticks
+    ticks: int = MeterChange(0, beats, unit).usual_beat_ticks
+    return ticks / PPQ
 
 
 # --- the whole --------------------------------------------------------------------------------------------------------
@@ -220,12 +221,12 @@ def _written_out(bars: Sequence[_Bar]) -> Iterator[_Bar]:
 
 def _score(bars: Sequence[_Bar], title: str) -> Score:
     tick, notes, meters = 0, list[Note](), list[MeterChange]()
-    first = next((bar.tempo_bpm * counted_ticks(*bar.meter) / PPQ for bar in bars if bar.tempo_bpm), _USUAL_BPM)
+    first = next((bar.tempo_bpm * counted_quarters(*bar.meter) for bar in bars if bar.tempo_bpm), _USUAL_BPM)
     tempos = [TempoChange.from_bpm(0, first)]
     for bar in bars:
         meters.append(MeterChange(tick, *bar.meter))
         if bar.tempo_bpm:
-            tempos.append(TempoChange.from_bpm(tick, bar.tempo_bpm * counted_ticks(*bar.meter) / PPQ))
+            tempos.append(TempoChange.from_bpm(tick, bar.tempo_bpm * counted_quarters(*bar.meter)))
         notes += [row for s in bar.strokes for row in with_graces(_note(s, tick, meters[-1].bar_ticks))]
         tick += meters[-1].bar_ticks
     return Score.from_notes(notes, TempoMap.build(tempos, meters), tick, title)

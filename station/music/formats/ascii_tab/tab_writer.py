@@ -8,12 +8,11 @@ from types import MappingProxyType
 from station.core.pieces import CHOKEABLE, Articulation, Dynamic, Ornament, Piece
 from station.music.drum_part import DrumPart
 from station.music.formats.ascii_tab.tab_letters import CHOKE, LETTERS, OWN_LABELS, TabStroke
-from station.music.formats.ascii_tab.tab_reader import MOST_BYTES, counted_ticks, read_tab
+from station.music.formats.ascii_tab.tab_reader import MOST_BYTES, counted_quarters, read_tab
 from station.music.formats.ascii_tab.tab_text import is_tab
 from station.music.formats.music_format import Feature, Loss, MusicFormat, WrittenFile
 from station.music.score import Note, Score
 from station.music.swing import STRAIGHT
-from station.music.tempo import tidy_bpm
 
 _WIDEST = 76
 """Characters a line: what a terminal and a mail show (our choice)."""
@@ -127,7 +126,7 @@ def _words(part: DrumPart, bar: int, lost: dict[Loss, None]) -> Iterator[str]:
     for tempo in tempo_map.tempos:
         if tempo.tick == start:
             meter = tempo_map.meter_at(start)
-            bpm = tidy_bpm(tempo.us_per_quarter, counted_ticks(meter.beats, meter.unit))
+            bpm = tempo.short_bpm(counted_quarters(meter.beats, meter.unit))
             yield f"Tempo: {bpm:.9f}".rstrip("0").rstrip(".")
         elif start < tempo.tick < end:
             lost[Loss(Feature.TEMPO, f"bar {bar + 1}: the tempo changes within the bar")] = None

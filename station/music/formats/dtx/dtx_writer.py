@@ -24,7 +24,7 @@ from station.music.formats.dtx.dtx_lanes import (
 from station.music.formats.dtx.dtx_reader import MOST_BYTES, meter_of, read_dtx
 from station.music.formats.music_format import Feature, Loss, MusicFormat, WrittenFile
 from station.music.score import Note, Score
-from station.music.tempo import TempoChange, tidy_bpm
+from station.music.tempo import TempoChange
 
 _FINEST = 1920
 """Places a bar at the most: 2, 3 and 5 divide it; what falls between two moves to the nearer one (our choice)."""
@@ -70,6 +70,8 @@ def write_dtx(part: DrumPart) -> WrittenFile:
     for (bar, lane), group in groupby(chips, key=lambda c: (c.bar, c.lane)):
         places = [(c.tick, sounds[c.lane, c.percent]) for c in group]
         lines.append(_objects(score, bar, lane, places, lost))
+    if score.closing_rest_bars:
+        lost[Loss(Feature.TIMES, "bars of rest at the end: a chart ends with the bar of its last chip")] = None
     return WrittenFile("".join(f"{line}\r\n" for line in lines).encode(), tuple(lost))
 
 
@@ -77,14 +79,15 @@ def write_dtx(part: DrumPart) -> WrittenFile:
 
 
 def _chips(score: Score, lost: dict[Loss, None]) -> Iterator[_Chip]:
-    pieces = set(score.notes["piece"].tolist())
+    pieces, places = set(score.notes["piece"].tolist()), set[tuple[int, int]]()
     second_alone = Piece.CRASH_2 in pieces and Piece.CRASH_1 not in pieces
     for note in score:
         piece = STAND_INS.get(note.piece, note.piece)
         if note.lead_ms:
             lost[Loss(Feature.FLAMS, "grace strokes are left out")] = None
         elif piece not in LANE_OF:
-            lost[_of_piece(note.piece, "has no lane and is left out")] = None
+            for feature in (Feature.PIECES, Feature.TIMES):
+                lost[Loss(feature, f"{piece_name(note.piece)} has no lane and is left out")] = None
         else:
             if piece is not note.piece:
                 lost[_of_piece(note.piece, f"is written as {piece_name(piece)}")] = None
@@ -92,6 +95,9 @@ def _chips(score: Score, lost: dict[Loss, None]) -> Iterator[_Chip]:
                 lost[_of_piece(piece, "is the only crash, and comes back as the first")] = None
             bar = int(score.tempo_map.bars_at(note.tick))
             lane = _lane(note, piece, has_second=Piece.CRASH_2 in pieces)
+            if (lane, note.tick) in places:
+                lost[Loss(Feature.TIMES, f"bar {bar + 1}: strokes of one lane at once are one")] = None
+            places.add((lane, note.tick))
             yield _Chip(bar, lane, note.tick, round(note.velocity * 100 / _FULL))
 
 
@@ -156,7 +162,7 @@ def _tempos(score: Score, lost: dict[Loss, None]) -> Iterator[str]:
 
 
 def _bpm(tempo: TempoChange) -> str:
-    return f"{tidy_bpm(tempo.us_per_quarter):.9f}".rstrip("0").rstrip(".")
+    return f"{tempo.short_bpm():.9f}".rstrip("0").rstrip(".")
 
 
 def _objects(score: Score, bar: int, lane: int, places: Sequence[tuple[int, str]], lost: dict[Loss, None]) -> str:

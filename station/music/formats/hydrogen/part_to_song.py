@@ -37,7 +37,6 @@ from station.music.formats.lost_bars import LostBars
 from station.music.formats.music_format import Feature, Loss
 from station.music.score import Note, Score
 from station.music.swing import STRAIGHT
-from station.music.tempo import tidy_bpm
 
 SONG_KEEPS: Mapping[Feature, str] = MappingProxyType(
     {
@@ -106,7 +105,7 @@ def song_of_part(part: DrumPart) -> tuple[HydrogenSong, tuple[Loss, ...]]:
         losses.add(Feature.METER_GROUPS, "Hydrogen has no groups of meters")
     song = HydrogenSong(
         *(one_line(part.score.title), one_line(part.author), one_line(part.about)),
-        *(_bpm(score.tempo_map.us_per_quarter_at(0), 0, losses), factor),
+        *(_bpm(score.tempo_map.tempos[0].short_bpm(), 0, losses), factor),
         tuple(instrument_of(i, strike) for strike, i in ids.items()),
         patterns,
         columns,
@@ -164,8 +163,7 @@ def _straight(part: DrumPart, starts: Sequence[int], losses: LostBars) -> tuple[
     return part.score, 0.0
 
 
-def _bpm(us_per_quarter: int, bar: int, losses: LostBars) -> float:
-    bpm = tidy_bpm(us_per_quarter)
+def _bpm(bpm: float, bar: int, losses: LostBars) -> float:
     used = min(max(bpm, LEAST_BPM), MOST_BPM)
     if used != bpm:
         losses.add(Feature.TEMPO, f"Hydrogen plays {LEAST_BPM:g} to {MOST_BPM:g} quarters a minute", bar)
@@ -181,7 +179,7 @@ def _tempos(score: Score, starts: Sequence[int], losses: LostBars) -> dict[int, 
         bar = int(np.argmin(np.abs(np.array(starts[:-1]) - change.tick)))
         if starts[bar] != change.tick:
             losses.add(Feature.TEMPO, "a tempo that changes within a bar changes with the nearest", bar)
-        found[bar] = _bpm(change.us_per_quarter, bar, losses)
+        found[bar] = _bpm(change.short_bpm(), bar, losses)
     return found
 
 
@@ -216,7 +214,7 @@ def _events(score: Score, losses: LostBars, for_kit: bool = False) -> list[_Even
         tick = note.tick
         if note.lead_ms > 0:
             tick = int(score.tempo_map.ticks_at_ns(onset_ns))
-            if for_kit or tick < -LEAD_LAG_TICKS * SCORE_TICKS:
+            if for_kit or tick < 0:
                 feature = Feature.FLAMS if note.ornament is Ornament.FLAM else Feature.DRAGS
                 losses.add(feature, "grace strokes that a pattern has no tempo for, or before the song begins", bar)
                 continue

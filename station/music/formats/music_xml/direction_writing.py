@@ -10,7 +10,7 @@ from station.music.drum_part import DrumPart
 from station.music.formats.music_xml.element_writing import child, number_text, xml_text
 from station.music.loudness_marks import GROW
 from station.music.swing import STRAIGHT, Swing
-from station.music.tempo import TempoChange, tidy_bpm
+from station.music.tempo import TempoChange
 from station.music.tempo_words import TempoWord, tempo_words
 
 _BEATS = {
@@ -38,7 +38,7 @@ def has_beat(beat_ticks: int) -> bool:
 
 def tempo_text(us_per_quarter: int) -> str:
     """Quarter notes a minute, so exact that the same microseconds come back."""
-    return f"{tidy_bpm(us_per_quarter):.10f}".rstrip("0").rstrip(".")
+    return f"{TempoChange(0, us_per_quarter).short_bpm():.10f}".rstrip("0").rstrip(".")
 
 
 def directions_of(part: DrumPart, swings: Sequence[tuple[int, Swing]]) -> list[Direction]:

@@ -3,9 +3,11 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from station.music.formats.music_format import Feature, MusicFormat
+from station.music.drum_part import DrumPart
+from station.music.formats.music_format import Feature, MusicFormat, WrittenFile
 from station.music.formats.music_xml.music_xml_reader import ROOTS, read_music_xml
 from station.music.formats.music_xml.music_xml_writer import write_music_xml
+from station.music.formats.music_xml.mxl_container import packed_score
 from station.music.formats.safe_xml import MOST_XML_BYTES, root_name
 from station.music.formats.safe_zip import is_zip
 
@@ -46,6 +48,15 @@ def _is_music_xml(data: bytes) -> bool:
     return is_zip(data) or root_name(data) in ROOTS
 
 
+def _write_packed(part: DrumPart) -> WrittenFile:
+    written = write_music_xml(part)
+    return WrittenFile(packed_score(written.data), written.lost)
+
+
 MUSIC_XML = MusicFormat(
-    "MusicXML", (".musicxml", ".xml", ".mxl"), read_music_xml, _is_music_xml, MOST_XML_BYTES, write_music_xml, KEEPS
+    "MusicXML", (".musicxml", ".xml"), read_music_xml, _is_music_xml, MOST_XML_BYTES, write_music_xml, KEEPS
 )
+COMPRESSED_MUSIC_XML = MusicFormat(
+    "compressed MusicXML", (".mxl",), read_music_xml, _is_music_xml, MOST_XML_BYTES, _write_packed, KEEPS
+)
+"""Each reads the other's files as well, for people rename them."""

@@ -24,6 +24,7 @@ _MOVED = tuple(
     Loss(feature, f"{feature.value}: all a bar later, for the grace strokes before the first")
     for feature in (Feature.TIMES, Feature.TEMPO, Feature.METERS)
 )
+_CUT = (Loss(Feature.TIMES, "bars of rest at the end: a MIDI file is read to the bar of its last note"),)
 
 
 def read_midi_part(data: bytes, source: str) -> DrumPart:
@@ -49,7 +50,8 @@ def write_midi_part(part: DrumPart) -> WrittenFile:
     from station.music.formats.smf.track_writer import bars_before, score_bytes  # with mido; a reader does without
 
     data = score_bytes(part.score, part.score.title or "part")
-    return WrittenFile(data, _MOVED if bars_before(part.score) else ())
+    lost = (*(_MOVED if bars_before(part.score) else ()), *(_CUT if part.score.closing_rest_bars else ()))
+    return WrittenFile(data, lost)
 
 
 MIDI = MusicFormat(
