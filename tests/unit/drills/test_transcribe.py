@@ -313,7 +313,7 @@ def test_a_flam_beside_a_hi_hat_is_told_with_its_bar() -> None:
 
 
 def test_a_bar_that_comes_again_has_the_same_hands() -> None:
-    """samba-1 has one bar on its first and third place; on the drum's head the hands of the first alone are not sure."""
+    """samba-1 begins with a bar that comes again as its third; on the drum's head its hands are not sure at first."""
     part = part_of(find_lesson("samba-1"))
     rows = part.score.notes.copy()
     snare = rows["piece"] == Piece.SNARE
