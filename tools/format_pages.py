@@ -25,7 +25,12 @@ station sheet song.gp5 --out song.pdf                            # any of them i
 
 Whatever a file says that a lesson has no place for is told on import, a line each (`lost …`), and so is on export what
 the format has no place for. What a table below names comes back from our own file just as it was, unless the export
-said otherwise; no file has a text of ours hidden in it.
+said otherwise; no file has a text of ours hidden in it. What a format has no word for may come back all the same:
+MIDI has none for a flam, but its two strokes are in the file, and the import finds flams by their spacing. What is only
+read has no table: [lessons.md](lessons.md#importing) says what each line of an import asks of you.
+
+To hand on all of a lesson, write MusicXML; to play it in a sequencer, MIDI or Hydrogen; to send it in a message, a
+GrooveScribe link (the one line of a `.groove` file) or a tab.
 
 | format | endings | read | written |
 |---|---|---|---|

@@ -17,7 +17,6 @@ from station.drills.grid.stroke_settings import Velocities
 from station.drills.level_range import OF_DIFFICULTY, LevelRange
 from station.music.score import NOTE_DTYPE, Score
 from station.music.swing import STRAIGHT, Swing
-from station.music.tempo import TempoChange
 from station.scoring.analysis.fault_table import Asked
 from station.scoring.matching.hit_windows import Level
 
@@ -154,12 +153,12 @@ class Lesson:
     @property
     def tempo_bpm(self) -> float:
         """Tempo of the first bar in quarter notes a minute, as it was written."""
-        return tidy_bpm(self.score.tempo_map.tempos[0].us_per_quarter)
+        return self.score.tempo_map.tempos[0].short_bpm()
 
     @property
     def beats_a_minute(self) -> float:
         """Tempo of the first bar in the lesson's own beat, as it was written."""
-        return tidy_bpm(self.score.tempo_map.tempos[0].us_per_quarter, self.beat_ticks)
+        return self.score.tempo_map.tempos[0].short_bpm(self.beat_ticks / PPQ)
 
     @property
     def target_tempo_bpm(self) -> float:
@@ -210,16 +209,3 @@ class Lesson:
     def swing_of_bar(self, bar: int) -> Swing:
         """How `bar`, from 0, swings."""
         return next((s.swing for s in self.sections if s.first_bar <= bar <= s.last_bar), self.swing)
-
-
-_MOST_DECIMALS = 9
-
-
-def tidy_bpm(us_per_quarter: int, beat_ticks: int = PPQ) -> float:
-    """Beats of `beat_ticks` a minute with the fewest decimals that give exactly this tempo again."""
-    exact = 60e6 / us_per_quarter * PPQ / beat_ticks
-    for decimals in range(_MOST_DECIMALS):
-        bpm = round(exact, decimals)
-        if bpm > 0 and TempoChange.from_bpm(0, bpm * beat_ticks / PPQ).us_per_quarter == us_per_quarter:
-            return bpm
-    return exact

@@ -52,6 +52,10 @@ class TempoChange:
         return TempoChange.from_bpm(self.tick, tempo_bpm) == self
 
 
+_MOST_DECIMALS = 9
+"""So many tell all tempi of whole microseconds apart."""
+
+
 @dataclass(frozen=True, slots=True)
 class MeterChange:
     """From `tick` on, bars have `beats` beats of 1/`unit` note. A change in mid-bar starts a new bar there.

@@ -7,7 +7,7 @@ import numpy as np
 from station.core.errors import BadInput
 from station.core.pieces import Dynamic, Limb, Ornament
 from station.core.units import PPQ
-from station.drills.lesson import Lesson, tidy_bpm
+from station.drills.lesson import Lesson
 from station.drills.transcription.grid_times import quantised_times
 from station.drills.transcription.transcribe import transcribe
 from station.drills.writing.lesson_part import part_of
@@ -25,7 +25,7 @@ Bars = tuple[int, int]
 def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
     """What stands on the sheet of a lesson's bars; where they hold its loop, that is repeated."""
     first, last = bars
-    beats = tidy_bpm(lesson.played_once.bars(*bars).tempo_map.tempos[0].us_per_quarter, lesson.beat_ticks)
+    beats = lesson.played_once.bars(*bars).tempo_map.tempos[0].short_bpm(lesson.beat_ticks / PPQ)
     loop = (lesson.loop[0] - first, lesson.loop[1] - first)
     return SheetWords(
         title=lesson.title,
@@ -42,7 +42,7 @@ def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
 def part_labels(part: DrumPart, bars: Bars, *, name: str) -> SheetWords:
     """What stands on the sheet of another part, called by its own title, else `name`."""
     score = part.score.bars(*bars)
-    beats = round(tidy_bpm(score.tempo_map.tempos[0].us_per_quarter, part.beat_ticks), 1)
+    beats = round(score.tempo_map.tempos[0].short_bpm(part.beat_ticks / PPQ), 1)
     return SheetWords(
         title=score.title or name,
         author=part.author,

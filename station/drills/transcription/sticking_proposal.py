@@ -72,12 +72,23 @@ def _sure_limbs(score: Score) -> NDArray[np.int8]:
     chosen, reasons = limbs_and_reasons(score, load_kit())
     hands = np.isin(score.notes["piece"], sorted(HAND_PIECES))
     chosen = _with_their_mains(score, chosen)
-    for bar in np.unique(score.bar[hands]).tolist():
-        rows = np.flatnonzero(hands & (score.bar == bar))
+    bars = [np.flatnonzero(hands & (score.bar == bar)) for bar in np.unique(score.bar[hands])]
+    known: dict[bytes, NDArray[np.int8]] = {}
+    for rows in bars:
         mains = [i for i in rows.tolist() if not score.is_grace[i]]
         if _is_sure({reasons[i] for i in mains}) and _can_be_said(score, chosen, mains):
-            found[rows] = chosen[rows]
+            found[rows] = known[_as_written(score, rows)] = chosen[rows]
+    for rows in bars:
+        if (found[rows] == Limb.UNKNOWN).all():
+            found[rows] = known.get(_as_written(score, rows), found[rows])
     return found
+
+
+def _as_written(score: Score, rows: NDArray[np.intp]) -> bytes:
+    """What the hands have in a bar, whichever bar it is: where it comes again they play it alike."""
+    notes = score.notes[rows].copy()
+    notes["tick"] -= score.tempo_map.bar_start(int(score.bar[rows[0]]))
+    return notes.tobytes()
 
 
 def _is_sure(reasons: set[str]) -> bool:

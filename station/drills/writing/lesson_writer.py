@@ -14,7 +14,7 @@ from station.core.units import PPQ
 from station.drills.grid.grid_writer import GridSetting, LineText, frame_of, with_repeats, write_lines
 from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines_of, strokes_by_bar
 from station.drills.grid.stroke_settings import Velocities
-from station.drills.lesson import Lesson, tidy_bpm
+from station.drills.lesson import Lesson
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_form import FormGrid, LessonForm, form_of
 from station.drills.writing.lesson_text import show
@@ -22,6 +22,7 @@ from station.drills.writing.score_difference import score_difference
 from station.music.grace_strokes import Graces
 from station.music.score import Score
 from station.music.swing import Swing
+from station.music.tempo import TempoChange
 
 _DYNAMICS = ("ghost", "normal", "accent")
 
@@ -108,7 +109,9 @@ def _changes(lesson: Lesson, grid: FormGrid, before: FormGrid) -> list[str]:
     meter = str(tempo_map.meter_at(start))
     lines = [f"meter = {toml_text(meter)}"] if meter != str(tempo_map.meter_at(earlier)) else []
     rate, old = tempo_map.us_per_quarter_at(start), tempo_map.us_per_quarter_at(earlier)
-    return lines + ([f"tempo_bpm = {number(tidy_bpm(rate, lesson.beat_ticks))}"] if rate != old else [])
+    return lines + (
+        [f"tempo_bpm = {number(TempoChange(0, rate).short_bpm(lesson.beat_ticks / PPQ))}"] if rate != old else []
+    )
 
 
 def _lines(

@@ -49,7 +49,9 @@ def read_part(path: Path) -> DrumPart:
     if not known:
         raise BadInput(path, "", f"expected a file that ends in {endings()}")
     data = read_regular(path, max(each.most_bytes for each in known))
-    found = next((each for each in known if each.recognises(data)), known[-1])
+    found = next((each for each in known if each.recognises(data)), known[0] if len(known) == 1 else None)
+    if found is None:
+        raise BadInput(path, "", f"is none of those that end so: {', '.join(each.name for each in known)}")
     if len(data) > found.most_bytes:
         raise BadInput(path, "", f"is larger than {found.most_bytes >> 20} MiB, which no {found.name} file is")
     part = found.read(data, str(path))

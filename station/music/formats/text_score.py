@@ -124,6 +124,7 @@ class _Word(NamedTuple):
 
 _Line = list[_Word]
 _DIRECTIVES = ("title", "tempo", "meter", "end")
+_A_LINE = re.compile(rf"^[ \t]*(?:(?:{'|'.join(_DIRECTIVES)})[ \t]|[0-9]{{1,6}}:[0-9])", re.MULTILINE)
 
 
 def parse_text_score(text: str, source: str = "text score") -> Score:
@@ -257,9 +258,15 @@ class _Reader:
         return number
 
 
+def is_text_score(data: bytes) -> bool:
+    """Whether a text has a line that begins as those of a score do, or the first line of one."""
+    text = data.decode("utf-8", "replace")
+    return text.startswith(HEADER) or bool(_A_LINE.search(text))
+
+
 def _read_part(data: bytes, source: str) -> DrumPart:
     return DrumPart(parse_text_score(utf8_text(data, source, "a text score"), source))
 
 
 TEXT_ENDING = ".txt"
-TEXT_SCORE = MusicFormat("text score", (TEXT_ENDING,), _read_part, lambda _: True, MOST_BYTES)
+TEXT_SCORE = MusicFormat("text score", (TEXT_ENDING,), _read_part, is_text_score, MOST_BYTES)

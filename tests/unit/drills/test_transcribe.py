@@ -341,3 +341,17 @@ def test_a_flam_beside_a_hi_hat_is_told_with_its_bar() -> None:
     flam = Note(5 * QUARTER, Piece.SNARE, velocity=80, ornament=Ornament.FLAM)
     part = DrumPart(Score.from_notes([*hats, *with_graces(flam)], TEMPO))
     assert "1 ornament without grace strokes, for which no hand is free: bar 2" in transcribe(part, "x").remarks
+
+
+def test_a_bar_that_comes_again_has_the_same_hands() -> None:
+    """samba-1 begins with a bar that comes again as its third; on the drum's head its hands are not sure at first."""
+    part = part_of(find_lesson("samba-1"))
+    rows = part.score.notes.copy()
+    snare = rows["piece"] == Piece.SNARE
+    rows["articulation"][snare], rows["zone"][snare] = Articulation.NORMAL, Zone.HEAD
+    rows["limb"] = Limb.UNKNOWN
+    bare = Score.from_array(rows, part.score.tempo_map, part.score.end_tick)
+    lesson = transcribe(DrumPart(bare), "x").lesson
+    hands = [lesson.score.bars(bar, bar).notes["limb"].tolist() for bar in (0, 2)]
+    assert hands[0] == hands[1]
+    assert Limb.LEFT_HAND in hands[0]

@@ -5,7 +5,7 @@ import pytest
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.drills.library import shipped_lessons
+from station.drills.library import find_lesson, shipped_lessons
 from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart
 from station.music.formats.ascii_tab.tab_reader import read_tab
@@ -220,3 +220,17 @@ def test_a_tempo_above_twelve_eighths_counts_dotted_quarters() -> None:
 
 def test_a_line_that_says_how_often_may_stand_below() -> None:
     assert read("HH|x-x-x-x-x-x-x-x-|\nBD|o-------o-------|\n(repeat 3x)\n").score.bar_count == 3
+
+
+def test_a_tab_says_the_tempo_as_people_do() -> None:
+    assert b"\nTempo: 76\n" in write_tab(part_of(find_lesson("funk-1"))).data
+
+
+@pytest.mark.parametrize(
+    "line",
+    [f"A{' ' * 100_000}!", f"tempo{' ' * 100_000}!", "1" * 5_000, "X " * 50_000, "|x-" * 30_000 + "| HH!"],
+    ids=["blanks", "tempo", "digits", "letters", "bars"],
+)
+def test_an_endless_line_is_read_at_once(line: str) -> None:
+    """Patterns that try each blank again take minutes, and 5,000 digits are no number."""
+    assert read(f"{line}\nHH|x-x-x-x-|\nSD|--o---o-|\n").score.bar_count >= 1

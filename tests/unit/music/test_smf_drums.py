@@ -7,6 +7,7 @@ from station.core.errors import BadInput
 from station.core.note_map import GENERAL_MIDI, V_DRUMS, KitMap
 from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
 from station.core.units import PPQ
+from station.music.formats.smf.midi_part import read_midi_part
 from station.music.formats.smf.standard_midi import (
     MidiFile,
     guess_kit_map,
@@ -297,3 +298,18 @@ def test_on_one_tick_what_comes_first_in_the_file_came_first() -> None:
 def test_on_one_tick_an_earlier_track_comes_first() -> None:
     data = header(1, 2) + track(drum(0, 36), pedal(0, 64)) + track(drum(0, 46))
     assert performance_from_midi(midi(data)).hits["openness"].tolist()[1] == pytest.approx(63 / 127)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "struck"),
+    [
+        ((40, 40), [Articulation.NORMAL, Articulation.NORMAL]),
+        ((37, 40), [Articulation.CROSS_STICK, Articulation.NORMAL]),
+        ((38, 40), [Articulation.NORMAL, Articulation.RIM_SHOT]),
+    ],
+)
+def test_an_electric_snare_alone_is_a_snare_and_beside_38_a_rim_shot(
+    numbers: tuple[int, ...], struck: list[Articulation]
+) -> None:
+    data = file(*(drum(96 * (i > 0), number) for i, number in enumerate(numbers)))
+    assert [note.articulation for note in read_midi_part(data, "song.mid").score] == struck

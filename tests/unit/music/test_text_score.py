@@ -8,6 +8,7 @@ from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zo
 from station.core.units import PPQ
 from station.motion.kit.kit import load_kit
 from station.motion.sticking.limbs import assign_limbs
+from station.music.formats.format_table import read_part
 from station.music.formats.text_score import parse_text_score, read_text_score, score_text, write_text_score
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
@@ -118,3 +119,18 @@ def test_a_file_that_cannot_be_read_is_bad_input(tmp_path: Path) -> None:
     (tmp_path / "bytes.txt").write_bytes(b"a\nb\n\xff\xfe")
     with pytest.raises(BadInput, match=r"bytes.txt: line 3: not UTF-8 text; expected a text score, saved as UTF-8$"):
         read_text_score(tmp_path / "bytes.txt")
+
+
+@pytest.mark.parametrize("text", ["hello\nworld\n", "", "My lessons of March\n- rock\n"])
+def test_a_text_of_another_kind_is_told_what_it_could_be(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "notes.txt"
+    path.write_text(text)
+    with pytest.raises(BadInput, match=r"notes\.txt: is none of .*drum tab, text score"):
+        read_part(path)
+
+
+def test_a_text_score_with_a_fault_is_still_one(tmp_path: Path) -> None:
+    path = tmp_path / "score.txt"
+    path.write_text("tempo 1:1 120\n1:1 hihut bow - 80\n")
+    with pytest.raises(BadInput, match=r"score\.txt: line 2, column 5"):
+        read_part(path)

@@ -36,7 +36,7 @@ _BY = re.compile(r"\s*by\s+(.{1,60}?)\s*$", re.IGNORECASE)
 _KEY = re.compile(r"\s*(?:\S\s*[-–=:]\s|(?:key|legend)\b)", re.IGNORECASE)
 """A line of the key of letters, "f - flam", or the word above it."""
 _AGAIN = re.compile(r"[\s(]*(?:repeat|play|[x×]\s*[0-9]|[0-9]+\s*[x×])", re.IGNORECASE)
-_LOOSE_X = re.compile(r"\bX\b[^A-Za-z\n]{1,6}[^\n]*\b(?:loose|open|slosh)", re.IGNORECASE)
+_LOOSE_X = re.compile(r"\bX\b[^A-Za-z\n]{1,6}[^\n]{0,80}\b(?:loose|open|slosh)", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,10 +98,10 @@ def tab_text(text: str, source: str) -> TabText:
         elif _COUNT_LINE.match(line):
             (system if system.rows else waiting).count = line
         elif system.rows and _AGAIN.match(line):
-            system.times = max(system.times, _times(line))
+            system.times = max(system.times, _times(_tidy(line)))
         else:
             close()
-            _read_words(line, found, waiting)
+            _read_words(_tidy(line), found, waiting)
     close()
     return found
 
@@ -146,14 +146,20 @@ def _heading(lines: Sequence[str], found: TabText) -> int:
     below = lines[top + 1 : top + 2]
     if not below or tab_line(below[0]) or _COUNT_LINE.match(below[0]):
         return 0
-    title = _TITLE.match(lines[top])
-    if not title or _PART.match(lines[top]) or tab_line(lines[top]) or _says_time(lines[top]):
+    line = _tidy(lines[top])
+    title = _TITLE.match(line)
+    if not title or _PART.match(line) or tab_line(lines[top]) or _says_time(line):
         return 0
-    found.words["title"] = " ".join(title[1].split())
-    author = _BY.match(below[0])
+    found.words["title"] = title[1]
+    author = _BY.match(_tidy(below[0]))
     if author:
         found.words["author"] = author[1]
     return top + (2 if author else 1)
+
+
+def _tidy(line: str) -> str:
+    """Its words with one blank between: patterns then need not look through a million of them again and again."""
+    return " ".join(line.split())
 
 
 def _says_time(line: str) -> bool:

@@ -38,10 +38,7 @@ def has_beat(beat_ticks: int) -> bool:
 
 def tempo_text(us_per_quarter: int) -> str:
     """Quarter notes a minute, so exact that the same microseconds come back."""
-    whole = round(_US_PER_MINUTE / us_per_quarter)
-    if whole and round(_US_PER_MINUTE / whole) == us_per_quarter:
-        return str(whole)
-    return f"{_US_PER_MINUTE / us_per_quarter:.10f}".rstrip("0").rstrip(".")
+    return f"{TempoChange(0, us_per_quarter).short_bpm():.10f}".rstrip("0").rstrip(".")
 
 
 def directions_of(part: DrumPart, swings: Sequence[tuple[int, Swing]]) -> list[Direction]:

@@ -3,10 +3,12 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from station.core.pieces import Articulation, Piece, Zone
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import Feature, Loss, MusicFormat, WrittenFile
 from station.music.formats.smf.chunk_reader import MAX_BYTES, parse_midi
 from station.music.formats.smf.drum_tracks import score_from_midi
+from station.music.score import Score
 
 _KEEPS: Mapping[Feature, str] = MappingProxyType(
     {
@@ -28,7 +30,21 @@ _CUT = (Loss(Feature.TIMES, "bars of rest at the end: a MIDI file is read to the
 def read_midi_part(data: bytes, source: str) -> DrumPart:
     """The drums of a MIDI file; raises `BadInput` of `source`."""
     contents = parse_midi(data, source)
-    return DrumPart(score_from_midi(contents), is_meter_said=any(track.meters for track in contents.tracks))
+    score = _with_a_plain_snare(score_from_midi(contents))
+    return DrumPart(score, is_meter_said=any(track.meters for track in contents.tracks))
+
+
+def _with_a_plain_snare(score: Score) -> Score:
+    """A snare that is only ever struck as a rim shot is a file's electric snare, struck as any snare is.
+
+    Note 40 is the Electric Snare in General MIDI 1, and the rim of many modules' snare, beside 38 for its head.
+    """
+    rows = score.notes.copy()
+    snare = (rows["piece"] == Piece.SNARE) & (rows["articulation"] != Articulation.CROSS_STICK)
+    if not snare.any() or (rows["articulation"][snare] != Articulation.RIM_SHOT).any():
+        return score
+    rows["articulation"][snare], rows["zone"][snare] = Articulation.NORMAL, Zone.HEAD
+    return Score.from_array(rows, score.tempo_map, score.end_tick, score.title, score.loudness)
 
 
 def write_midi_part(part: DrumPart) -> WrittenFile:
