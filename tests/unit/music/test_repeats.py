@@ -1,6 +1,7 @@
 """Repeats and endings, by hand as a copyist writes them."""
 
 from dataclasses import replace
+from time import process_time
 
 import pytest
 
@@ -109,3 +110,10 @@ def test_a_tempo_that_comes_back_folds_with_its_ramp() -> None:
         TempoChange.from_bpm(bar * BAR + k * PPQ, bpm + 5 * k) for bar in (0, 4) for k, bpm in enumerate([100] * 3)
     ]
     assert folded(song("ABCDABCD", TempoMap.build(tempi))) == [Passage(0, 3, 2)]
+
+
+def test_two_thousand_bars_alike_are_folded_at_once() -> None:
+    score = Score.from_notes([], TempoMap.constant(120), 2_000 * BAR)
+    before = process_time()
+    assert folded(score) == [Passage(0, 0, 2_000)]
+    assert process_time() - before < 6.0, "each bar was held against every other"
