@@ -78,7 +78,7 @@ def take(score: Score, playing: Playing, rng: np.random.Generator) -> Score:
     """The score as it is played; all strokes of one piece at one tick go together, a flam with its grace stroke."""
     rows = score.notes.copy()
     moments, of_row = np.unique(np.stack([rows["tick"], rows["piece"]]), axis=1, return_inverse=True)
-    spread: NDArray[np.float64] = rng.normal(0, playing.spread_ms, moments.shape[1])
+    spread: NDArray[np.float64] = rng.normal(0, playing.spread_ms, (moments.shape[1],))
     errors = spread[of_row.ravel()] + playing.lean_ms
     if playing.wander_ms:
         errors += playing.wander_ms * wander(len(rows), rng)

@@ -23,6 +23,7 @@ from station.core.errors import BadInput
 from station.core.files import write_whole
 from station.music.formats.format_table import endings, writer_for
 from station.music.formats.groovescribe.groove_formats import is_groove_url
+from station.music.formats.part_features import without_a_word
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,7 +67,8 @@ class ExportOptions:
     """What is written, and where."""
 
     score: str = argument("SCORE", "a lesson, a music file or a take (.capture)", str)
-    out: Path = required("FILE", "the file to write", Path)
+    out: Path = required("FILE", "the file to write; its ending says the format", Path)
+    overwrite: bool = flag("write FILE even if there is one already")
 
 
 def _show(options: LessonOptions) -> int:
@@ -97,7 +99,7 @@ def _new(options: NewOptions) -> int:
     if options.out is None:
         write(text, end="")
         return 0
-    _check_free(options.out, options.overwrite)
+    _check_lesson_name(options.out, options.overwrite)
     write_whole(options.out, text.encode())
     say(f"lesson   {options.out}")
     return 0
@@ -122,10 +124,15 @@ def _new_text(options: NewOptions) -> str:
     return NEW_LESSON
 
 
-def _check_free(out: Path, overwrite: bool) -> None:
+def _check_lesson_name(out: Path, overwrite: bool) -> None:
     """Raises `BadInput` for a name that is no lesson's, and for a file that is there already."""
     if out.suffix != ".toml":
         raise BadInput(out, "", "expected a name that ends in .toml")
+    _check_free(out, overwrite)
+
+
+def _check_free(out: Path, overwrite: bool) -> None:
+    """Raises `BadInput` for a file that is there already."""
     if out.exists() and not overwrite:
         raise BadInput(out, "", "is there already: choose another name, or say --overwrite")
 
@@ -136,7 +143,7 @@ def _import(options: ImportOptions) -> int:
     if is_lesson(options.source):
         raise BadInput(options.source, "", f"expected a music file ({endings()}), a take (.capture) or a groove's link")
     out = options.out
-    _check_free(out, options.overwrite)
+    _check_lesson_name(out, options.overwrite)
     stem = out.stem if is_groove_url(options.source) else existing(options.source).stem
     part = load_part(options.source)
     titled = replace(part, score=replace(part.score, title=part.score.title or stem))
@@ -152,11 +159,15 @@ def _import(options: ImportOptions) -> int:
 
 def _export(options: ExportOptions) -> int:
     known = writer_for(options.out)
+    _check_free(options.out, options.overwrite)
     assert known.write is not None, "writer_for finds those that write"
-    written = known.write(load_part(options.score))
+    part = load_part(options.score)
+    written = known.write(part)
     write_whole(options.out, written.data)
-    for loss in written.lost:
-        say(f"lost     {loss.text}")
+    for line in dict.fromkeys(loss.text for loss in written.lost):
+        say(f"lost     {line}")
+    if wordless := without_a_word(known, part, written):
+        say(f"lost     {known.name} has no word for: {', '.join(wordless)}")
     say(f"{known.name:8} {options.out}")
     return 0
 

@@ -30,7 +30,7 @@ class SheetOptions:
 
 def run(options: SheetOptions) -> int:
     """Engrave it and write the file."""
-    from station.scenes.sheets import lesson_labels, on_grid, part_labels, pdf_of
+    from station.scenes.sheets import lesson_labels, part_labels, pdf_of, written_down
 
     out = options.out
     if out.suffix.lower() != ENDING:
@@ -39,7 +39,7 @@ def run(options: SheetOptions) -> int:
         lesson = find_any_lesson(options.score)
         score, labels = lesson.played_once, partial(lesson_labels, lesson)
     else:
-        part = on_grid(load_part(options.score))
+        part = written_down(load_part(options.score))
         score, labels = part.score, partial(part_labels, part, name=Path(options.score).stem)
     first = options.start_bar
     last = score.bar_count if options.end_bar is None else options.end_bar

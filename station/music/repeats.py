@@ -79,9 +79,11 @@ def folded(score: Score, sections: Mapping[int, str] = _NO_NAMES, apart: Collect
     `sections` are names by the bar, from 0, where they begin: within a passage each pass has the same ones in the same
     places, or the passage begins one section. No passage reaches over a bar in `apart`.
     """
-    bars = [replace(form, section=sections.get(bar, "")) for bar, form in enumerate(_bar_forms(score))]
-    passes, ends = _Passes(bars), sorted({0, len(bars), *(bar for bar in apart if 0 < bar < len(bars))})
-    return [passage for first, last in pairwise(ends) for passage in _best(passes, first, last)]
+    known: dict[_BarForm, _BarForm] = {}  # alike bars are one object, which lists compare at once
+    forms = (replace(form, section=sections.get(bar, "")) for bar, form in enumerate(_bar_forms(score)))
+    bars = [known.setdefault(form, form) for form in forms]
+    ends = sorted({0, len(bars), *(bar for bar in apart if 0 < bar < len(bars))})
+    return [passage for first, last in pairwise(ends) for passage in _best(bars, first, last)]
 
 
 def written_forms(score: Score) -> list[tuple[int, str]]:
@@ -178,56 +180,28 @@ class _Loudness:
         return mark.sign, mark.tick - start, until - start
 
 
-class _Passes:
-    """How often passages of `bars` follow each other, asked from the last bar on: an answer uses the one after it."""
+def _comes_again(bars: Sequence[_BarForm], first: int, again: int, length: int) -> bool:
+    """Whether the bars from `again` on are those from `first` on: a repeat sign leads back from the one to the other.
 
-    def __init__(self, bars: Sequence[_BarForm]) -> None:
-        known: dict[_BarForm, int] = {}
-        self.bars = bars
-        self._forms = [known.setdefault(bar, len(known)) for bar in bars]
-        self._told = [(bar.new[1], bar.new[2], bar.section) for bar in bars]
-        self._marked = [bar for bar, told in enumerate(self._told) if any(told)]
-        self._counts: dict[tuple[int, int, int], tuple[int, int]] = {}
-
-    def times(self, at: int, end: int, whole: int, alike: int) -> int:
-        """How many passes of so many bars follow each other from `at` to `end`, whose first ones, so many, are alike.
-
-        A repeat sign leads back from each to the first. What holds anyway may stand at the beginning on paper and be
-        left out when it is played again, never the reverse; a meter may always be told again.
-        """
-        alikes = times = 1
-        again = at + whole
-        if again + whole <= end and self._is_alike(at, again, alike):
-            alikes, times = (1 + count for count in self._counts.get((again, whole, alike), (1, 1)))
-            if self._told[at] != self._told[again]:
-                times = self._until_told_anew(at, whole, alikes)
-        self._counts[at, whole, alike] = alikes, times
-        return times
-
-    def _is_alike(self, at: int, again: int, alike: int) -> bool:
-        is_first = self.bars[at].lasting == self.bars[again].lasting
-        return is_first and self._forms[at + 1 : at + alike] == self._forms[again + 1 : again + alike]
-
-    def _until_told_anew(self, at: int, whole: int, count: int) -> int:
-        """How many of `count` passes begin with nothing told that the first does not tell: tempo, loudness, section."""
-        first = bisect_right(self._marked, at)
-        for bar in self._marked[first : bisect_left(self._marked, at + count * whole, first)]:
-            later = zip(self._told[at], self._told[bar], strict=True)
-            if (bar - at) % whole == 0 and any(b not in ("", a) for a, b in later):
-                return (bar - at) // whole
-        return count
+    What holds anyway may stand at the beginning on paper and be left out when it is played again, never the reverse; a
+    meter may always be told again.
+    """
+    one, other = bars[first], bars[again]
+    back = all(b in ("", a) for a, b in zip((*one.new[1:], one.section), (*other.new[1:], other.section), strict=True))
+    alike = one.lasting == other.lasting and back
+    return alike and bars[first + 1 : first + length] == bars[again + 1 : again + length]
 
 
 # --- the cheapest way to write them -----------------------------------------------------------------------------------
 
 
-def _best(passes: _Passes, start: int, end: int) -> list[Passage]:
+def _best(bars: Sequence[_BarForm], start: int, end: int) -> list[Passage]:
     """The passages that write bars `start` up to `end` at the least cost; plain bars that follow each other are one."""
     costs: dict[int, tuple[float, Passage | None]] = {end: (0.0, None)}
-    bars = passes.bars
+    times: _Times = {}
     for at in range(end - 1, start - 1, -1):
         costs[at] = 1.0 + costs[at + 1][0], None
-        for passage in _repeats(passes, at, end):
+        for passage in _repeats(bars, at, end, times):
             after = at + passage.times * passage.pass_length
             is_named = bars[at + passage.pass_length].section != ""
             signs = (_NAMED_SIGN if is_named else _SIGN) + _ENDINGS * bool(passage.endings)
@@ -252,17 +226,28 @@ def _chosen(costs: dict[int, tuple[float, Passage | None]], start: int, end: int
         yield Passage(plain, end - 1)
 
 
-def _repeats(passes: _Passes, at: int, end: int) -> Iterator[Passage]:
-    """Every passage that begins at `at` and comes again at once; endings only where they bring more passes."""
-    bars = passes.bars
+_Times = dict[tuple[int, int, int], int]
+"""How often passes follow each other, by their first bar, their length, and how many of their bars are alike."""
+
+
+def _repeats(bars: Sequence[_BarForm], at: int, end: int, times: _Times) -> Iterator[Passage]:
+    """Every passage that begins at `at` and comes again at once; `times` has those that begin later, and gets these."""
     for length in range(1, min(LONGEST_PASSAGE, (end - at) // 2) + 1):
         if bars[at].lasting != bars[at + length].lasting:
             continue
-        if (plain := passes.times(at, end, length, length)) > 1:
+        if (plain := _count(bars, at, (length, length), times)) > 1:
             yield Passage(at, at + length - 1, plain)
         for ending in _ENDING_LENGTHS:
-            if 2 * ending <= length and (times := passes.times(at, end, length, length - ending)) > plain:
-                yield _with_endings(bars, at, (length, ending), times)
+            if 2 * ending <= length and (count := _count(bars, at, (length, length - ending), times)) > plain:
+                yield _with_endings(bars, at, (length, ending), count)
+
+
+def _count(bars: Sequence[_BarForm], at: int, lengths: tuple[int, int], times: _Times) -> int:
+    """How often passes of so many bars follow each other whose first ones, so many, are alike, from once on."""
+    whole, alike = lengths
+    count = 1 + times.get((at + whole, whole, alike), 1) if _comes_again(bars, at, at + whole, alike) else 1
+    times[at, whole, alike] = count
+    return count
 
 
 def _with_endings(bars: Sequence[_BarForm], at: int, lengths: tuple[int, int], times: int) -> Passage:

@@ -2,9 +2,15 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from station.core.errors import BadInput
+from station.core.pieces import Dynamic, Limb, Ornament
+from station.core.units import PPQ
 from station.drills.lesson import Lesson, tidy_bpm
 from station.drills.transcription.grid_times import quantised_times
+from station.drills.transcription.transcribe import transcribe
+from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart
 from station.music.score import Score
 from station.music.swing import triplets_spelled_out
@@ -48,18 +54,43 @@ def part_labels(part: DrumPart, bars: Bars, *, name: str) -> SheetWords:
     )
 
 
+def written_down(part: DrumPart) -> DrumPart:
+    """A part as a sheet writes it: one that was played as an import writes it, others on cells of the beat.
+
+    Played is also what tells strokes apart by velocities alone. Letters stand only where the part has hands.
+    """
+    if not len(part.score) or not (part.is_played or _is_heard(part.score)):
+        return on_grid(part)
+    try:
+        found = part_of(transcribe(part, part.score.title or "take").lesson)
+    except BadInput:
+        return on_grid(part)
+    is_silent = (part.score.notes["limb"] == Limb.UNKNOWN).all()
+    limbs = np.full_like(found.score.notes["limb"], Limb.UNKNOWN) if is_silent else found.score.notes["limb"]
+    score = replace(triplets_spelled_out(found.score.with_limbs(limbs)), title=part.score.title)
+    return replace(found, score=score, about=part.about)
+
+
+def _is_heard(score: Score) -> bool:
+    """Whether no word says how loud a stroke is, or how ornamented, and velocities do."""
+    notes = score.notes
+    is_plain = (notes["dynamic"] == Dynamic.NORMAL).all() and (notes["ornament"] == Ornament.NONE).all()
+    return bool(is_plain and np.ptp(notes["velocity"]) > 0)
+
+
 def on_grid(part: DrumPart) -> DrumPart:
-    """A part as a sheet writes it: what was played or swings on cells of the beat, under a mark.
+    """A part whose strokes lie on cells of the beat, swing under a mark.
 
     A part that says itself how it swings stays, and one with bars that no meter can name.
     """
     if not len(part.score) or part.score.notes["swing_ticks"].any():
         return part
     try:
-        found = quantised_times(part.score, part.is_played).score
+        found = quantised_times(part.score, part.is_played)
     except BadInput:
         return part
-    return replace(part, score=triplets_spelled_out(found))
+    beat = found.beat_ticks if part.beat_ticks == PPQ else part.beat_ticks
+    return replace(part, score=triplets_spelled_out(found.score), beat_ticks=beat)
 
 
 def pdf_of(score: Score, bars: Bars, words: SheetWords, paper: str, with_sticking: bool = True) -> bytes:

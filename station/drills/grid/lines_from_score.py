@@ -106,10 +106,19 @@ def graces_of(score: Score) -> Graces:
     )
     mains = {(n.tick, n.piece): n.velocity for n in score if not n.lead_ms}
     pairs = [(n.velocity, mains[n.tick, n.piece]) for n in score if n.lead_ms and (n.tick, n.piece) in mains]
-    if all(soft == spaced.velocity(main) for soft, main in pairs):
-        return spaced
-    soft, main = max(pairs, key=lambda pair: pair[1])
-    return replace(spaced, share=round(soft / main, 3))
+    loudest = max(pairs, key=lambda pair: pair[1], default=(0, 1))
+    shares = [spaced.share, *(round(loudest[0] / loudest[1], d) for d in (1, 2, 3)), *_shares_of(pairs)]
+    alike = (replace(spaced, share=share) for share in shares)
+    return next(
+        (g for g in alike if all(soft == g.velocity(main) for soft, main in pairs)), replace(spaced, share=shares[3])
+    )
+
+
+def _shares_of(pairs: Sequence[tuple[int, int]]) -> list[float]:
+    """Where the shares lie that give each (grace stroke, note) its velocities: their middle, by 2 and by 3 decimals."""
+    least = max(((soft - 0.5) / main for soft, main in pairs), default=0.0)
+    most = min(((soft + 0.5) / main for soft, main in pairs), default=1.0)
+    return [round((least + most) / 2, decimals) for decimals in (2, 3)]
 
 
 def _tidy_ms(lead_ms: float) -> float:

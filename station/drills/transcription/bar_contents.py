@@ -20,7 +20,8 @@ class BarContents:
 
     `contents` has a number for each, the same for bars that sound and read alike, tempo and meter included. `cuts` are
     the bars before which the tempo or meter changes, `bound` those into which a buzz or a ringing cymbal goes on,
-    `crashes` those that begin with a crash, `fills` those that are played on toms.
+    `crashes` those that begin with a crash, `fills` those that are played on toms. `has_pick_up`: the music begins in
+    the second half of the first bar.
     """
 
     contents: tuple[int, ...]
@@ -28,6 +29,7 @@ class BarContents:
     bound: frozenset[int]
     crashes: frozenset[int]
     fills: frozenset[int]
+    has_pick_up: bool
 
     @property
     def count(self) -> int:
@@ -57,6 +59,7 @@ def bar_contents(score: Score, beyond: NDArray[np.void]) -> BarContents:
         frozenset(bound),
         frozenset(bar for bar in range(len(rows)) if _begins_with_a_crash(rows[bar], starts[bar])),
         frozenset(bar for bar in range(len(rows)) if _is_fill(rows[bar])),
+        has_pick_up=bool(len(score) and len(rows) > 1 and 2 * int(score.notes["tick"][0]) >= starts[1]),
     )
 
 

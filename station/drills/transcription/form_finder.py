@@ -34,7 +34,7 @@ _WIDE = 4
 """Bars beside each other that a page has room for: four of sixteenths are 90 characters. Further ones cost twice."""
 _MOST_TURNS = 4
 """So often the form names a grid again before a grid of its own says how often it is played (our choice)."""
-_FILL = "fill"
+_FILL, _PICK_UP = "fill", "pick-up"
 _LONGEST_FILL = 2
 
 
@@ -84,8 +84,8 @@ def _plain(name: str) -> str:
 
 
 def _new_parts(bars: BarContents) -> set[int]:
-    """The bars that a crash opens, where crashes are rare."""
-    found = [0]
+    """The bars that a crash opens, where crashes are rare, and the one after a pick-up."""
+    found = [0, 1] if bars.has_pick_up else [0]
     for bar in sorted(bars.crashes):
         if bar - found[-1] >= _CRASH_APART:
             found.append(bar)
@@ -167,9 +167,9 @@ def _times(blocks: Sequence[_Block], count: int, order: Sequence[int]) -> list[i
 
 
 def _names(bars: BarContents, written: Sequence[_Block]) -> list[str]:
-    """A name for each grid: the file's, "fill", or a letter."""
+    """A name for each grid: the file's, "pick-up", "fill", or a letter."""
     letters = _letters()
-    wanted = [block.section or (_FILL if _is_fill(bars, block) else next(letters)) for block in written]
+    wanted = [block.section or _word(bars, block) or next(letters) for block in written]
     counts: Counter[str] = Counter()
     taken = set(wanted)
     names: list[str] = []
@@ -179,6 +179,12 @@ def _names(bars: BarContents, written: Sequence[_Block]) -> list[str]:
             counts[name] += 1
         names.append(name if counts[name] == 1 else f"{name} {counts[name]}")
     return names
+
+
+def _word(bars: BarContents, block: _Block) -> str:
+    if bars.has_pick_up and (block.first, block.bars) == (0, 1):
+        return _PICK_UP
+    return _FILL if _is_fill(bars, block) else ""
 
 
 def _is_fill(bars: BarContents, block: _Block) -> bool:

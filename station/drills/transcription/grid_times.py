@@ -3,7 +3,7 @@
 `quantised_times` is the only door. Times and ticks are those of `Score`; leans are positive where strokes come late.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,9 +12,10 @@ from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.transcription.beat_spans import BeatSpans, Ints, spans_of
 from station.drills.transcription.drift import steadied
 from station.drills.transcription.exact_grid import exact_meant
-from station.drills.transcription.meant import Meant
+from station.drills.transcription.meant import Meant, recut
 from station.drills.transcription.rhythm_words import MAX_WORDS, cells_of
 from station.drills.transcription.take_feel import Take, feel_of, take_of
+from station.drills.transcription.tempo_finder import at_heard_tempo
 from station.drills.transcription.triplet_swing import triplet_swing
 from station.drills.transcription.whole_bars import at_bar_starts
 from station.music.score import Score
@@ -53,6 +54,14 @@ class GridTimes:
     lean_ms: float = 0.0
     spread_ms: float = 0.0
 
+    def from_bar(self, first: int) -> "GridTimes":
+        """The same without its first bars, which are empty."""
+        if not first:
+            return self
+        start = self.score.tempo_map.bar_start(first)
+        beats = tuple(replace(beat, tick=beat.tick - start) for beat in self.beats)
+        return replace(self, score=self.score.bars(first, self.score.bar_count - 1), beats=beats)
+
 
 def quantised_times(score: Score, is_played: bool) -> GridTimes:
     """`score` with every row on a cell of the grid.
@@ -61,29 +70,67 @@ def quantised_times(score: Score, is_played: bool) -> GridTimes:
     buzzes, one row each with its duration. With `is_played` the times are known to be somebody's playing; without it
     they are taken so only if they lie on no grid. Raises `BadInput` where a change of meter cuts a bar at a place that
     no meter can name.
+
+    Of a take that says no tempo but MIDI's 120, and was played at another, the score has that other tempo.
     """
-    tempo_map = at_bar_starts(score)
-    spans = spans_of(tempo_map, score.end_tick)
-    rows = score.notes
-    mains = np.nonzero(rows["lead_ms"] == 0)[0]
-    ticks = rows["tick"][mains]
-    take = take_of(tempo_map.ns_at(ticks), rows["piece"][mains], spans)
-    meant = None if is_played and len(mains) else exact_meant(take, ticks)
-    meant = meant or played_meant(take)
-    swing = _named_swing(take, meant)
-    moved = rows.copy()
-    moved["tick"][mains] = meant.ticks(spans)
-    moved["swing_ticks"][mains] = (meant.ticks(spans) - meant.straight_ticks(spans)) * swing.stands_in_words
+    music = _Music.of(score)
+    meant = None if is_played and len(music.mains) else exact_meant(music.take, music.ticks)
+    if meant is None:
+        music = _Music.of(at_heard_tempo(score))
+        meant = played_meant(music.take)
+    return _written(music, meant)
+
+
+@dataclass(frozen=True, eq=False)
+class _Music:
+    """A score over whole bars; `mains` are the indices of its main strokes, `take` their times."""
+
+    score: Score
+    tempo_map: TempoMap
+    mains: Ints
+    take: Take
+
+    @classmethod
+    def of(cls, score: Score) -> "_Music":
+        """The score, its bars made whole."""
+        tempo_map = at_bar_starts(score)
+        mains = np.nonzero(~score.is_grace)[0]
+        onset_ns = tempo_map.ns_at(score.notes["tick"][mains])
+        return cls(
+            score,
+            tempo_map,
+            mains,
+            take_of(onset_ns, score.notes["piece"][mains], spans_of(tempo_map, score.end_tick)),
+        )
+
+    @property
+    def ticks(self) -> Ints:
+        """The ticks of the main strokes."""
+        ticks: Ints = self.score.notes["tick"][self.mains]
+        return ticks
+
+
+def _written(music: _Music, meant: Meant) -> GridTimes:
+    """The rows of the score where they are meant."""
+    spans, score = music.take.spans, music.score
+    meant = _named(music.take, meant)
+    moved = score.notes.copy()
+    moved["tick"][music.mains] = meant.ticks(spans)
+    moved["swing_ticks"][music.mains] = meant.ticks(spans) - meant.straight_ticks(spans)
     for name in ("duration_ticks", "choke_ticks"):
-        moved[name][mains] = _lengths(take, meant, rows[name][mains])
-    _bring_graces(rows, moved)
+        moved[name][music.mains] = _lengths(music.take, meant, moved[name][music.mains])
+    _bring_graces(score.notes, moved)
     origin = np.lexsort((moved["piece"], -moved["lead_ms"], moved["tick"]))
-    found = Score.from_array(
-        moved[origin], tempo_map, _end(moved["tick"], tempo_map, score), score.title, score.loudness
+    end = _end(moved["tick"], music.tempo_map, score)
+    return GridTimes(
+        Score.from_array(moved[origin], music.tempo_map, end, score.title, score.loudness),
+        origin,
+        meant.swing,
+        _beat_ticks(music.tempo_map),
+        _beats(spans, meant),
+        meant.lean_s * _MS_PER_S,
+        meant.spread_s * _MS_PER_S,
     )
-    beats = _beats(spans, meant)
-    beat = _beat_ticks(tempo_map)
-    return GridTimes(found, origin, swing, beat, beats, meant.lean_s * _MS_PER_S, meant.spread_s * _MS_PER_S)
 
 
 def played_meant(take: Take) -> Meant:
@@ -99,11 +146,17 @@ def played_meant(take: Take) -> Meant:
     return Meant(span, cell, reading.cells, feel.swing, late_s + feel.lean_s, feel.spread_s)
 
 
-def _named_swing(take: Take, meant: Meant) -> Swing:
-    """The swing as a teacher names it; triplets may be one though none was needed to read them."""
+def _named(take: Take, meant: Meant) -> Meant:
+    """The strokes under the swing that a teacher names; triplets may be one though none was needed to read them.
+
+    A swing by triplets stays where straight cells would have to be finer than thirty-seconds.
+    """
     if meant.swing.ratio not in (STRAIGHT, TRIPLETS):
-        return meant.swing
-    return triplet_swing(take.spans, meant.span, meant.places(take.spans), take.piece)
+        return meant
+    swing = triplet_swing(take.spans, meant.span, meant.places(take.spans), take.piece)
+    named = recut(meant, take.spans, swing)
+    is_finer = bool(np.any((named.cells > meant.cells) & (take.spans.lengths < named.cells * PPQ // 8)))
+    return meant if is_finer else named
 
 
 def _lengths(take: Take, meant: Meant, lengths: Ints) -> Ints:

@@ -3,7 +3,8 @@
 The velocities of a piece fall into groups where few strokes lie between many: a smoothed histogram is cut at its
 valleys. One group is one way to strike and no accent. Which of ghost, normal and accent several groups are is asked of
 the whole take first: where all its levels are the station's own (`Velocities.usual`), that is what they are. Else two
-groups are the two of the three whose loudness they are nearest to, in decibels.
+groups are the two of the three whose loudness they are nearest to, in decibels, where that makes sense: accents stand
+out from more that is not accented, and what is mostly struck softly is a ghost only where one hand fills in.
 
 What a file says of ghosts and accents itself stays.
 """
@@ -37,7 +38,8 @@ _EMPTY = 3 * SPREAD
 _ENOUGH = 8
 """So many strokes of a piece tell its levels (our choice)."""
 _AS_OURS = 9.5
-"""Strokes so near to the station's own levels, in the mean, are meant as those: a spread and a lean (our choice)."""
+"""Strokes so near to the station's own levels, in the mean, are meant as those: a spread and a lean (our choice). One
+piece may lie further off by two standard errors of that mean, each a share of 1 / √(2n) for n strokes."""
 _STRAYS = 0.05
 _CLEAR = 1.5 * SPREAD
 """Two of a hundred strokes stray so far that they are nearer to the next level; where a piece has no more than that
@@ -153,11 +155,7 @@ def _heard(notes: Sequence[Note]) -> _Named:
         common = {kind: _common(heard) for kind, heard in by_kind.items()}
         return _said([replace(n, dynamic=_as_ours(n.velocity, common[_kind(n.piece)])) for n in notes])
     levels = {kind: levels_of(heard) for kind, heard in by_kind.items()}
-    return {
-        piece: dict(zip(_names(own), own, strict=True))
-        for piece in {n.piece for n in notes}
-        for own in (levels[_kind(piece)],)
-    }
+    return {piece: _named(levels[_kind(piece)], family_of(piece) in _FILLED_IN) for piece in {n.piece for n in notes}}
 
 
 def _kind(piece: Piece) -> Piece:
@@ -167,13 +165,17 @@ def _kind(piece: Piece) -> Piece:
 
 
 _ANY = tuple(Dynamic)
+_FILLED_IN = (TabFamily.SNARE, TabFamily.TOM)
+"""Drums on which ghosts may be most of what is struck: they fill in between (our choice)."""
 
 
 def _are_ours(kinds: Iterable[Sequence[int]]) -> bool:
     """Whether the station's own levels, two of them at least, with human spread are all that a take has."""
     known = list(kinds)
-    many = [heard for heard in known if len(heard) >= _ENOUGH] or known
-    return len(set().union(*map(_common, known))) > 1 and all(_distance(heard) <= _AS_OURS for heard in many)
+    many = [heard for heard in known if len(heard) >= _ENOUGH]
+    if any(_distance(heard) > _AS_OURS * (1 + 2 / sqrt(2 * len(heard))) for heard in many):
+        return False
+    return len(set().union(*map(_common, known))) > 1 and _distance([v for heard in known for v in heard]) <= _AS_OURS
 
 
 def _distance(heard: Sequence[int]) -> float:
@@ -197,31 +199,66 @@ def _as_ours(velocity: int, common: Sequence[Dynamic]) -> Dynamic:
     return min(common, key=lambda d: abs(usual[d] - velocity))
 
 
-def _names(levels: Sequence[Level]) -> tuple[Dynamic, ...]:
-    """What one, two or three groups of a piece are called."""
+def _named(levels: Sequence[Level], may_be_filled: bool) -> Mapping[Dynamic, Level]:
+    """One, two or three groups of a piece by what they are called; three that make no sense as such are two."""
     if len(levels) == 1:
-        return (Dynamic.NORMAL,)
+        return {Dynamic.NORMAL: levels[0]}
+    named = [dict(zip(names, levels, strict=True)) for names in combinations(Dynamic, len(levels))]
+    possible = [each for each in named if _makes_sense(each, may_be_filled)]
+    return min(possible, key=_farness) if possible else _named(_nearest_joined(levels), may_be_filled)
+
+
+def _farness(named: Mapping[Dynamic, Level]) -> float:
+    """How far groups are from the usual loudness of their names."""
     usual = Velocities().usual
-    middles = [level.middle for level in levels]
-    return min(
-        combinations(Dynamic, len(levels)),
-        key=lambda names: sum(abs(log(middle / usual[d])) for middle, d in zip(middles, names, strict=True)),
-    )
+    return sum(abs(log(level.middle / usual[d])) for d, level in named.items())
+
+
+def _makes_sense(named: Mapping[Dynamic, Level], may_be_filled: bool) -> bool:
+    """Whether what is marked is no more than half of the strokes, ghosts apart where they may fill in."""
+    most = sum(level.count for level in named.values()) / 2
+    rare = [Dynamic.ACCENT] if may_be_filled else [Dynamic.ACCENT, Dynamic.GHOST]
+    return all(named[d].count <= most for d in rare if d in named)
+
+
+def _nearest_joined(levels: Sequence[Level]) -> list[Level]:
+    """The levels, the two as one that are nearest to each other."""
+    k = min(range(len(levels) - 1), key=lambda i: levels[i + 1].middle - levels[i].middle)
+    one, other = levels[k : k + 2]
+    most = max(one, other, key=lambda level: level.count)
+    return [*levels[:k], Level(one.low, other.high, most.middle, one.count + other.count), *levels[k + 2 :]]
 
 
 def _velocities(named: _Named) -> Velocities:
-    """The velocity of each dynamic on each piece; the usual one where a piece has no such stroke."""
-    usual = Velocities().usual
+    """The velocity of each dynamic, and of the pieces that differ; the usual one where no stroke says otherwise."""
+    usual = _usual_of(named)
     of_piece: dict[Piece, tuple[int, int, int]] = {}
     for piece in sorted(named):
-        ghost, normal, accent = (_tidy(named[piece].get(d), usual[d]) for d in Dynamic)
-        three = (min(ghost, normal), normal, max(normal, accent))
+        three = _rising(*(_tidy(named[piece].get(d), usual[d], Velocities().usual[d]) for d in Dynamic))
         if three != usual:
             of_piece[piece] = three
     return Velocities(usual, MappingProxyType(of_piece))
 
 
-def _tidy(level: Level | None, usual: int) -> int:
-    if level is None or (not level.is_exact and abs(level.middle - usual) <= _TIDY):
+def _usual_of(named: _Named) -> tuple[int, int, int]:
+    """What is said once for all pieces: of each dynamic the velocity that two of them share, or the only piece has."""
+    ours = Velocities().usual
+    said = [Counter(_tidy(own[d], ours[d], ours[d]) for own in named.values() if d in own) for d in Dynamic]
+    needed = min(2, len(named))
+    shared = [
+        max(heard, key=lambda v: (heard[v], v == usual)) if heard and max(heard.values()) >= needed else usual
+        for heard, usual in zip(said, ours, strict=True)
+    ]
+    return _rising(*shared)
+
+
+def _rising(ghost: int, normal: int, accent: int) -> tuple[int, int, int]:
+    """No ghost louder than a normal stroke, and no accent softer."""
+    return min(ghost, normal), normal, max(normal, accent)
+
+
+def _tidy(level: Level | None, usual: int, ours: int) -> int:
+    """The velocity of a level: `usual` where there is none, `ours` where it is near to that."""
+    if level is None:
         return usual
-    return level.middle
+    return ours if not level.is_exact and abs(level.middle - ours) <= _TIDY else level.middle

@@ -14,6 +14,7 @@ What a file says itself (ornaments, grace strokes, buzzes) stays, and then nothi
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import inf
 from statistics import median
 
 from station.core.pieces import TOMS, Articulation, Ornament, Piece, Zone
@@ -37,6 +38,10 @@ DRAG_MS = (15.0, 72.0)
 _SOFT = 0.75
 """Grace strokes have 25–50 % of their note's velocity (HUMANS, Timing); human spread allows half as much again."""
 _DRAG_SOFT = 0.62
+RUN_MS = 120.0
+"""So near to other strokes of its drum a pair is part of a run: sixteenths at 125 bpm (our choice)."""
+_NEXT_HAND = 1.25
+"""So much louder than rebounds is the other hand's stroke after them: rebounds lose a third (our choice)."""
 _ALIKE = 0.5
 """Both strokes of a drag are of one bounce: the softer has at least this share of the louder (our choice)."""
 _APART = 1.3
@@ -127,29 +132,42 @@ def _line(piece: Piece, line: list[_Stroke], score: Score) -> list[_Stroke]:
     """The main strokes of one piece."""
     if piece not in _DRUMS:
         return line
-    return _with_drags(_without_chains(line, score))
+    return _without_chains(_with_drags(line), score)
 
 
 # --- chains of close strokes ------------------------------------------------------------------------------------------
 
 
 def _without_chains(line: Sequence[_Stroke], score: Score) -> list[_Stroke]:
-    """Each chain of strokes at most `CLOSE_MS` apart as the one stroke that it is."""
+    """Each chain of strokes at most `CLOSE_MS` apart as the strokes that it is."""
     chains: list[list[_Stroke]] = []
     for stroke in line:
-        if chains and stroke.ms - chains[-1][-1].ms <= CLOSE_MS:
+        if chains and stroke.ms - chains[-1][-1].ms <= CLOSE_MS and not _begins_another(chains[-1], stroke):
             chains[-1].append(stroke)
         else:
             chains.append([stroke])
-    return [found for chain in chains for found in _meant(chain, score)]
+    before = [-inf, *(chain[-1].ms for chain in chains[:-1])]
+    after = [*(chain[0].ms for chain in chains[1:]), inf]
+    is_run = [min(c[0].ms - b, a - c[-1].ms) <= RUN_MS for b, c, a in zip(before, chains, after, strict=True)]
+    return [found for chain, inside in zip(chains, is_run, strict=True) for found in _meant(chain, inside, score)]
 
 
-def _meant(chain: Sequence[_Stroke], score: Score) -> list[_Stroke]:
+def _begins_another(chain: Sequence[_Stroke], stroke: _Stroke) -> bool:
+    """Whether the stroke is none of the chain: it is a drag's, or the first stroke of the next hand after rebounds."""
+    if stroke.leads_ms or chain[-1].leads_ms:
+        return True
+    heard = [s.note.velocity for s in chain]
+    is_louder = stroke.note.velocity >= _NEXT_HAND * median(heard[1:] or heard)
+    return len(chain) >= _FEWEST and is_louder and max(heard) > _SOFT * stroke.note.velocity
+
+
+def _meant(chain: Sequence[_Stroke], is_run: bool, score: Score) -> list[_Stroke]:
+    """What a chain is; `is_run`: another stroke of the drum is near."""
     first, last = chain[0], chain[-1]
     if len(chain) == 1 or not all(_is_plain(s.note) for s in chain):
         return list(chain)
     if len(chain) == 2:
-        return _flam(first, last)
+        return _flam(first, last, is_run)
     before = max(s.note.velocity for s in chain[:-1])
     if before <= _SOFT * last.note.velocity:
         return [_graced(last, Ornament.DRAG, chain[-3:-1])]
@@ -169,12 +187,18 @@ def _is_plain(note: Note) -> bool:
     return note.articulation in (Articulation.NORMAL, Articulation.RIM_SHOT)
 
 
-def _flam(first: _Stroke, second: _Stroke) -> list[_Stroke]:
-    """Two close strokes: a flam, but where the first is by far the louder, a stroke and its rebound."""
-    is_at_once = second.ms - first.ms <= AT_ONCE_MS and second.note.velocity >= _BOUNCE_SHARE * first.note.velocity
-    if first.note.velocity <= _SOFT * second.note.velocity or is_at_once:
+def _flam(first: _Stroke, second: _Stroke, is_run: bool) -> list[_Stroke]:
+    """Two close strokes: a flam, but where the first is by far the louder, a stroke and its rebound.
+
+    In a run of strokes two that are nearly alike are two of the run, one late and one early.
+    """
+    share = first.note.velocity / second.note.velocity
+    is_at_once = second.ms - first.ms <= AT_ONCE_MS and share >= _BOUNCE_SHARE
+    if is_run and share > _DRAG_SOFT and not is_at_once:
+        return [first, second]
+    if share <= _SOFT or is_at_once:
         return [_graced(second, Ornament.FLAM, [first])]
-    if first.note.velocity <= second.note.velocity / _SOFT:
+    if share <= 1 / _SOFT:
         louder = replace(second.note, velocity=max(first.note.velocity, second.note.velocity))
         return [_graced(_Stroke(louder, second.ms), Ornament.FLAM, [first])]
     return [first, second]

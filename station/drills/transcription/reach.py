@@ -11,6 +11,7 @@ from itertools import groupby
 
 from station.core.pieces import HALF_OPEN, Articulation, Limb, Ornament, Piece
 from station.drills.grid.tab_symbols import BEYOND_SYMBOLS, FOOT_OF, family_of
+from station.drills.transcription.two_feet import with_both_feet
 from station.motion.feasibility.playable import MAX_HANDS, unplayable_rows
 from station.music.grace_strokes import Graces, with_graces
 from station.music.score import Note, Score
@@ -24,14 +25,14 @@ _SET_FIRST = (Piece.PERCUSSION, Piece.CLAP, Piece.TAMBOURINE, Piece.COWBELL)
 class Reach:
     """Main strokes that the player can make, and those `beyond`, each in order.
 
-    `merged` counts strokes that fell into one cell with a louder one of their piece, `plain` ornaments that lost their
-    grace strokes.
+    `merged` counts strokes that fell into one cell with a louder one of their piece, `plain` has those of `asked` that
+    lost their grace strokes.
     """
 
     asked: tuple[Note, ...]
     beyond: tuple[Note, ...]
     merged: int
-    plain: int
+    plain: tuple[Note, ...]
 
     @property
     def marks(self) -> frozenset[tuple[int, Piece]]:
@@ -45,7 +46,7 @@ _Asked = dict[int, Note]
 
 def within_reach(notes: Sequence[Note], graces: Graces, tempo_map: TempoMap, end_tick: int) -> Reach:
     """The main strokes `notes` parted into what one player can make and what is beyond them."""
-    single = _single(notes)
+    single = with_both_feet(_single(notes), tempo_map)
     asked = _at_once(single)
     for times in (1, 2):
         asked = _possible(asked, graces, Score.from_notes((), tempo_map, end_tick), times)
@@ -59,7 +60,7 @@ def within_reach(notes: Sequence[Note], graces: Graces, tempo_map: TempoMap, end
         tuple(kept),
         tuple(beyond.values()),
         merged=len(notes) - len(kept) - len(beyond),
-        plain=sum(_is_graced(single[i]) and not _is_graced(n) for i, n in asked.items()),
+        plain=tuple(n for i, n in sorted(asked.items()) if _is_graced(single[i]) and not _is_graced(n)),
     )
 
 

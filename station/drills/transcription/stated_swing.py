@@ -13,6 +13,14 @@ from station.music.score import Score
 from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoMap
 
+_DECIMALS = 3
+"""Of a ratio: what that rounds is 0.03 ms at 120 beats a minute, a hundredth of what an ear tells (our choice)."""
+
+
+def readable(swing: Swing) -> Swing:
+    """The swing with a ratio that a teacher would write: other programs count in shares that make long fractions."""
+    return replace(swing, ratio=round(swing.ratio, _DECIMALS))
+
 
 def stated_times(score: Score, swing: Swing) -> GridTimes:
     """`score`, whose strokes have their `swing_ticks`, with every row on a cell of the grid and swung by `swing`."""

@@ -13,7 +13,7 @@ _RUN = 3
 
 def steady(tempo_map: TempoMap, bar_count: int) -> TempoMap:
     """The map, its changes at bars, with one tempo for each stretch of bars over which it only wanders."""
-    rates = [tempo_map.us_per_quarter_at(tempo_map.bar_start(bar)) for bar in range(bar_count)]
+    rates = [_said(tempo_map.us_per_quarter_at(tempo_map.bar_start(bar))) for bar in range(bar_count)]
     found: list[TempoChange] = []
     start = 0
     while start < bar_count:
@@ -24,6 +24,12 @@ def steady(tempo_map: TempoMap, bar_count: int) -> TempoMap:
             found.append(_mean(tempo_map, rates[start:end], start))
         start = end
     return TempoMap.build(found, tempo_map.meters)
+
+
+def _said(us_per_quarter: int) -> int:
+    """The tempo in tenths of a beat a minute where a file means one: programs cut off what is below a microsecond."""
+    tenths = TempoChange.from_bpm(0, round(60e6 / us_per_quarter, 1)).us_per_quarter
+    return tenths if abs(tenths - us_per_quarter) <= 1 else us_per_quarter
 
 
 def _wandering_until(rates: Sequence[int], start: int) -> int:

@@ -4,31 +4,28 @@ First what belongs to the hand and not to the beat (flams, drags, buzzes), then 
 what is beyond one player, diddles, and last the page: sections, repeats, level.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from statistics import median
 
-import numpy as np
-from numpy.typing import NDArray
-
 from station.core.errors import BadInput
-from station.core.units import NS_PER_MS, PPQ
+from station.core.units import PPQ
 from station.drills.difficulty import difficulty
 from station.drills.grid.line_group import MAX_BARS
 from station.drills.grid.lines_from_score import graces_of
 from station.drills.grid.stroke_settings import Velocities
-from station.drills.grid.tab_symbols import BEYOND
 from station.drills.lesson import Lesson
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.transcription.diddle_finder import with_diddles
 from station.drills.transcription.form_finder import found_form
-from station.drills.transcription.grid_times import GridTimes, quantised_times
+from station.drills.transcription.grid_times import quantised_times
+from station.drills.transcription.import_remarks import remarks_on
 from station.drills.transcription.letters import as_letter, unified
 from station.drills.transcription.loudness_levels import with_dynamics
 from station.drills.transcription.ornament_finder import FoundOrnaments, found_ornaments
-from station.drills.transcription.reach import Reach, within_reach
+from station.drills.transcription.reach import within_reach
 from station.drills.transcription.ringing import with_lengths
-from station.drills.transcription.stated_swing import stated_times
+from station.drills.transcription.stated_swing import readable, stated_times
 from station.drills.transcription.sticking_proposal import with_sticking
 from station.drills.transcription.tempo_steps import steady
 from station.drills.writing.lesson_form import LessonForm
@@ -38,16 +35,14 @@ from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.swing import STRAIGHT
 
-_LEVELS_FROM = (10.5, 15.3, 20.8, 25.4)
-"""From which difficulty on a lesson is of level 2, 3, 4, 5: half way between the medians of the lessons that
-ship, which are 8.2, 12.8, 17.8, 23.8 and 27.0."""
+_LEVELS_FROM = (13.0, 18.5, 23.7, 27.9)
+"""From which difficulty on a lesson is of level 2, 3, 4, 5: half way between the medians of the lessons that ship, at
+the tempo to reach, which are 10.0, 16.0, 21.0, 26.4 and 29.4."""
 MOST_STROKES = 12_000
 """Our choice: 20 minutes of ten a second, which take some seconds to read; the longest lesson that ships has 230."""
 _MOST_CHARACTERS = 2000
 """Of a title, a name or what a file says of itself (our choice: a page)."""
 _TAGS = ("import",)
-_BARS_NAMED = 8
-"""Bars that a remark names (our choice: what fits a line)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,9 +73,12 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         raise BadInput(name, "", f"{part.score.bar_count} bars; a lesson has at most {MAX_BARS}")
     ornaments = found_ornaments(part.score, graces_of(part.score) if part.score.is_grace.any() else None)
     mains, empty_bars = _from_its_first_bar(part.score, ornaments)
-    part = replace(part, sections=_earlier(part.sections, empty_bars))
+    part = replace(part, sections=_earlier(part.sections, empty_bars), swing=readable(part.swing))
     is_stated = part.swing.stands_in_words and bool(mains.notes["swing_ticks"].any())
     times = stated_times(mains, part.swing) if is_stated else quantised_times(mains, part.is_played)
+    whole = times
+    silent = int(times.score.bar[0]) if times.spread_ms else 0  # of a take, the bars before the first stroke
+    times, part = times.from_bar(silent), replace(part, sections=_earlier(part.sections, silent))
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
     strokes, velocities = with_dynamics([as_letter(note) for note in score])
     strokes = unified(strokes) if times.spread_ms else strokes
@@ -97,7 +95,7 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         about=_printable(part.about),
         tags=_TAGS,
         loop=(0, score.bar_count - 1),
-        swing=times.swing if part.swing.ratio == STRAIGHT else part.swing,
+        swing=part.swing if times.swing.ratio == STRAIGHT and not times.spread_ms else times.swing,
         beat_ticks=times.beat_ticks if part.beat_ticks == PPQ else part.beat_ticks,
         velocities=velocities,
         beyond=Score.from_notes(beyond, score.tempo_map, score.end_tick).notes,
@@ -106,7 +104,7 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     lesson = with_sticking(replace(lesson, level=_level(lesson, form)), form)
     read = parse_lesson(write_lesson(lesson, form), name, name).lesson
     assert read, "what write_lesson gives is a lesson"
-    return Transcribed(read, tuple(_remarks(ornaments, times, mains, reach, read)))
+    return Transcribed(read, tuple(remarks_on(ornaments, whole, mains, reach, read)))
 
 
 def _from_its_first_bar(score: Score, ornaments: FoundOrnaments) -> tuple[Score, int]:
@@ -149,45 +147,3 @@ def _ends(score: Score, part: DrumPart) -> list[int]:
     changes = {t.tick for t in score.tempo_map.tempos} | {m.tick for m in score.tempo_map.meters}
     ticks = changes | {score.tempo_map.bar_start(bar) for bar in bars}
     return sorted({tick for tick in ticks if 0 < tick < score.end_tick} | {score.end_tick})
-
-
-# --- what was done ----------------------------------------------------------------------------------------------------
-
-
-def _remarks(ornaments: FoundOrnaments, times: GridTimes, mains: Score, reach: Reach, lesson: Lesson) -> Iterator[str]:
-    moved = _shifts_ns(times, mains)
-    if count := int(np.count_nonzero(moved)):
-        lean = f", the take as a whole {abs(times.lean_ms):.0f} ms {_side(times.lean_ms)}" if times.lean_ms else ""
-        yield f"{_counted(count, 'stroke')} moved onto the grid, by at most {moved.max() / NS_PER_MS:.0f} ms{lean}"
-    if lesson.is_swung:
-        yield f"swing {lesson.swing.ratio:g}:1"
-    found = {"flam": ornaments.flams, "drag": ornaments.drags, "buzz": ornaments.buzzes}
-    if any(found.values()):
-        yield f"found {', '.join(_counted(count, name) for name, count in found.items() if count)}"
-    if ornaments.bounces:
-        yield f"{_counted(ornaments.bounces, 'double trigger')} left out"
-    if reach.merged:
-        yield f"{_counted(reach.merged, 'stroke')} fell into one cell with a louder one"
-    if reach.plain:
-        yield f"{_counted(reach.plain, 'ornament')} without grace strokes, for which no hand is free"
-    if reach.beyond:
-        bars = sorted({int(bar) + 1 for bar in lesson.score.tempo_map.bars_at(lesson.beyond["tick"])})
-        where = ", ".join(map(str, bars[:_BARS_NAMED])) + (" …" if len(bars) > _BARS_NAMED else "")
-        several = f"bar{'s' if len(bars) > 1 else ''} {where}"
-        yield f"{_counted(len(reach.beyond), 'stroke')} beyond two hands and two feet, written {BEYOND}: {several}"
-
-
-def _shifts_ns(times: GridTimes, mains: Score) -> NDArray[np.int64]:
-    """How far each stroke moved; from the end to the start of the music is no way."""
-    before = mains.tempo_map.ns_at(mains.notes["tick"][times.origin])
-    by = np.abs(before - times.score.tempo_map.ns_at(times.score.notes["tick"]))
-    return np.asarray(np.minimum(by, np.abs(mains.length_ns - by)))
-
-
-def _side(lean_ms: float) -> str:
-    return "late" if lean_ms > 0 else "early"
-
-
-def _counted(count: int, noun: str) -> str:
-    """The count and the noun, "1 flam" or "2 buzzes"."""
-    return f"{count} {noun}{'' if count == 1 else 'es' if noun.endswith('z') else 's'}"

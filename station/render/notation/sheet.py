@@ -86,6 +86,7 @@ class _SheetPages:
         self._score, self._words, self._size, self._with_sticking = score, words, size, with_sticking
         self._atlas = OutlineAtlas()
         bars = sheet_bars(score, _starts(words, swing), words.repeat, words.first_bar)
+        self._written = frozenset(bar.bar for bar in bars)
         above = _line_words(score, words, swing)
         self._setter = LineSetter(Engraver(score, self._atlas, as_written=True), bars, above, self._atlas)
         self._bars = self._setter.set_bars()
@@ -139,7 +140,7 @@ class _SheetPages:
     def _key(self, space: float) -> tuple[Ink, float]:
         """The key at the foot of a page, and how high it is."""
         draw_list = DrawList(self._atlas)
-        key_height = space * draw_key(draw_list, self._score, self._width / space, self._with_sticking)
+        key_height = space * draw_key(draw_list, self._score, self._written, self._width / space, self._with_sticking)
         spot = PaperSpot((MARGIN, self._size[1] - MARGIN - key_height), space)
         return filled(draw_list.shapes(), self._atlas, spot), key_height
 
@@ -218,10 +219,18 @@ def _words_in_order(
             bar = int(tempo.bars_at(change.tick))
             at_s, start_s = tempo.seconds_at([change.tick, tempo.bar_start(bar)]).tolist()
             beats = round(change.tempo_bpm * PPQ / words.beat_ticks, 1)
-            found.append((bar, at_s - start_s, LineWord(0.0, tempo=TempoSign(beats, words.beat_ticks, change.way))))
+            sign = TempoSign(beats, words.beat_ticks, change.way)
+            word = LineWord(0.0, ramp=sign) if change.way else LineWord(0.0, tempo=sign)
+            found.append((bar, at_s - start_s, word))
     yield from sorted(found, key=lambda item: item[:2])
 
 
 def _joined(one: LineWord, other: LineWord) -> LineWord:
     """Two words for one place as one."""
-    return LineWord(one.x, one.section or other.section, other.tempo or one.tempo, other.swing or one.swing)
+    return LineWord(
+        one.x,
+        one.section or other.section,
+        other.tempo or one.tempo,
+        other.ramp or one.ramp,
+        other.swing or one.swing,
+    )

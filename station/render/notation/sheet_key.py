@@ -1,6 +1,6 @@
 """The key of a sheet: what each note and sign that the score uses means. Units are staff spaces, y down."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from functools import partial
 from math import ceil
 
@@ -14,7 +14,7 @@ from station.music.score import Score
 from station.render.notation.head_places import EDGE_X, HEAD_SIGNS
 from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_letters
 from station.render.notation.staff import NoteHead, head_of, height, ledger_steps, step_of
-from station.render.notation.staff_rows import OPEN_FROM, WIDE_FROM, shown_limbs
+from station.render.notation.staff_rows import OPEN_FROM, WIDE_FROM, closing_hats, shown_limbs
 from station.render.notation.written_strokes import feet_of, written_strokes
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
@@ -25,7 +25,7 @@ _STAFF_Y, _NAMES_Y, _LINE = 4.6, 9.4, 1.8
 """From the top of a row of notes to its staff's middle line and to the first line of names, and to the next line."""
 _AFTER_NAMES, _SIGN_ROW, _BELOW = 1.2, 2.8, 1.0
 """Between the names and what follows, from one row of signs to the next, and below the last one's words."""
-_SLOT, _LEAST_SLOT = 9.0, 7.0
+_SLOT, _LEAST_SLOT = 9.0, 8.3
 """What a note of the key takes across, and the least of it, which holds the longest word of a name."""
 _NAME = 1.45
 _BRACKETS_X = EDGE_X + sign_box("bracket_left").width / 2 + 0.03
@@ -34,8 +34,11 @@ _GRACE, _GRACE_STEM = 0.62, 1.7
 Draw = Callable[[DrawList, tuple[float, float]], None]
 
 
-def draw_key(draw_list: DrawList, score: Score, width: float, with_sticking: bool) -> float:
-    """Draw the key, `width` wide, from y = 0 down; returns how far. Nothing where nothing is used."""
+def draw_key(draw_list: DrawList, score: Score, bars: Collection[int], width: float, with_sticking: bool) -> float:
+    """Draw the key of a score whose `bars`, from 0, are on the sheet, `width` wide, from y = 0 down; returns how far.
+
+    Nothing where nothing is used.
+    """
     used = list(notes_used(score))
     if not used:
         return 0.0
@@ -44,7 +47,7 @@ def draw_key(draw_list: DrawList, score: Score, width: float, with_sticking: boo
     slot, y = min(_SLOT, width / in_row), 0.0
     for row in range(rows):
         y = _notes_row(draw_list, used[row * in_row : (row + 1) * in_row], slot, y)
-    return _signs(draw_list, list(signs_used(score, with_sticking)), width, y + _SIGN_ROW / 2)
+    return _signs(draw_list, list(signs_used(score, bars, with_sticking)), width, y + _SIGN_ROW / 2)
 
 
 def _notes_row(draw_list: DrawList, used: list[tuple[Piece, NoteHead, str]], slot: float, top: float) -> float:
@@ -93,8 +96,8 @@ def _special(piece: Piece, zone: Zone, how: Articulation) -> str:
     return ways.get(how) or zones[zone]
 
 
-def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
-    """The other signs of the score, each as what draws it and what it means."""
+def signs_used(score: Score, bars: Collection[int], with_sticking: bool) -> Iterator[tuple[Draw, str]]:
+    """The other signs of the score, of which `bars` are written, each as what draws it and what it means."""
     notes = score.notes
     graced = notes["ornament"][score.is_grace]
     if (notes["dynamic"] == Dynamic.ACCENT).any():
@@ -102,7 +105,8 @@ def signs_used(score: Score, with_sticking: bool) -> Iterator[tuple[Draw, str]]:
     if (notes["dynamic"][~score.is_grace] == Dynamic.GHOST).any():
         yield _ghost, "ghost: very soft"
     yield from _hairpins_used(score)
-    yield from _hat_signs_used(notes[notes["piece"] == Piece.HIHAT]["openness"])
+    closes = closing_hats(score) & np.isin(score.bar, list(bars))
+    yield from _hat_signs_used(notes[notes["piece"] == Piece.HIHAT]["openness"], bool(closes.any()))
     if ((notes["piece"] == Piece.HIHAT_PEDAL) & (notes["articulation"] == Articulation.SPLASH)).any():
         yield _splash, "splash with the foot"
     if (graced == Ornament.FLAM).any():
@@ -132,14 +136,13 @@ def _hairpins_used(score: Score) -> Iterator[tuple[Draw, str]]:
             yield partial(_hairpin, sign=sign), words
 
 
-def _hat_signs_used(openness: NDArray[np.float32]) -> Iterator[tuple[Draw, str]]:
-    is_open = openness >= OPEN_FROM
+def _hat_signs_used(openness: NDArray[np.float32], closes: bool) -> Iterator[tuple[Draw, str]]:
     for kind, used, words in (
-        ("hat_open", openness >= WIDE_FROM, "hi-hat open"),
-        ("hat_half", is_open & (openness < WIDE_FROM), "hi-hat half open"),
-        ("hat_closed", is_open[:-1] & ~is_open[1:], "closed again"),
+        ("hat_open", (openness >= WIDE_FROM).any(), "hi-hat open"),
+        ("hat_half", ((openness >= OPEN_FROM) & (openness < WIDE_FROM)).any(), "hi-hat half open"),
+        ("hat_closed", closes, "closed again"),
     ):
-        if used.any():
+        if used:
             yield partial(_sign, name=kind), words
 
 

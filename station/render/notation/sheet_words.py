@@ -45,11 +45,15 @@ class TempoSign:
 
 @dataclass(frozen=True, slots=True)
 class LineWord:
-    """What stands above the line from `x` on, in this order: a section's name, a tempo, a swing; empty what is not."""
+    """What stands above the line from `x` on, in this order; empty what is not.
+
+    A section's name, a tempo, the one that is reached from it, a swing.
+    """
 
     x: float
     section: str = ""
     tempo: TempoSign | None = None
+    ramp: TempoSign | None = None
     swing: SwingMark | None = None
 
 
@@ -108,8 +112,9 @@ def _drawn(draw_list: DrawList, word: LineWord, y: float) -> float:
     x = word.x
     if word.section:
         x += _framed(draw_list, word.section, (x, y)) + _BESIDE
-    if word.tempo is not None:
-        x = _tempo(draw_list, word.tempo, (x, y)) + _BESIDE
+    for tempo in (word.tempo, word.ramp):
+        if tempo is not None:
+            x = _tempo(draw_list, tempo, (x, y)) + _BESIDE
     if word.swing is not None:
         x += draw_swing_mark(draw_list, (x, y), _FEEL.size, word.swing, INK) + _BESIDE
     return x - _BESIDE - word.x

@@ -73,11 +73,13 @@ class StaffRows:
 
 
 def closing_hats(score: Score) -> NDArray[np.bool_]:
-    """Which strokes are the first closed ones after an open hi-hat, shape (n,)."""
-    hats = np.flatnonzero(score.notes["piece"] == Piece.HIHAT)
-    opened = score.notes["openness"][hats] >= OPEN_FROM
+    """Which strokes are the first closed ones after an open hi-hat, shape (n,); where the foot closes it, none is."""
+    notes = score.notes
+    is_chick = (notes["piece"] == Piece.HIHAT_PEDAL) & (notes["articulation"] != Articulation.SPLASH)
+    hats = np.flatnonzero((notes["piece"] == Piece.HIHAT) | is_chick)
+    is_open = (notes["openness"][hats] >= OPEN_FROM) & ~is_chick[hats]
     closing = np.zeros(len(score), np.bool_)
-    closing[hats[1:]] = opened[:-1] & (score.notes["openness"][hats[1:]] < OPEN_FROM)
+    closing[hats[1:]] = is_open[:-1] & ~is_open[1:] & ~is_chick[hats[1:]]
     return closing
 
 

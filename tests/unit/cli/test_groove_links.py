@@ -48,3 +48,25 @@ def test_a_lesson_goes_there_and_back(ending: str, tmp_path: Path) -> None:
 def test_what_is_lost_is_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert main(["lesson", "export", "latin-jazz-1", "--out", str(tmp_path / "jazz.groove")]) == 0
     assert "swing of some bars is left out" in capsys.readouterr().err
+
+
+def test_an_export_says_what_the_format_has_no_word_for_and_leaves_files_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """rock-1 has a line of sticking; SMF has no message for hands."""
+    song = tmp_path / "song.mid"
+    assert main(["lesson", "export", "rock-1", "--out", str(song)]) == 0
+    assert "MIDI has no word for: sticking of the hands" in "".join(capsys.readouterr())
+    song.write_bytes(b"mine")
+    assert main(["lesson", "export", "rock-1", "--out", str(song)]) == 2
+    assert song.read_bytes() == b"mine"
+    assert main(["lesson", "export", "rock-1", "--out", str(song), "--overwrite"]) == 0
+    assert song.read_bytes() != b"mine"
+
+
+def test_a_link_with_blanks_in_its_title_is_a_link(tmp_path: Path) -> None:
+    """Browsers and mails show %20 as a blank, and people copy what they see."""
+    out = tmp_path / "samba.toml"
+    link = "https://www.mikeslessons.com/groove/?TimeSig=4/4&Div=16&Title=Samba Ostinato&Tempo=60&K=|o-xoo-xoo-xoo-xo|"
+    assert main(["lesson", "import", link, "--out", str(out)]) == 0
+    assert 'title = "Samba Ostinato"' in out.read_text()

@@ -4,16 +4,19 @@ import os
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from station.cli.command_line import main
 from station.cli.input.read_scores import load_part
+from station.core.pieces import Limb
 from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.drills.writing.lesson_part import part_of
+from station.music.drum_part import DrumPart
 from station.music.formats.format_table import writer_for
 from station.render.notation.swing_words import swing_marks
-from station.scenes.sheets import lesson_labels, on_grid
+from station.scenes.sheets import lesson_labels, on_grid, written_down
 from tests.unit.cli.test_cli import refused
 
 UNTITLED = bytes.fromhex("4d546864 00000006 0000 0001 01e0  4d54726b 0000000d 00 992640 8360 892640 00 ff2f00")
@@ -77,3 +80,25 @@ def test_a_score_on_the_grid_stays(tmp_path: Path) -> None:
     path.write_bytes(midi_of("rock-1"))
     before = load_part(str(path))
     assert on_grid(before).score.notes["tick"].tolist() == before.score.notes["tick"].tolist()
+
+
+def printed(tmp_path: Path, lesson: str) -> DrumPart:
+    """What a sheet prints of the lesson's MIDI file."""
+    path = tmp_path / "x.mid"
+    path.write_bytes(midi_of(lesson))
+    return written_down(load_part(str(path)))
+
+
+def test_what_velocities_and_times_say_is_printed_as_signs(tmp_path: Path) -> None:
+    """MIDI has neither ghosts nor flams, and its beat is a quarter."""
+    lesson = find_lesson("hip-hop-1").played_once
+    assert printed(tmp_path, "hip-hop-1").score.notes["dynamic"].tolist() == lesson.notes["dynamic"].tolist()
+    flams = printed(tmp_path, "flam-accent").score
+    assert np.count_nonzero(flams.is_grace) == 4
+    assert (flams.notes["limb"] == Limb.UNKNOWN).all(), "it says nothing of hands"
+    assert printed(tmp_path, "six-eight-1").beat_ticks == 3 * PPQ // 2
+
+
+def test_a_part_that_says_its_dynamics_stays() -> None:
+    part = part_of(find_lesson("hip-hop-1"))
+    assert written_down(part).score.notes.tobytes() == part.score.notes.tobytes()

@@ -11,6 +11,7 @@ from station.core.units import PPQ
 from station.drills.transcription.transcribe import transcribe
 from station.drills.transcription.whole_bars import at_bar_starts
 from station.music.drum_part import DrumPart
+from station.music.formats.ascii_tab.tab_writer import ASCII_TAB
 from station.music.formats.dtx.dtx_reader import read_dtx
 from station.music.formats.format_table import read_part
 from station.music.formats.hydrogen.hydrogen_formats import HYDROGEN_SONG
@@ -82,3 +83,20 @@ def test_of_many_changes_of_tempo_the_last_before_a_bar_counts() -> None:
         (4 * PPQ, 400_047),
         (8 * PPQ, 400_079),
     ]
+
+
+@pytest.mark.parametrize("text", ["HH" + "|x---" * 15_000 + "|\n", "HH|x---|\n\n" * 15_000], ids=["wide", "long"])
+def test_a_tab_of_more_bars_than_music_is_refused_in_time(text: str) -> None:
+    before = process_time()
+    with pytest.raises(BadInput, match=r"^a\.tab: more than 2000 bars with all repeats$"):
+        ASCII_TAB.read(text.encode(), "a.tab")
+    assert process_time() - before < _LIMIT_S
+
+
+@pytest.mark.parametrize(
+    "line", ["A" + " " * 100_000 + "!", "by " + " " * 100_000 + "\v x" * 15_000, "|x- " * 100_000], ids=["A", "by", "x"]
+)
+def test_long_lines_of_a_tab_take_no_longer_than_they_are(line: str) -> None:
+    before = process_time()
+    ASCII_TAB.read(f"{line}\nHH|x-x-x-x-|\nSD|--o---o-|\n".encode(), "a.tab")
+    assert process_time() - before < _LIMIT_S

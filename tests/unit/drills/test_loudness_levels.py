@@ -37,10 +37,37 @@ def test_our_own_levels_are_what_they_are() -> None:
     assert velocities == Velocities()
 
 
+def test_accents_alone_on_a_piece_are_accents_where_the_take_has_our_levels() -> None:
+    """Eight strokes about 106 are no nearer to normal ones, for others of the take are those."""
+    hihat = [70, 86, 74, 75, 84, 71, 89, 68, 73, 80, 77, 70, 85, 72, 69, 78]
+    snare = [104, 99, 112, 103, 118, 102, 106, 101]
+    notes = [Note(i, Piece.HIHAT, velocity=v) for i, v in enumerate(hihat)]
+    notes += [Note(i, Piece.SNARE, velocity=v) for i, v in enumerate(snare)]
+    named = [n for n in with_dynamics(notes)[0] if n.piece is Piece.SNARE]
+    assert {n.dynamic for n in named} == {A}
+
+
 def test_two_groups_are_named_by_what_they_are_nearest_to() -> None:
     assert dynamics([40, 96] * 8) == [G, N] * 8
     assert dynamics([68, 120] * 8) == [N, A] * 8
     assert dynamics([24, 122] * 8) == [G, A] * 8
+
+
+def test_what_is_mostly_struck_is_no_accent() -> None:
+    """A snare of loud backbeats with a few ghosts, and a hi-hat that is loud but on its upbeats."""
+    assert dynamics([16, 127, 127, 127] * 4) == [G, N, N, N] * 4
+    assert dynamics([60, 127, 127, 127] * 4, Piece.HIHAT) == [G, N, N, N] * 4
+
+
+def test_what_is_mostly_struck_is_a_ghost_on_drums_alone() -> None:
+    assert dynamics([127, 18, 18, 18] * 4) == [A, G, G, G] * 4
+    assert dynamics([127, 18, 18, 18] * 4, Piece.HIHAT) == [A, N, N, N] * 4
+    assert dynamics([98, 48, 48, 48] * 4, Piece.KICK) == [A, N, N, N] * 4
+
+
+def test_three_levels_whose_loudest_prevails_are_two() -> None:
+    """Accents that are most strokes stand out from nothing: 64 and 95, nearest to each other, are one level."""
+    assert dynamics([64, 95, 127, 127, 127, 127] * 4, Piece.HIHAT) == [G, G, N, N, N, N] * 4
 
 
 def test_never_more_than_three() -> None:
@@ -71,4 +98,13 @@ def test_what_the_file_names_stays() -> None:
 
 def test_the_lesson_says_the_players_own_levels() -> None:
     notes = [Note(i, Piece.SNARE, velocity=v) for i, v in enumerate([22, 24, 26, 101, 102, 103] * 3)]
-    assert with_dynamics(notes)[1].of_piece[Piece.SNARE] == (24, 80, 102)
+    velocities = with_dynamics(notes)[1]
+    assert [velocities.of(Piece.SNARE, dynamic) for dynamic in Dynamic] == [24, 80, 102]
+    assert not velocities.of_piece, "one piece alone needs no table of its own"
+
+
+def test_what_pieces_share_is_said_once() -> None:
+    levels = {Piece.KICK: 110, Piece.SNARE: 110, Piece.HIHAT: 110, Piece.RIDE: 64}
+    velocities = with_dynamics([Note(i, piece, velocity=v) for i, (piece, v) in enumerate([*levels.items()] * 8)])[1]
+    assert velocities.usual == (32, 110, 116)
+    assert dict(velocities.of_piece) == {Piece.RIDE: (32, 64, 116)}

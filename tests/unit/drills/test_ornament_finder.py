@@ -52,6 +52,28 @@ def test_two_soft_strokes_before_a_louder_one_are_a_drag(first: float, second: f
     assert names((500 - first, 36), (500 - second, 40), (500, 100)) == ["drag"]
 
 
+@pytest.mark.parametrize(("first", "second"), [(104, 43), (87, 44), (85, 47)])
+def test_a_drag_whose_last_gap_is_as_short_as_a_flams_is_a_drag(first: float, second: float) -> None:
+    assert names((500 - first, 35), (500 - second, 33), (500, 90), (1000, 80)) == ["drag", "stroke"]
+
+
+def test_two_strokes_of_a_fast_roll_that_come_close_are_no_flam() -> None:
+    """Thirty-seconds at 97 bpm, 77 ms apart, one of them 19 ms late and the next 19 ms early."""
+    times = (500, 577, 654 + 19, 731 - 19, 808, 885)
+    assert names(*((ms, 80 - i % 2) for i, ms in enumerate(times))) == ["stroke"] * 6
+
+
+def test_of_a_roll_without_gaps_each_hands_stroke_is_a_buzz() -> None:
+    """The other hand strikes while the last rebounds still sound."""
+    one = ((0, 80), (32, 55), (64, 52), (96, 56), (128, 50))
+    strokes = [(500 + 160 * i + ms, velocity) for i in range(4) for ms, velocity in one]
+    assert names(*strokes) == ["buzz"] * 4
+
+
+def test_a_stroke_right_after_a_buzz_is_a_stroke() -> None:
+    assert names((500, 80), (530, 60), (560, 50), (590, 45), (625, 90), (1000, 80)) == ["buzz", "stroke", "stroke"]
+
+
 def test_a_drag_close_behind_the_last_accent_is_a_drag() -> None:
     """Sixteenths at 120 bpm: the grace strokes begin 15 ms after the note before them."""
     assert names((375, 100), (390, 40), (445, 40), (500, 100)) == ["stroke", "drag"]

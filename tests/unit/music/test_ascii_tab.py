@@ -159,3 +159,64 @@ def test_no_line_is_wider_than_a_mail() -> None:
     parts = (part_of(lesson) for lesson in shipped_lessons())
     wide = [row for part in parts for row in write_tab(part).data.decode().splitlines() if len(row) > 100]
     assert not [row for row in wide if "|" in row]
+
+
+HAT_ON_EIGHTHS = [k * EIGHTH for k in range(8)]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "HH|x-x-x-x-x-x-x-x-|\nSD|----o-------o---|\n",
+        "HH|x-x- x-x- x-x- x-x-|\nSD|---- o--- ---- o---|\n",
+        "HH|x x x x x x x x|\nSD|    o       o  |\n",
+        "Hi-hat  x-x-x-x-x-x-x-x-\nSnare   ----o-------o---\n",
+        "|-x-x-x-x-x-x-x-x-| HH\n|-----o-------o---| SD\n",
+        "    1   2   3   4\nHH||x-x-|x-x-|x-x-|x-x-||\nSD||----|o---|----|o---||\n",
+        "HH|x-x-|x-x-|x-x-|x-x-|\nSD|----|o---|----|o---|\n",
+    ],
+    ids=["dashes", "groups", "blanks", "no bar lines", "label behind", "beats counted", "beats"],
+)
+def test_one_bar_as_seven_people_type_it(text: str) -> None:
+    assert is_tab(text.encode())
+    part = read(text)
+    assert (part.score.bar_count, str(part.score.tempo_map.meter_at(0))) == (1, "4/4")
+    assert ticks(part, Piece.HIHAT) == HAT_ON_EIGHTHS
+    assert ticks(part, Piece.SNARE) == [PPQ, 3 * PPQ]
+
+
+def test_a_bar_of_blanks_alone_is_a_bar() -> None:
+    part = read("HH|x x x x |x x x x |\nBD|        |o   o   |\n")
+    assert part.score.bar_count == 2
+    assert ticks(part, Piece.KICK) == [4 * PPQ, 6 * PPQ]
+
+
+def test_quarters_that_are_counted_within_a_group_stay_quarters() -> None:
+    part = read("   1234 1234 1234 1234\nHH|x-x-|x-x-|x-x-|x-x-|\nBD|o---|o---|o---|o---|\n")
+    assert part.score.bar_count == 4
+    assert ticks(part, Piece.KICK) == [bar * 4 * PPQ for bar in range(4)]
+
+
+@pytest.mark.parametrize(
+    ("head", "title", "section"),
+    [
+        ("Some Tune - Some Band\nTempo: 117\n\n", "Some Tune - Some Band", ""),
+        ("Some Tune\nby Somebody\n\nChorus (x2)\n", "Some Tune", "Chorus"),
+        ("Intro x4\n", "", "Intro"),
+        ("Verse 2\n\n", "", "Verse 2"),
+        ("[Verse 1] 12/8 slow blues 60 bpm\n", "", "Verse 1"),
+        ("Key:\nf - flam\n", "", ""),
+    ],
+)
+def test_what_stands_above_is_the_title_or_the_name_of_a_part(head: str, title: str, section: str) -> None:
+    part = read(f"{head}HH|x-x-x-x-x-x-|\nSD|---o-----o--|\n")
+    assert (part.score.title, part.sections[0].name if part.sections else "") == (title, section)
+
+
+def test_a_tempo_above_twelve_eighths_counts_dotted_quarters() -> None:
+    part = read("12/8, 60 bpm\nHH|x-x-x-x-x-x-|\nBD|o-----o-----|\n")
+    assert part.score.tempo_map.tempos[0].us_per_quarter == round(60e6 / 90)
+
+
+def test_a_line_that_says_how_often_may_stand_below() -> None:
+    assert read("HH|x-x-x-x-x-x-x-x-|\nBD|o-------o-------|\n(repeat 3x)\n").score.bar_count == 3

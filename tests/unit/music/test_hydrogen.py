@@ -272,6 +272,27 @@ def test_a_flam_is_two_strokes() -> None:
     assert [round(ns / 1e6) for ns in back.onset_ns.tolist()] == [570, 600]  # a quarter at 100 bpm lasts 600 ms
 
 
+def test_what_lies_between_ticks_leads_and_never_lags() -> None:
+    """Hydrogen 1.2 plays a lead and drops a lag when it exports: h2cli plays tick 12 with a lag of 0.1 at 12."""
+    assert HYDROGEN_SONG.write is not None
+    part = part_of(Note(13 * TICK + TICK // 10, Piece.KICK), Note(4 * PPQ - TICK // 2, Piece.KICK), bars=2)
+    root = fromstring(HYDROGEN_SONG.write(part).data)
+    found = [
+        (int(note.findtext("position", "")), round(float(note.findtext("leadlag", "")), 3))
+        for note in root.iterfind("patternList/pattern/noteList/note")
+    ]
+    assert found == [(14, -0.18), (191, 0.1)]  # the last has no tick of its bar after it
+    assert [n.tick for n in written(part).score] == [13 * TICK + TICK // 10, 4 * PPQ - TICK // 2]
+
+
+def test_what_lies_just_before_a_swung_sixteenth_is_not_swung() -> None:
+    """A stroke 11.7 ticks after the beat is none of the sixteenths that Hydrogen's swing delays."""
+    swing = Swing(1.5, PPQ // 4)
+    early = 12 * TICK - 3 * TICK // 10
+    back = written(part_of(Note(early, Piece.KICK), swing=swing))
+    assert [(n.tick, n.swing_ticks) for n in back.score] == [(early, 0)]
+
+
 def test_a_tempo_change_within_a_bar_is_told() -> None:
     tempo_map = TempoMap.build([TempoChange(0, 500_000), TempoChange(PPQ, 400_000)])
     assert lost(part_of(Note(0, Piece.KICK), tempo_map=tempo_map)) == {Feature.TEMPO}
@@ -286,7 +307,7 @@ def test_a_pattern_takes_the_nearest_instrument_of_the_kit() -> None:
 
 
 def test_the_fields_of_a_pattern_are_in_the_order_of_hydrogens_schema() -> None:
-    """drumkit_pattern.xsd: a sequence; a file in another order is read as one of an older Hydrogen."""
+    """drumkit_pattern.xsd of 1.2, a sequence; one with more fields or others is read as of an older Hydrogen."""
     assert HYDROGEN_PATTERN.write is not None
     root = fromstring(HYDROGEN_PATTERN.write(part_of(Note(0, Piece.KICK))).data)
     names = [[child.tag.partition("}")[2] for child in element] for element in (root, root[3], root[3][5][0])]
@@ -302,7 +323,6 @@ def test_the_fields_of_a_pattern_are_in_the_order_of_hydrogens_schema() -> None:
             "key",
             "length",
             "instrument",
-            "type",
             "note_off",
             "probability",
         ],

@@ -209,6 +209,47 @@ def test_swing_moves_what_is_in_no_tuplet() -> None:
     assert [(n.tick, n.swing_ticks) for n in part.score][1] == (round(PPQ * 0.6), round(PPQ * 0.1))
 
 
+@pytest.mark.parametrize(
+    ("words", "swing"),
+    [
+        ("Swing", Swing(2.0, PPQ // 2)),
+        ("Medium swing", Swing(2.0, PPQ // 2)),
+        ("Half-time shuffle", Swing(2.0, PPQ // 4)),
+        ("Swing 16ths", Swing(2.0, PPQ // 4)),
+        ("Straight 8ths", Swing()),
+        ("Sultans of Swing", Swing()),
+    ],
+)
+def test_swing_in_words_alone(words: str, swing: Swing) -> None:
+    """As MuseScore 3.2.3 exports its tempo text and its swing text: no `<swing>` beside them."""
+    mark = (
+        f'<direction><direction-type><words>{words}</words></direction-type><sound tempo="120"/></direction>'
+        f"<direction><direction-type><words>{words}</words></direction-type></direction>"
+    )
+    part = _read(mark + _note("hat", 3) * 2 + _note("hat", 6) + _note("hat", 36))
+    assert part.swing == swing
+
+
+def test_a_swing_with_a_number_is_not_overruled_by_its_words() -> None:
+    mark = (
+        "<direction><direction-type><words>Swing</words></direction-type>"
+        "<sound><swing><first>3</first><second>2</second></swing></sound></direction>"
+    )
+    assert _read(mark + _note("hat", 6) * 2 + _note("hat", 36)).swing == Swing(1.5, PPQ // 2)
+
+
+@pytest.mark.parametrize("sign", ["<open-string/>", "<harmonic><natural/></harmonic>", "<open/>"])
+def test_every_small_circle_opens_a_hihat(sign: str) -> None:
+    """MuseScore 3.2.3 exports its open sign and its circle as those of strings."""
+    circle = f"<notations><technical>{sign}</technical></notations>"
+    part = _read(_note("hat", 12, circle) + _note("hat", 12) + _note("snare", 24, circle))
+    assert [(n.piece, n.openness) for n in part.score] == [
+        (Piece.HIHAT, 1.0),
+        (Piece.HIHAT, 0.0),
+        (Piece.SNARE, None),
+    ]
+
+
 def test_repeats_and_sections_are_written_out() -> None:
     verse = "<direction><direction-type><rehearsal>verse</rehearsal></direction-type></direction>"
     back = '<barline location="right"><repeat direction="backward"/></barline>'

@@ -112,8 +112,8 @@ def test_a_tempo_that_comes_back_folds_with_its_ramp() -> None:
     assert folded(song("ABCDABCD", TempoMap.build(tempi))) == [Passage(0, 3, 2)]
 
 
-def test_two_thousand_bars_alike_are_folded_at_once() -> None:
-    score = Score.from_notes([], TempoMap.constant(120), 2_000 * BAR)
-    before = process_time()
-    assert folded(score) == [Passage(0, 0, 2_000)]
-    assert process_time() - before < 6.0, "each bar was held against every other"
+def test_a_long_song_of_one_bar_folds_at_once() -> None:
+    """Five hundred bars took fifteen seconds when every pass was counted anew from every bar."""
+    began = process_time()
+    assert folded(song("A" * 500)) == [Passage(0, 0, 500)]
+    assert process_time() - began < 2.0

@@ -164,6 +164,16 @@ def test_open_half_open_and_closed_hats() -> None:
     assert crosses == [0.5], "one +, on the first closed stroke after the open one"
 
 
+@pytest.mark.parametrize(("how", "count"), [(Articulation.CHICK, 0), (Articulation.SPLASH, 1)])
+def test_a_hat_that_the_foot_has_closed_is_not_told_to_close(how: Articulation, count: int) -> None:
+    shapes = bar_of(
+        Note(0, Piece.HIHAT, Zone.BOW, openness=1.0),
+        Note(PPQ, Piece.HIHAT_PEDAL, Zone.PEDAL, articulation=how),
+        Note(2 * PPQ, Piece.HIHAT, Zone.BOW, openness=0.0),
+    )
+    assert signs(shapes, "hat_closed") == count
+
+
 def test_flams_and_drags() -> None:
     main = Note(PPQ, Piece.SNARE, limb=Limb.RIGHT_HAND)
     flam = dataclasses.replace(main, limb=Limb.LEFT_HAND, lead_ms=30.0, ornament=Ornament.FLAM)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece
+from station.core.pieces import Articulation, Piece, Zone
 from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.drills.reading.lesson_file import parse_lesson
@@ -18,7 +18,7 @@ from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.files.pdf_file import pdf
 from station.render.notation.sheet import MARGIN, PAPERS, SPACES, SheetWords, sheet
-from station.render.notation.sheet_key import notes_used, signs_used
+from station.render.notation.sheet_key import draw_key, notes_used, signs_used
 from station.render.palette import INK, INK_FAINT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -136,20 +136,23 @@ def test_a_long_score_goes_on_over_pages_that_are_numbered() -> None:
         assert points(page)[:, 1].min() < MARGIN + 12.0, "the title above"
 
 
+def signs_of(score: Score, with_sticking: bool) -> list[str]:
+    """What the key says of a score whose bars all stand on the sheet."""
+    return [words for _, words in signs_used(score, range(score.bar_count), with_sticking)]
+
+
 def test_the_key_names_what_is_used_and_no_more() -> None:
     names = [name for _, _, name in notes_used(find_lesson("rock-1").score)]
     assert names == ["kick", "snare", "hi-hat"]
     assert "ride, bell" in [name for _, _, name in notes_used(find_lesson("ride-bell-1").score)]
-    signs = [words for _, words in signs_used(find_lesson("funk-2").score, with_sticking=False)]
+    signs = signs_of(find_lesson("funk-2").score, with_sticking=False)
     assert signs == ["accent: loud", "ghost: very soft", "hi-hat open"], "nothing closes it before the end"
-    assert "closed again" in [words for _, words in signs_used(find_lesson("disco-1").score, with_sticking=False)]
-    drags = [words for _, words in signs_used(find_lesson("drag").score, with_sticking=True)]
+    assert "closed again" in signs_of(find_lesson("disco-1").score, with_sticking=False)
+    drags = signs_of(find_lesson("drag").score, with_sticking=True)
     assert drags == ["drag", "above: right and left hand"]
     feet = parse_lesson('title = "T"\n[grid]\nkick = "o---"\nsnare = "--o-"\n', "t", "t").lesson
     assert feet
-    assert list(signs_used(feet.score, with_sticking=True)) == [], (
-        "the foot's limb is known, and no letter stands below"
-    )
+    assert signs_of(feet.score, with_sticking=True) == [], "the foot's limb is known, and no letter stands below"
     silence = Score.from_notes([], TempoMap.build([TempoChange.from_bpm(0, 80)], [MeterChange(0, 4, 4)]), 4 * PPQ)
     assert list(notes_used(silence)) == []
     assert len(sheet(silence, WORDS, A4)) == 1
@@ -261,3 +264,36 @@ def test_a_section_is_called_by_its_name_alone() -> None:
     lesson = parse_lesson(f'{text}snare = "oo -- -- --"', "t", "t").lesson
     assert lesson
     assert lesson_labels(lesson, (0, 1)).sections == ((0, "a"),)
+
+
+def test_the_key_is_of_the_bars_that_are_written() -> None:
+    """A hat that is open at a loop's end is closed where the loop begins again, a bar that a fold does not write."""
+    bar = [Note(k * PPQ, Piece.HIHAT, openness=float(k == 3)) for k in range(4)]
+    score = Score.from_notes(bar, TempoMap.constant(80), 4 * PPQ).repeated(8)
+    assert signs_of(score, with_sticking=False) == ["hi-hat open", "closed again"]
+    page = sheet(score, WORDS, A4)[0]
+    assert (figures(page, "hat_open"), figures(page, "hat_closed")) == (2, 0), "one in the bar, one in the key"
+
+
+def test_an_even_change_of_tempo_at_the_start_is_told_after_the_tempo_that_it_leaves() -> None:
+    changes = [TempoChange.from_bpm(k * PPQ, 60 + 2 * k) for k in range(16)]
+    score = Score.from_notes(
+        [Note(k * PPQ, Piece.SNARE) for k in range(16)], TempoMap.build(changes, [MeterChange(0, 4, 4)]), 16 * PPQ
+    )
+    page = sheet(score, SheetWords("T", beats_a_minute=60.0), A4)[0]
+    assert figures(page, "beat_4") == 2, "from this tempo to that"
+
+
+@pytest.mark.parametrize("space", SPACES)
+def test_no_name_in_the_key_is_cut(space: float) -> None:
+    """However many there are: all pieces, and a cross-stick, whose name is among the longest words."""
+    notes = [Note(k * PPQ, piece) for k, piece in enumerate(Piece)]
+    notes.append(Note(0, Piece.SNARE, Zone.RIM, articulation=Articulation.CROSS_STICK))
+    atlas = OutlineAtlas()
+    ellipsis = round(atlas.letter("…", Face.REGULAR).uv[0])
+    for count in range(4, len(notes)):
+        draw_list = DrawList(atlas)
+        score = Score.from_notes(notes[-count:], TempoMap.constant(80))
+        draw_key(draw_list, score, range(score.bar_count), (A4[0] - 2 * MARGIN) / space, with_sticking=False)
+        shapes = draw_list.shapes()
+        assert not (shapes["uv"][:, 0] == ellipsis).any(), count

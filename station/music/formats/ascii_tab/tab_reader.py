@@ -8,13 +8,17 @@ snare has the second and the fourth of four beats.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import islice
 
 from station.core.errors import BadInput
 from station.core.pieces import CHOKEABLE, HALF_OPEN, Articulation, Dynamic, Piece
+from station.core.units import PPQ
 from station.core.utf8 import utf8_text
 from station.music.drum_part import DrumPart, PartSection
+from station.music.formats.ascii_tab.tab_beats import in_whole_bars
 from station.music.formats.ascii_tab.tab_letters import CHOKE, LETTERS, RESTS, TabStroke
-from station.music.formats.ascii_tab.tab_text import TabBar, TabRow, TabSystem, TabText, tab_text
+from station.music.formats.ascii_tab.tab_lines import TabBar
+from station.music.formats.ascii_tab.tab_text import TabRow, TabSystem, TabText, tab_text
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
@@ -61,8 +65,8 @@ def read_tab(data: bytes, source: str) -> DrumPart:
     if not found.systems:
         raise BadInput(source, "", "no line of tablature in it, such as HH|x-x-x-x-|")
     reader = _Reader(source, found.loose_x)
-    bars = list(reader.bars(found))
-    played = list(_written_out(bars))
+    bars = list(islice(reader.bars(found), _MOST_BARS + 1))
+    played = list(islice(_written_out(bars), _MOST_BARS + 1))
     if len(played) > _MOST_BARS:
         raise BadInput(source, "", f"more than {_MOST_BARS} bars with all repeats")
     if not any(bar.tempo_bpm for bar in bars):
@@ -87,10 +91,12 @@ class _Reader:
     def bars(self, text: TabText) -> Iterator[_Bar]:
         """The bars as the text has them."""
         stated: tuple[int, int] | None = None
-        for system in text.systems:
-            stated = system.meter or stated
+        for typed in text.systems:
+            stated = typed.meter or stated
+            system, said = in_whole_bars(typed, stated)
+            self.lost.update(dict.fromkeys(said))
             count = max(len(row.bars) for row in system.rows)
-            bars = [self.bar(system, k, stated) for k in range(count)]
+            bars = [self.bar(system, k, stated) for k in range(min(count, _MOST_BARS + 1))]
             if bars:
                 bars[0].tempo_bpm, bars[0].section = system.tempo_bpm, system.section
                 _mark_repeats(bars, system)
@@ -122,7 +128,7 @@ class _Reader:
                 struck = self.struck(letter, row)
                 found.append(_Stroke(i * cell, cell, struck.piece or row.meaning.piece, struck))
             else:
-                place = f"line {row.line}, column {bar.column + i}"
+                place = f"line {row.line}, column {bar.columns[i]}"
                 raise BadInput(self.source, place, f"{letter!r} is no stroke; expected one of {' '.join(letters)} -")
         return found
 
@@ -189,6 +195,15 @@ def _choke(found: list[_Stroke], at: Fraction, cell: Fraction, row: TabRow) -> N
         found.append(_Stroke(at, cell, row.meaning.piece, struck, cell))
 
 
+def counted_quarters(beats: int, unit: int) -> float:
+    """How many quarter notes the beat has that a tempo above a tab counts: a dotted one in 6/8, 9/8 and 12/8.
+
+    A tab says no groups.
+    """
+    ticks: int = MeterChange(0, beats, unit).usual_beat_ticks
+    return ticks / PPQ
+
+
 # --- the whole --------------------------------------------------------------------------------------------------------
 
 
@@ -207,12 +222,12 @@ def _written_out(bars: Sequence[_Bar]) -> Iterator[_Bar]:
 
 def _score(bars: Sequence[_Bar], title: str) -> Score:
     tick, notes, meters = 0, list[Note](), list[MeterChange]()
-    first = next((bar.tempo_bpm for bar in bars if bar.tempo_bpm), _USUAL_BPM)
+    first = next((bar.tempo_bpm * counted_quarters(*bar.meter) for bar in bars if bar.tempo_bpm), _USUAL_BPM)
     tempos = [TempoChange.from_bpm(0, first)]
     for bar in bars:
         meters.append(MeterChange(tick, *bar.meter))
         if bar.tempo_bpm:
-            tempos.append(TempoChange.from_bpm(tick, bar.tempo_bpm))
+            tempos.append(TempoChange.from_bpm(tick, bar.tempo_bpm * counted_quarters(*bar.meter)))
         notes += [row for s in bar.strokes for row in with_graces(_note(s, tick, meters[-1].bar_ticks))]
         tick += meters[-1].bar_ticks
     return Score.from_notes(notes, TempoMap.build(tempos, meters), tick, title)

@@ -5,14 +5,13 @@ system, for some tabs leave no line between.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from station.core.errors import BadInput
-from station.music.formats.ascii_tab.tab_letters import LABELS, TAB_CHARACTERS, LineMeaning, label_key
+from station.music.formats.ascii_tab.tab_letters import LABELS, LineMeaning, label_key
+from station.music.formats.ascii_tab.tab_lines import TabBar, bars_of, refuse_unknown_label, tab_line
 from station.music.tempo import MAX_BPM, MIN_BPM
 
-_TAB_LINE = re.compile(r"\s*([A-Za-z][A-Za-z0-9 /_.-]{0,13}?)\s*[|:]{1,3}(.*)$")
 _COUNT_LINE = re.compile(r"[\s|]*1[\s|+&aeiou.\-0-9]*$")
 _TIMES = re.compile(r"(?:[x×]\s*([0-9]{1,3})|([0-9]{1,3})\s*[x×])(?![A-Za-z0-9])", re.IGNORECASE)
 _METER = re.compile(r"(?<![0-9/])([0-9]{1,2})\s*/\s*(1|2|4|8|16|32)(?![0-9/])")
@@ -24,21 +23,23 @@ _NAMED = {
     "author": re.compile(r"\s*(?:artist|band|by|tabbed by|author)\s*[:=]\s*(.+)", re.IGNORECASE),
     "about": re.compile(r"\s*(?:notes?|comments?|about)\s*[:=]\s*(.+)", re.IGNORECASE),
 }
-_SECTION = re.compile(r"\s*(?:\[([^\]|]{1,40})\]|([A-Za-z][A-Za-z0-9 '/-]{0,30}):?)\s*(?:\(?[x×0-9\s]*\)?)\s*$")
+_IN_BRACKETS = re.compile(r"\s*\[([^\]|]{1,40})\]")
+_SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9 '/-]{0,30}):?\s*(?:\(?[x×0-9\s]*\)?)\s*$")
+_PART = re.compile(
+    r"\s*(?:intro|verse|(?:pre|post)?[ -]?chorus|refrain|bridge|solo|outro|ending|break|interlude|fill|groove|beat|"
+    r"part|main|middle|coda|tag|hook|riff|[a-h])\b",
+    re.IGNORECASE,
+)
+"""What parts of songs are called."""
+_TITLE = re.compile(r"\s*([^\s|:=*#~-][^|:=]{0,59}?)\s*$")
+_BY = re.compile(r"\s*by\s+(.{1,60}?)\s*$", re.IGNORECASE)
+_KEY = re.compile(r"\s*(?:\S\s*[-–=:]\s|(?:key|legend)\b)", re.IGNORECASE)
+"""A line of the key of letters, "f - flam", or the word above it."""
+_AGAIN = re.compile(r"[\s(]*(?:repeat|play|[x×]\s*[0-9]|[0-9]+\s*[x×])", re.IGNORECASE)
 _LOOSE_X = re.compile(r"\bX\b[^A-Za-z\n]{1,6}[^\n]*\b(?:loose|open|slosh)", re.IGNORECASE)
 
-_KNOWN = 0.8
-"""A line of fewer known letters is words (our choice)."""
-
-
-@dataclass(frozen=True, slots=True)
-class TabBar:
-    """The cells of one bar of one line; `column` where they begin, from 1; whether a repeat begins or ends with it."""
-
-    cells: str
-    column: int
-    opens: bool = False
-    closes: bool = False
+_MOST_WORDS = 300
+"""Characters of a line in which a name, a tempo or a meter is looked for (our choice: no screen shows more of one)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +80,9 @@ class TabText:
 
 def tab_text(text: str, source: str) -> TabText:
     """The systems of `text` in their order; raises `BadInput` for a tab line whose label or letters are unknown."""
-    found, waiting, system = TabText(loose_x=bool(_LOOSE_X.search(text))), TabSystem(), TabSystem()
+    lines = text.expandtabs().splitlines()
+    loose_x = any(_LOOSE_X.search(line[:_MOST_WORDS]) for line in lines)
+    found, waiting, system = TabText(loose_x=loose_x), TabSystem(), TabSystem()
 
     def close() -> None:
         nonlocal system, waiting
@@ -88,16 +91,19 @@ def tab_text(text: str, source: str) -> TabText:
             waiting = TabSystem()
         system = TabSystem()
 
-    for number, line in enumerate(text.expandtabs().splitlines(), 1):
+    lines = text.expandtabs().splitlines()
+    for number, line in enumerate(lines[(top := _heading(lines, found)) :], top + 1):
         if (row := _row(line, number, source)) is not None:
             if row.label in system.labels:
                 close()
             if not system.rows:
                 system = waiting
             system.rows.append(row)
-            system.times = max(system.times, _times(line.rpartition("|")[2]))
+            system.times = max(system.times, _times(line.rpartition("|")[2][:_MOST_WORDS]))
         elif _COUNT_LINE.match(line):
             (system if system.rows else waiting).count = line
+        elif system.rows and _AGAIN.match(line):
+            system.times = max(system.times, _times(line))
         else:
             close()
             _read_words(line, found, waiting)
@@ -110,7 +116,7 @@ def is_tab(data: bytes) -> bool:
     text = data[: 1 << 16].decode("utf-8", "replace")
     runs = 0
     for line in text.splitlines():
-        runs = runs + 1 if _is_tab_line(line) else 0
+        runs = runs + 1 if tab_line(line) else 0
         if runs == 2:
             return True
     return False
@@ -119,45 +125,13 @@ def is_tab(data: bytes) -> bool:
 # --- a line -----------------------------------------------------------------------------------------------------------
 
 
-def _is_tab_line(line: str) -> bool:
-    """Whether a line is tablature, even with a letter or two that nobody knows."""
-    found = _TAB_LINE.match(line)
-    if not found or label_key(found[1]) not in LABELS or "|" not in line:
-        return False
-    cells = found[2].rpartition("|")[0] or found[2]
-    known = sum(c in TAB_CHARACTERS or c in "|:" for c in cells)
-    return bool(cells.strip()) and (
-        known == len(cells) or (known >= _KNOWN * len(cells) and any(c in cells for c in "-xo"))
-    )
-
-
 def _row(line: str, number: int, source: str) -> TabRow | None:
-    if not _is_tab_line(line):
-        _refuse_unknown_label(line, number, source)
+    found = tab_line(line)
+    if found is None:
+        refuse_unknown_label(line, number, source)
         return None
-    found = _TAB_LINE.match(line)
-    assert found is not None, "_is_tab_line matches it too"
-    label = label_key(found[1])
-    return TabRow(label, LABELS[label], tuple(_bars(line, found.start(2))), number)
-
-
-def _refuse_unknown_label(line: str, number: int, source: str) -> None:
-    """A line that looks like tablature in all but its label is no comment."""
-    found = _TAB_LINE.match(line)
-    if found and re.fullmatch(r"[|:\-xXoO.]{6,}\s*(?:\|.*)?", found[2]) and "-" in found[2] and "|" in line:
-        raise BadInput(source, f"line {number}", f"no drum is called {found[1]!r} here")
-
-
-def _bars(line: str, start: int) -> Iterator[TabBar]:
-    """The bars between the lines' strokes; what follows the last stroke is words."""
-    end = line.rindex("|") if line.rfind("|") >= start else len(line)
-    at, opens = start, False
-    for cells in line[start:end].split("|"):
-        opens = opens or cells.lstrip().startswith(":")
-        if bare := cells.strip().strip(":"):
-            yield TabBar(bare, at + 1 + cells.index(bare), opens, cells.rstrip().endswith(":"))
-            opens = False
-        at += len(cells) + 1
+    label = label_key(found.label)
+    return TabRow(label, LABELS[label], tuple(bars_of(line, found)), number)
 
 
 def _times(words: str) -> int:
@@ -168,6 +142,34 @@ def _times(words: str) -> int:
 # --- words ------------------------------------------------------------------------------------------------------------
 
 
+def _heading(lines: Sequence[str], found: TabText) -> int:
+    """Read the title, and who it is by, where they stand alone at the top; how many lines that took.
+
+    A line right above tablature is the name of a part, and so is one that is called as parts are.
+    """
+    top = next((i for i, line in enumerate(lines) if line.strip()), len(lines))
+    below = lines[top + 1 : top + 2]
+    if (
+        not below
+        or max(len(lines[top]), len(below[0])) > _MOST_WORDS
+        or tab_line(below[0])
+        or _COUNT_LINE.match(below[0])
+    ):
+        return 0
+    title = _TITLE.match(lines[top])
+    if not title or _PART.match(lines[top]) or tab_line(lines[top]) or _says_time(lines[top]):
+        return 0
+    found.words["title"] = " ".join(title[1].split())
+    author = _BY.match(below[0])
+    if author:
+        found.words["author"] = author[1]
+    return top + (2 if author else 1)
+
+
+def _says_time(line: str) -> bool:
+    return bool(_METER.search(line) or _TEMPO.search(line) or _COUNT_LINE.match(line))
+
+
 def _read_words(line: str, found: TabText, waiting: TabSystem) -> None:
     """What a line of words says of the whole, or of the system that follows."""
     if not line.strip():
@@ -176,11 +178,13 @@ def _read_words(line: str, found: TabText, waiting: TabSystem) -> None:
         if (said := pattern.match(line)) and key not in found.words:
             found.words[key] = " ".join(said[1].split())
             return
+    line = line.rstrip()[:_MOST_WORDS]
     if (meter := _METER.search(line)) and int(meter[1]):
         waiting.meter = int(meter[1]), int(meter[2])
     if tempo := _TEMPO.search(line):
         bpm = float(tempo[1] or tempo[2])
         waiting.tempo_bpm = bpm if MIN_BPM <= bpm <= MAX_BPM else None
-    if not (meter or tempo) and (section := _SECTION.match(line)):
-        waiting.section = " ".join((section[1] or section[2]).split())
+    if section := _IN_BRACKETS.match(line) or (None if meter or tempo or _KEY.match(line) else _SECTION.match(line)):
+        name = section[1] if section.re is _IN_BRACKETS else _TIMES.sub("", section[1])
+        waiting.section = " ".join(name.split())
         waiting.times = _times(line)

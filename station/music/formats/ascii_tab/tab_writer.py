@@ -8,7 +8,7 @@ from types import MappingProxyType
 from station.core.pieces import CHOKEABLE, Articulation, Dynamic, Ornament, Piece
 from station.music.drum_part import DrumPart
 from station.music.formats.ascii_tab.tab_letters import CHOKE, LETTERS, OWN_LABELS, TabStroke
-from station.music.formats.ascii_tab.tab_reader import MOST_BYTES, read_tab
+from station.music.formats.ascii_tab.tab_reader import MOST_BYTES, counted_quarters, read_tab
 from station.music.formats.ascii_tab.tab_text import is_tab
 from station.music.formats.music_format import Feature, Loss, MusicFormat, WrittenFile
 from station.music.score import Note, Score
@@ -125,7 +125,9 @@ def _words(part: DrumPart, bar: int, lost: dict[Loss, None]) -> Iterator[str]:
     start, end = tempo_map.bar_start(bar), tempo_map.bar_start(bar + 1)
     for tempo in tempo_map.tempos:
         if tempo.tick == start:
-            yield f"Tempo: {60e6 / tempo.us_per_quarter:.9f}".rstrip("0").rstrip(".")
+            meter = tempo_map.meter_at(start)
+            bpm = 60e6 / tempo.us_per_quarter / counted_quarters(meter.beats, meter.unit)
+            yield f"Tempo: {bpm:.9f}".rstrip("0").rstrip(".")
         elif start < tempo.tick < end:
             lost[Loss(Feature.TEMPO, f"bar {bar + 1}: the tempo changes within the bar")] = None
     for meter in tempo_map.meters:

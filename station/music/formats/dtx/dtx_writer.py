@@ -41,9 +41,9 @@ _KEEPS: Mapping[Feature, str] = MappingProxyType(
         Feature.TEMPO: "",
         Feature.METERS: "as the length of a bar: 6/8 comes back as 3/4, and is told",
         Feature.FEET: "a kick by the left foot",
-        Feature.TITLE: "",
-        Feature.AUTHOR: "",
-        Feature.ABOUT: "",
+        Feature.TITLE: "but for semicolons",
+        Feature.AUTHOR: "but for semicolons",
+        Feature.ABOUT: "but for semicolons",
     }
 )
 
@@ -66,7 +66,7 @@ def write_dtx(part: DrumPart) -> WrittenFile:
     lost: dict[Loss, None] = {}
     chips = sorted(_chips(score, lost))
     sounds = {sound: _base_36(i + 1) for i, sound in enumerate(sorted({(c.lane, c.percent) for c in chips}))}
-    lines = [*_head(part), *_sounds(sounds), *_lengths(score, lost), *_tempos(score, lost)]
+    lines = [*_head(part, lost), *_sounds(sounds), *_lengths(score, lost), *_tempos(score, lost)]
     for (bar, lane), group in groupby(chips, key=lambda c: (c.bar, c.lane)):
         places = [(c.tick, sounds[c.lane, c.percent]) for c in group]
         lines.append(_objects(score, bar, lane, places, lost))
@@ -110,9 +110,15 @@ def _of_piece(piece: Piece, what: str) -> Loss:
 # --- lines ------------------------------------------------------------------------------------------------------------
 
 
-def _head(part: DrumPart) -> Iterator[str]:
-    said = (("TITLE", part.score.title), ("ARTIST", part.author), ("COMMENT", part.about))
-    for name, text in said:
+def _head(part: DrumPart, lost: dict[Loss, None]) -> Iterator[str]:
+    said = (
+        ("TITLE", Feature.TITLE, part.score.title),
+        ("ARTIST", Feature.AUTHOR, part.author),
+        ("COMMENT", Feature.ABOUT, part.about),
+    )
+    for name, feature, text in said:
+        if ";" in text:
+            lost[Loss(feature, f"{feature.value}: a comma for each semicolon, which would begin a comment")] = None
         if line := " ".join(text.replace(";", ",").split()):
             yield f"#{name}: {line}"
     yield f"#BPM: {_bpm(part.score.tempo_map.tempos[0])}"

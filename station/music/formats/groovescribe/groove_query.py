@@ -36,7 +36,7 @@ MOST_BEATS, UNITS = 32, (2, 4, 8, 16)
 _MOST_DIVISION = 96
 """Finer than any that GrooveScribe offers, twice (our choice)."""
 _IGNORED = re.compile(r"[|:!()\[\]\s]")
-_LINK = re.compile(r"https?://\S+|\??[A-Za-z0-9_]{1,20}=\S.*")
+_LINK = re.compile(r"https?://\S[^\r\n]*|\??[A-Za-z0-9_]{1,20}=\S.*")
 _MOST_LINK = 1 << 16
 """Characters: ten bars of 48 cells and nine lines are 5,000 (our choice)."""
 

@@ -1,13 +1,14 @@
 """A part as a song of Hydrogen's: a column a bar, a pattern for each bar that is unlike the others.
 
-A stroke lies at the nearest tick and has the rest as its lead or lag, so that Hydrogen plays it where the part has it.
-Swung sixteenths are written straight with the swing factor, any other swing where it sounds. Instruments are named as
-in Hydrogen's own kit. Grace strokes are notes of their own, before their stroke by their time.
+A stroke lies at a tick, or at the next with a lead, so that Hydrogen plays it where the part has it. Swung sixteenths
+are written straight with the swing factor, any other swing where it sounds. Instruments are named as in Hydrogen's own
+kit. Grace strokes are notes of their own, before their stroke by their time.
 """
 
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil
 from types import MappingProxyType
 
 import numpy as np
@@ -18,7 +19,7 @@ from station.core.units import PPQ
 from station.core.utf8 import one_line
 from station.music.drum_part import DrumPart
 from station.music.formats.hydrogen.instrument_strikes import InstrumentStrike, instrument_for, instrument_of
-from station.music.formats.hydrogen.rock_kit import KIT, KIT_ID, kit_id
+from station.music.formats.hydrogen.rock_kit import KIT, kit_id
 from station.music.formats.hydrogen.song_contents import (
     ENTIRE_SAMPLE,
     FULL_VELOCITY,
@@ -39,7 +40,7 @@ from station.music.swing import STRAIGHT
 
 SONG_KEEPS: Mapping[Feature, str] = MappingProxyType(
     {
-        Feature.TIMES: "a 48th of a quarter note, and lead or lag for the rest; grace strokes are strokes like others",
+        Feature.TIMES: "a 48th of a quarter note, and a lead for the rest; grace strokes are strokes like others",
         Feature.PIECES: "",
         Feature.TEMPO: "from 10 to 400, changes where a bar begins",
         Feature.METERS: "",
@@ -76,6 +77,8 @@ PATTERN_KEEPS: Mapping[Feature, str] = MappingProxyType(
 
 _HALF_STEP = 0.5
 """Added to a velocity, so that Hydrogen, which cuts it, finds the same again."""
+_UNHEARD = 0.05
+"""The ticks by which a stroke may lag: half a millisecond at 120 quarters a minute (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -234,6 +237,15 @@ def _length(note: Note, bar: int, losses: LostBars) -> int:
     return length or ENTIRE_SAMPLE
 
 
+def _position(inside: float) -> int:
+    """The tick for a stroke `inside` ticks after its bar's start, from which it leads, for lags are not always played.
+
+    (h2cli 1.2 leaves them out.) Off the beat it is no place that swing would delay.
+    """
+    position = ceil(inside - _UNHEARD)
+    return position - (position % (2 * SIXTEENTH) == SIXTEENTH and abs(position - inside) > _UNHEARD)
+
+
 def _by_bar(
     events: Sequence[_Event], starts: Sequence[int], ids: Mapping[InstrumentStrike, int]
 ) -> list[tuple[PatternNote, ...]]:
@@ -243,14 +255,13 @@ def _by_bar(
         bar = min(max(bisect_right(starts, event.tick) - 1, 0), len(bars) - 1)
         size = (starts[bar + 1] - starts[bar]) // SCORE_TICKS
         inside = (event.tick - starts[bar]) / SCORE_TICKS
-        position = min(max(round(inside), 0), size - 1)
+        position = min(max(_position(inside), 0), size - 1)
         bars[bar].append(
             PatternNote(
                 position,
                 ids[event.strike],
                 min((event.velocity + _HALF_STEP) / FULL_VELOCITY, 1.0),
                 (inside - position) / LEAD_LAG_TICKS,
-                kind=KIT[kit_id(event.strike.sound)].kind if event.strike.sound in KIT_ID else "",
                 length=event.length,
                 is_stop=event.is_stop,
             )

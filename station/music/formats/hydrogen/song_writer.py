@@ -82,7 +82,7 @@ def song_bytes(song: HydrogenSong) -> bytes:
     for pattern in song.patterns:
         element = SubElement(patterns, "pattern")
         _fill(element, (("name", pattern.name), ("category", "not_categorized"), *_size(pattern), ("info", "")))
-        _write_notes(element, pattern, with_kind=False)
+        _write_notes(element, pattern)
     SubElement(root, "virtualPatternList")
     sequence = SubElement(root, "patternSequence")
     for names in song.columns:
@@ -107,7 +107,7 @@ def pattern_bytes(song: HydrogenSong) -> bytes:
     element = SubElement(root, "pattern")
     head = (("name", pattern.name), ("info", song.about), ("category", "not_categorized"), *_size(pattern))
     _fill(element, head)
-    _write_notes(element, pattern, with_kind=True)
+    _write_notes(element, pattern)
     return _xml(root)
 
 
@@ -148,13 +148,14 @@ def _write_instrument(band: Element, instrument: Instrument) -> None:
         _fill(SubElement(component, "layer"), (("filename", recording), *_LAYER, *reach))
 
 
-def _write_notes(element: Element, pattern: Pattern, with_kind: bool) -> None:
+def _write_notes(element: Element, pattern: Pattern) -> None:
     notes = SubElement(element, "noteList")
     for note in pattern.notes:
-        _fill(SubElement(notes, "note"), _note(note, with_kind))
+        _fill(SubElement(notes, "note"), _note(note))
 
 
-def _note(note: PatternNote, with_kind: bool) -> _Fields:
+def _note(note: PatternNote) -> _Fields:
+    """Without the type that newer patterns may have: no pattern with one is a pattern by the schema of 1.2."""
     return (
         ("position", str(note.position)),
         ("leadlag", _number(note.lead_lag)),
@@ -164,7 +165,6 @@ def _note(note: PatternNote, with_kind: bool) -> _Fields:
         ("key", "C0"),
         ("length", str(note.length)),
         ("instrument", str(note.instrument)),
-        *((("type", note.kind),) if with_kind and note.kind else ()),
         ("note_off", "true" if note.is_stop else "false"),
         ("probability", _number(note.probability)),
     )

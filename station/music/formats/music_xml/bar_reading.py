@@ -14,6 +14,7 @@ from station.music.formats.music_xml.note_reading import (
     NoteReader,
     velocity_of,
 )
+from station.music.formats.music_xml.words_of_swing import swing_in_words
 from station.music.formats.music_xml.written_bars import STOP, LostMarks, WrittenBar, WrittenNote
 from station.music.formats.playing_order import MOST_BARS
 from station.music.formats.safe_xml import text_of
@@ -252,13 +253,16 @@ class _BarContent:
         elif sign.tag == "words" and (stick := _STICK.fullmatch(sign.text or "")):
             self._sticks.append((place, Limb.RIGHT_HAND if stick[1] == "R" else Limb.LEFT_HAND))
         elif sign.tag == "words":
-            self._read_words(" ".join((sign.text or "").lower().split()), sound)
+            self._read_words(" ".join((sign.text or "").lower().split()), place, sound)
         elif sign.tag in ("octave-shift", "pedal", "damp", "damp-all", "percussion"):
             self._reader._lost.add(f"{sign.tag} signs", bar.name)
 
-    def _read_words(self, words: str, sound: Element | None) -> None:
-        """What words say of the order where no `sound` does; all others are only words."""
+    def _read_words(self, words: str, place: Fraction, sound: Element | None) -> None:
+        """What words say of swing and of the order where no `sound` does; all others are only words."""
         signs = self._bar.signs
+        if (swing := swing_in_words(words)) is not None and (sound is None or sound.find("swing") is None):
+            self._bar.swings.append((place, swing))
+            return
         if sound is not None and set(sound.attrib) & _ORDER:
             return
         if re.match(r"d\. ?c\.|da capo", words):
@@ -332,8 +336,8 @@ class _BarContent:
 
 _SLOWEST_BPM, _FASTEST_BPM = 0.1, 10_000.0
 """What is outside is no tempo (our choice)."""
-_TEMPO_WORDS = re.compile(r"rit|rall|accel|a tempo|swing|straight")
-"""What these ask for the tempos and swings of the file say."""
+_TEMPO_WORDS = re.compile(r"rit|rall|accel|a tempo")
+"""What these ask for the tempos of the file say."""
 _ORDER = {"dacapo", "dalsegno", "tocoda", "fine", "segno", "coda"}
 _UNITS = {str(2**k) for k in range(MOST_UNIT.bit_length())}
 _HANDLERS = {

@@ -30,7 +30,8 @@ SHARE_OF_NORMAL: Mapping[Dynamic, float] = {Dynamic.GHOST: 0.4, Dynamic.NORMAL: 
 """How loud ghost strokes and accents are that have no number: HUMANS' 32 and 116 beside 80."""
 _FLAGS = {name: flags for flags, name in enumerate(("quarter", "eighth", "16th", "32nd", "64th", "128th", "256th"))}
 _STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
-_OPENNESS = {"open": OPEN, "stopped": CLOSED, "half-muted": HALF_OPEN}
+_OPENNESS = {"open": OPEN, "open-string": OPEN, "harmonic": OPEN, "stopped": CLOSED, "half-muted": HALF_OPEN}
+"""Over a hi-hat every small circle says that it is open; MuseScore has them as `open-string` and `harmonic`."""
 _CHOKE = re.compile("choke", re.IGNORECASE)
 _READ_ARTICULATIONS = {"accent": Dynamic.ACCENT, "strong-accent": Dynamic.ACCENT}
 _READ_TECHNICAL = {"fingering", *_OPENNESS}

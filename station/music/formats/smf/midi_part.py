@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from station.music.drum_part import DrumPart
-from station.music.formats.music_format import Feature, MusicFormat, WrittenFile
+from station.music.formats.music_format import Feature, Loss, MusicFormat, WrittenFile
 from station.music.formats.smf.chunk_reader import MAX_BYTES, parse_midi
 from station.music.formats.smf.drum_tracks import score_from_midi
 
@@ -18,6 +18,10 @@ _KEEPS: Mapping[Feature, str] = MappingProxyType(
         Feature.TITLE: "",
     }
 )
+_MOVED = tuple(
+    Loss(feature, f"{feature.value}: all a bar later, for the grace strokes before the first")
+    for feature in (Feature.TIMES, Feature.TEMPO, Feature.METERS)
+)
 
 
 def read_midi_part(data: bytes, source: str) -> DrumPart:
@@ -27,9 +31,10 @@ def read_midi_part(data: bytes, source: str) -> DrumPart:
 
 def write_midi_part(part: DrumPart) -> WrittenFile:
     """The part as a MIDI file of format 1; raises `BadInput` for a tempo or meter that MIDI cannot write."""
-    from station.music.formats.smf.track_writer import score_bytes  # with mido, which a reader does without
+    from station.music.formats.smf.track_writer import bars_before, score_bytes  # with mido; a reader does without
 
-    return WrittenFile(score_bytes(part.score, part.score.title or "part"))
+    data = score_bytes(part.score, part.score.title or "part")
+    return WrittenFile(data, _MOVED if bars_before(part.score) else ())
 
 
 MIDI = MusicFormat(

@@ -63,8 +63,8 @@ def score_bytes(score: Score, name: str) -> bytes:
 
     Raises `BadInput` of `name` for a tempo or meter that MIDI cannot write.
     """
-    onsets = np.where(score.is_grace, score.tempo_map.ticks_at_ns(score.onset_ns), score.notes["tick"])
-    pickup = _pickup_ticks(score, onsets)
+    onsets = _onset_ticks(score)
+    pickup = bars_before(score)
     division = _division(score, onsets)
     step = PPQ // division
     starts = _divided(onsets + pickup, step)
@@ -73,10 +73,14 @@ def score_bytes(score: Score, name: str) -> bytes:
     return tracks_bytes([conductor, drums], division, int(_divided(score.end_tick + pickup, step)))
 
 
-def _pickup_ticks(score: Score, onsets: NDArray[np.int64]) -> int:
-    """Whole bars to put before the music so that no grace stroke comes before the file."""
+def bars_before(score: Score) -> int:
+    """The ticks of the empty bars that stand before the music so that no grace stroke comes before the file."""
     bar = score.tempo_map.meters[0].bar_ticks
-    return -(int(onsets.min(initial=0)) // bar) * bar
+    return -(int(_onset_ticks(score).min(initial=0)) // bar) * bar
+
+
+def _onset_ticks(score: Score) -> NDArray[np.int64]:
+    return np.where(score.is_grace, score.tempo_map.ticks_at_ns(score.onset_ns), score.notes["tick"])
 
 
 def _division(score: Score, onsets: NDArray[np.int64]) -> int:

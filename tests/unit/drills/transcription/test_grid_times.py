@@ -74,7 +74,9 @@ def test_a_shuffle_swings_by_triplets() -> None:
     found = quantised_times(played(written, 4), is_played=True)
     assert strokes(found.score) == strokes(written)
     assert found.swing == Swing(2.0, PPQ // 2)
-    assert not found.score.notes["swing_ticks"].any()
+    late = found.score.notes["swing_ticks"][found.score.notes["tick"] % PPQ > 0]
+    assert late.tolist() == [PPQ // 6] * 16  # from a half to two thirds of the beat
+    assert {beat.cells for beat in found.beats} == {2}
 
 
 @pytest.mark.parametrize(("ratio", "unit", "tempo"), [(1.5, 0.5, 120), (2.5, 0.5, 72), (1.5, 0.25, 76)])
@@ -177,6 +179,28 @@ def test_tempo_changes_of_the_file_are_heard() -> None:
     found = quantised_times(played(written, 10), is_played=True)
     assert strokes(found.score) == strokes(written)
     assert found.score.tempo_map.tempos == tempo_map.tempos
+
+
+def test_the_triplets_of_a_shuffle_stay_triplets() -> None:
+    fill = [(k / 3, Piece.SNARE) for k in range(12)]
+    bar = [*SHUFFLE, *((4 + at, piece) for at, piece in SHUFFLE), *((8 + at, piece) for at, piece in fill)]
+    tempo_map = TempoMap.constant(96)
+    written = Score.from_notes([Note(round(at * PPQ), piece) for at, piece in bar], tempo_map)
+    found = quantised_times(played(written, 15), is_played=True)
+    assert strokes(found.score) == strokes(written)
+    assert found.swing == Swing(2.0, PPQ // 2)
+    in_fill = found.score.notes["tick"] >= 8 * PPQ
+    assert not found.score.notes["swing_ticks"][in_fill].any()
+
+
+def test_a_take_that_says_no_tempo_is_heard_at_its_own() -> None:
+    written = score_of(ROCK, 8, TempoMap.constant(92))
+    take = played(written, 14)
+    rows = take.notes.copy()
+    rows["tick"] = TempoMap().ticks_at_ns(take.onset_ns)  # MIDI's 120 a minute
+    found = quantised_times(Score.from_array(rows, TempoMap()), is_played=True)
+    assert found.score.tempo_map.bpm_at(0) == pytest.approx(92, abs=0.01)
+    assert strokes(found.score) == strokes(written)
 
 
 def slowed(take: Score, by: float) -> Score:

@@ -1,0 +1,102 @@
+"""What an import tells the teacher: what was found and what was done, each in a sentence that says in which bars."""
+
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.units import NS_PER_MS, PPQ
+from station.drills.grid.tab_symbols import BEYOND
+from station.drills.lesson import Lesson
+from station.drills.transcription.grid_times import GridTimes
+from station.drills.transcription.ornament_finder import BOUNCE_MS, FoundOrnaments
+from station.drills.transcription.reach import Reach
+from station.music.score import Score
+from station.music.swing import Swing
+from station.music.tempo import TempoMap
+
+_BARS_NAMED = 8
+"""Bars that a remark names (our choice: what fits a line)."""
+_TIDIED_BPM = 0.05
+"""A tempo that was only made readable differs less."""
+_TOLD_MS = 0.5
+"""What is less rounds to no millisecond."""
+
+
+def remarks_on(
+    ornaments: FoundOrnaments, times: GridTimes, mains: Score, reach: Reach, lesson: Lesson
+) -> Iterator[str]:
+    """The remarks on a `lesson` made of the strokes `mains` of a file."""
+    yield from _on_tempo(mains, lesson.score)
+    yield from _on_times(times, mains)
+    if lesson.is_swung:
+        yield f"swing {lesson.swing.ratio:.3g}:1 of {_unit(lesson.swing)}"
+    found = {"flam": ornaments.flams, "drag": ornaments.drags, "buzz": ornaments.buzzes}
+    if any(found.values()):
+        yield f"found {', '.join(_counted(count, name) for name, count in found.items() if count)}"
+    if ornaments.bounces:
+        yield (
+            f"{_counted(ornaments.bounces, 'stroke')} left out that only doubled another: "
+            f"of the same drum, at the same moment or far softer within {BOUNCE_MS:g} ms"
+        )
+    if reach.merged:
+        yield f"{_counted(reach.merged, 'stroke')} fell into one cell with a louder one"
+    if reach.plain:
+        bars = _bars(lesson.score, (note.tick for note in reach.plain))
+        yield f"{_counted(len(reach.plain), 'ornament')} without grace strokes, for which no hand is free: {bars}"
+    if reach.beyond:
+        bars = _bars(lesson.score, lesson.beyond["tick"])
+        yield f"{_counted(len(reach.beyond), 'stroke')} beyond two hands and two feet, written {BEYOND}: {bars}"
+
+
+def _on_tempo(before: Score, after: Score) -> Iterator[str]:
+    """A lesson's tempo changes at bar lines, and not for what only wanders."""
+    old, new = before.tempo_map, after.tempo_map
+    within = any(change.tick != old.bar_start(int(old.bars_at(change.tick))) for change in old.tempos)
+    if len(old.tempos) == len(new.tempos) == 1 and abs(_bpm(old) - _bpm(new)) > _TIDIED_BPM:
+        yield f"no tempo in it: played at {_bpm(new):.4g}"
+    if within or len(new.tempos) < len(old.tempos):
+        changes = len(new.tempos) - 1
+        said = f"{changes} at bar lines" if changes else f"one tempo, {_bpm(new):.4g}"
+        yield f"{_counted(len(old.tempos) - 1, 'change')} of tempo written as {said}"
+
+
+def _bpm(tempo_map: TempoMap) -> float:
+    return 60e6 / tempo_map.tempos[0].us_per_quarter
+
+
+def _on_times(times: GridTimes, mains: Score) -> Iterator[str]:
+    moved = _shifts_ms(times, mains)
+    if (farthest := moved.max(initial=0.0)) >= _TOLD_MS:
+        side = "late" if times.lean_ms > 0 else "early"
+        lean = f", the take as a whole {abs(times.lean_ms):.0f} ms {side}" if abs(times.lean_ms) >= _TOLD_MS else ""
+        count = int(np.count_nonzero(moved >= _TOLD_MS))
+        yield f"{_counted(count, 'stroke')} moved onto the grid, by at most {farthest:.0f} ms{lean}"
+
+
+def _shifts_ms(times: GridTimes, mains: Score) -> NDArray[np.float64]:
+    """How far each stroke moved; from the end to the start of the music is no way.
+
+    A take moved in time. What was on the grid moved in the music, at the lesson's tempo: its changes may lie elsewhere.
+    """
+    tempo_map = times.score.tempo_map
+    before = (mains.tempo_map if times.spread_ms else tempo_map).ns_at(mains.notes["tick"][times.origin])
+    by = np.abs(before - tempo_map.ns_at(times.score.notes["tick"]))
+    return np.asarray(np.minimum(by, np.abs(mains.length_ns - by)) / NS_PER_MS)
+
+
+def _unit(swing: Swing) -> str:
+    named = {PPQ // 2: "eighths", PPQ // 4: "sixteenths", PPQ // 8: "thirty-seconds"}
+    return named.get(swing.unit_ticks, f"{swing.unit_ticks / PPQ:g} of a quarter note")
+
+
+def _bars(score: Score, ticks: Iterable[int]) -> str:
+    """The bars, from 1, in which these moments are, no more than fit a line."""
+    bars = sorted({int(bar) + 1 for bar in score.tempo_map.bars_at(np.array(list(ticks), np.int64))})
+    where = ", ".join(map(str, bars[:_BARS_NAMED])) + (" …" if len(bars) > _BARS_NAMED else "")
+    return f"bar{'s' if len(bars) > 1 else ''} {where}"
+
+
+def _counted(count: int, noun: str) -> str:
+    """The count and the noun, "1 flam" or "2 buzzes"."""
+    return f"{count} {noun}{'' if count == 1 else 'es' if noun.endswith('z') else 's'}"

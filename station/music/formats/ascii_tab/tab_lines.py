@@ -1,0 +1,115 @@
+"""One line of tablature: its label, wherever people put it, and the cells of its bars.
+
+`HH|x-x-|` and `HH: x-x-`, but also `|x-x-| HH` with the label behind, and `Hi-hat  x-x-x-x-` without a bar line. Cells
+may be parted by blanks to be read, `x-x- x-x-`; where a line has no other rest, its blanks are the rests.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from station.core.errors import BadInput
+from station.music.formats.ascii_tab.tab_letters import LABELS, RESTS, TAB_CHARACTERS, label_key
+
+_LABEL = r"[A-Za-z][A-Za-z0-9 /_.-]{0,13}?"
+_BEFORE = re.compile(rf"\s*({_LABEL})\s*[|:]{{1,3}}(.*)$")
+_BEHIND = re.compile(rf"\s*[|:]{{1,2}}(.*)\|[|:]?\s*({_LABEL})\s*$")
+_WITHOUT_BAR_LINES = re.compile(rf"\s*({_LABEL})\s+((?=[^ ]*-)[^ |:]{{6,}})\s*$")
+_KNOWN = 0.8
+"""A line of fewer known letters is words (our choice)."""
+_BLANK = " "
+
+
+@dataclass(frozen=True, slots=True)
+class TabBar:
+    """The cells of one bar of one line; `columns` where each stands, from 1; whether it opens or closes a repeat."""
+
+    cells: str
+    columns: tuple[int, ...]
+    opens: bool = False
+    closes: bool = False
+
+    def part(self, first: int, end: int | None = None) -> "TabBar":
+        """Some of its cells, with its signs."""
+        return TabBar(self.cells[first:end], self.columns[first:end], self.opens, self.closes)
+
+
+@dataclass(frozen=True, slots=True)
+class FoundLine:
+    """What looks like a line of tablature: its label as typed, and its text from `start` to `end`, in characters."""
+
+    label: str
+    start: int
+    end: int
+
+    @property
+    def is_known(self) -> bool:
+        """Whether its label is that of a drum."""
+        return label_key(self.label) in LABELS
+
+
+def found_line(line: str) -> FoundLine | None:
+    """The label and the cells of a line in any of the shapes, whether or not its label is known."""
+    if "|" in line:
+        if found := _BEFORE.match(line):
+            return FoundLine(found[1], found.start(2), _end_of_cells(line, found.start(2)))
+        behind = _BEHIND.match(line)
+        return FoundLine(behind[2], behind.start(1), behind.end(1)) if behind else None
+    bare = _WITHOUT_BAR_LINES.match(line)
+    return FoundLine(bare[1], bare.start(2), bare.end(2)) if bare else None
+
+
+def tab_line(line: str) -> FoundLine | None:
+    """The line as tablature, even with a letter or two that nobody knows; None for words and unknown labels."""
+    found = found_line(line)
+    if not found or not found.is_known:
+        return None
+    cells = line[found.start : found.end]
+    known = sum(c in TAB_CHARACTERS or c in "|:" for c in cells)
+    is_sure = "|" in line and known >= _KNOWN * len(cells) and any(c in cells for c in "-xo")
+    return found if cells.strip() and (known == len(cells) or is_sure) else None
+
+
+def refuse_unknown_label(line: str, number: int, source: str) -> None:
+    """Raises `BadInput` for a line that looks like tablature in all but its label: it is no comment."""
+    found = found_line(line)
+    if not found or "|" not in line or found.is_known:
+        return
+    cells = line[found.start : found.end]
+    if "-" in cells and re.fullmatch(r"[|:\-xXoO.]{6,}\s*", cells):
+        raise BadInput(source, f"line {number}", f"no drum is called {found.label!r} here")
+
+
+def bars_of(line: str, found: FoundLine) -> Iterator[TabBar]:
+    """The bars between the line's strokes."""
+    text = line[found.start : found.end]
+    are_rests = _BLANK in text.strip() and not set(text) & (set(RESTS) - {_BLANK}) and not _is_grouped(text)
+    at, opens = found.start, False
+    for bar in text.split("|"):
+        opens = opens or bar.lstrip().startswith(":")
+        cells = _cells(bar, are_rests)
+        if cells.strip(_BLANK) or (are_rests and len(cells) > 1):
+            yield TabBar(cells, _columns(bar, at, are_rests), opens, bar.rstrip().endswith(":"))
+            opens = False
+        at += len(bar) + 1
+
+
+def _is_grouped(text: str) -> bool:
+    """Whether blanks part groups of as many letters each, such as `xxxx xxxx`."""
+    groups = {len(group) for bar in text.split("|") for group in bar.split()}
+    return len(groups) == 1 and groups != {1} and "  " not in text.strip()
+
+
+def _cells(bar: str, are_rests: bool) -> str:
+    """The letters of a bar; the blank behind the last cell, which few type, is a rest like the others."""
+    cells = "".join(c for c in bar if c != ":" and (are_rests or c != _BLANK))
+    return cells + _BLANK if are_rests and len(cells) % 4 == 3 else cells
+
+
+def _columns(bar: str, at: int, are_rests: bool) -> tuple[int, ...]:
+    return tuple(at + i + 1 for i, c in enumerate([*bar, _BLANK]) if c != ":" and (are_rests or c != _BLANK))
+
+
+def _end_of_cells(line: str, start: int) -> int:
+    """What follows the last bar line is words."""
+    return line.rindex("|") if line.rfind("|") >= start else len(line)
