@@ -16,7 +16,7 @@ _COUNT_LINE = re.compile(r"[\s|]*1[\s|+&aeiou.\-0-9]*$")
 _TIMES = re.compile(r"(?:[x×]\s*([0-9]{1,3})|([0-9]{1,3})\s*[x×])(?![A-Za-z0-9])", re.IGNORECASE)
 _METER = re.compile(r"(?<![0-9/])([0-9]{1,2})\s*/\s*(1|2|4|8|16|32)(?![0-9/])")
 _TEMPO = re.compile(
-    r"(?:tempo|bpm|♩|speed)\s*[:=]?\s*([0-9]{2,3}(?:\.[0-9]{1,9})?)|([0-9]{2,3}(?:\.[0-9]{1,9})?)\s*bpm", re.I
+    r"(?:tempo|bpm|♩|speed)\s*[:=]?\s*([0-9]{2,4}(?:\.[0-9]{1,9})?)|([0-9]{2,4}(?:\.[0-9]{1,9})?)\s*bpm", re.I
 )
 _NAMED = {
     "title": re.compile(r"\s*(?:song|title|name)\s*[:=]\s*(.+)", re.IGNORECASE),
