@@ -119,3 +119,8 @@ def test_the_slowest_and_the_fastest_tempo_come_back_from_a_tab(bpm: float) -> N
     assert ASCII_TAB.write is not None
     again = ASCII_TAB.read(ASCII_TAB.write(part).data, "a.tab")
     assert again.score.tempo_map.tempos[0].us_per_quarter == round(60e6 / bpm)
+
+
+def test_a_count_of_five_thousand_digits_is_no_count() -> None:
+    text = f"   1 + 2 + {'3' * 5_000} +\nHH|x-x-x-x-|\nSD|--o---o-|\n"
+    assert len(ASCII_TAB.read(text.encode(), "a.tab").score) == 6

@@ -167,7 +167,7 @@ def _counted(count: str) -> int:
     """How far a line of counting counts in its first bar; 0 where there is none."""
     reached = 0
     for word in "".join(c if c.isdigit() else " " for c in count).split():
-        if int(word) != reached + 1:
+        if word != str(reached + 1):
             break
         reached += 1
     return reached
