@@ -41,7 +41,7 @@ class BarSigns:
 
 
 def playing_order(bars: Sequence[BarSigns], source: str) -> list[int]:
-    """The indices of `bars` as they are played; raises `BadInput` where that is more than `MOST_BARS`."""
+    """The indices of `bars` as they are played; raises `BadInput` for more than `MOST_BARS`, and where none is."""
     order: list[int] = []
     signposts = _Signposts(bars)
     start, turn, bar, steps = 0, 1, 0, 0
@@ -69,6 +69,8 @@ def playing_order(bars: Sequence[BarSigns], source: str) -> list[int]:
         if target is not None:
             start, turn, until = target, 1, then
         bar = bar + 1 if target is None else target
+    if bars and not order:
+        raise BadInput(source, "bar 1", "its endings leave no bar to play the first time")
     return order
 
 

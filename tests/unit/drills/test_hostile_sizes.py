@@ -1,4 +1,4 @@
-"""Files that ask for more than music has: each is refused in one line, before anything takes long."""
+"""Files and parts at the limits of what music has: refused in one line before anything takes long, or kept whole."""
 
 from pathlib import Path
 from time import process_time
@@ -11,9 +11,13 @@ from station.core.units import PPQ
 from station.drills.transcription.transcribe import transcribe
 from station.drills.transcription.whole_bars import at_bar_starts
 from station.music.drum_part import DrumPart
+from station.music.formats.ascii_tab.tab_writer import ASCII_TAB
+from station.music.formats.clone_hero.clone_hero_format import CHART
 from station.music.formats.dtx.dtx_reader import read_dtx
+from station.music.formats.dtx.dtx_writer import DTX
 from station.music.formats.format_table import read_part
 from station.music.formats.hydrogen.hydrogen_formats import HYDROGEN_SONG
+from station.music.formats.music_format import MusicFormat
 from station.music.score import Note, Score
 from station.music.tempo import TempoChange, TempoMap
 from tests.unit.music.hydrogen_xml import note, pattern, song
@@ -82,3 +86,41 @@ def test_of_many_changes_of_tempo_the_last_before_a_bar_counts() -> None:
         (4 * PPQ, 400_047),
         (8 * PPQ, 400_079),
     ]
+
+
+@pytest.mark.parametrize("text", ["HH" + "|x---" * 15_000 + "|\n", "HH|x---|\n\n" * 15_000], ids=["wide", "long"])
+def test_a_tab_of_more_bars_than_music_is_refused_in_time(text: str) -> None:
+    before = process_time()
+    with pytest.raises(BadInput, match=r"^a\.tab: more than 2000 bars with all repeats$"):
+        ASCII_TAB.read(text.encode(), "a.tab")
+    assert process_time() - before < _LIMIT_S
+
+
+@pytest.mark.parametrize(
+    "line", ["A" + " " * 100_000 + "!", "by " + " " * 100_000 + "\v x" * 15_000, "|x- " * 100_000], ids=["A", "by", "x"]
+)
+def test_long_lines_of_a_tab_take_no_longer_than_they_are(line: str) -> None:
+    before = process_time()
+    ASCII_TAB.read(f"{line}\nHH|x-x-x-x-|\nSD|--o---o-|\n".encode(), "a.tab")
+    assert process_time() - before < _LIMIT_S
+
+
+@pytest.mark.parametrize("written", [CHART, DTX], ids=lambda known: known.name)
+def test_a_part_without_a_stroke_that_the_format_knows_is_not_written(written: MusicFormat) -> None:
+    part = DrumPart(Score.from_notes([Note(0, Piece.COWBELL)], TempoMap.constant(120), title="Bell"))
+    assert written.write is not None
+    with pytest.raises(BadInput, match=r"^Bell: .* no lane for any of its strokes$"):
+        written.write(part)
+
+
+@pytest.mark.parametrize("bpm", [10, 99.5, 1000])
+def test_the_slowest_and_the_fastest_tempo_come_back_from_a_tab(bpm: float) -> None:
+    part = DrumPart(Score.from_notes([Note(0, Piece.SNARE)], TempoMap.constant(bpm)))
+    assert ASCII_TAB.write is not None
+    again = ASCII_TAB.read(ASCII_TAB.write(part).data, "a.tab")
+    assert again.score.tempo_map.tempos[0].us_per_quarter == round(60e6 / bpm)
+
+
+def test_a_count_of_five_thousand_digits_is_no_count() -> None:
+    text = f"   1 + 2 + {'3' * 5_000} +\nHH|x-x-x-x-|\nSD|--o---o-|\n"
+    assert len(ASCII_TAB.read(text.encode(), "a.tab").score) == 6

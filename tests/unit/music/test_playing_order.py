@@ -65,3 +65,8 @@ def test_what_leads_nowhere_is_read_on() -> None:
 def test_endless_repeats_are_refused() -> None:
     with pytest.raises(BadInput, match=f"{MOST_BARS:,} bars"):
         playing_order([BarSigns(repeat_times=10**9)], "file")
+
+
+def test_bars_that_are_all_of_a_later_pass_are_refused() -> None:
+    with pytest.raises(BadInput, match=r"^a\.xml: bar 1: its endings leave no bar to play the first time$"):
+        playing_order([BarSigns(endings=frozenset({2}), repeat_times=2)], "a.xml")

@@ -8,6 +8,7 @@ snare has the second and the fourth of four beats.
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import islice
 
 from station.core.errors import BadInput
 from station.core.pieces import CHOKEABLE, HALF_OPEN, Articulation, Dynamic, Piece
@@ -64,8 +65,8 @@ def read_tab(data: bytes, source: str) -> DrumPart:
     if not found.systems:
         raise BadInput(source, "", "no line of tablature in it, such as HH|x-x-x-x-|")
     reader = _Reader(source, found.loose_x)
-    bars = list(reader.bars(found))
-    played = list(_written_out(bars))
+    bars = list(islice(reader.bars(found), _MOST_BARS + 1))
+    played = list(islice(_written_out(bars), _MOST_BARS + 1))
     if len(played) > _MOST_BARS:
         raise BadInput(source, "", f"more than {_MOST_BARS} bars with all repeats")
     if not any(bar.tempo_bpm for bar in bars):
@@ -95,7 +96,7 @@ class _Reader:
             system, said = in_whole_bars(typed, stated)
             self.lost.update(dict.fromkeys(said))
             count = max(len(row.bars) for row in system.rows)
-            bars = [self.bar(system, k, stated) for k in range(count)]
+            bars = [self.bar(system, k, stated) for k in range(min(count, _MOST_BARS + 1))]
             if bars:
                 bars[0].tempo_bpm, bars[0].section = system.tempo_bpm, system.section
                 _mark_repeats(bars, system)

@@ -16,7 +16,7 @@ _COUNT_LINE = re.compile(r"[\s|]*1[\s|+&aeiou.\-0-9]*$")
 _TIMES = re.compile(r"(?:[x×]\s*([0-9]{1,3})|([0-9]{1,3})\s*[x×])(?![A-Za-z0-9])", re.IGNORECASE)
 _METER = re.compile(r"(?<![0-9/])([0-9]{1,2})\s*/\s*(1|2|4|8|16|32)(?![0-9/])")
 _TEMPO = re.compile(
-    r"(?:tempo|bpm|♩|speed)\s*[:=]?\s*([0-9]{2,3}(?:\.[0-9]{1,9})?)|([0-9]{2,3}(?:\.[0-9]{1,9})?)\s*bpm", re.I
+    r"(?:tempo|bpm|♩|speed)\s*[:=]?\s*([0-9]{2,4}(?:\.[0-9]{1,9})?)|([0-9]{2,4}(?:\.[0-9]{1,9})?)\s*bpm", re.I
 )
 _NAMED = {
     "title": re.compile(r"\s*(?:song|title|name)\s*[:=]\s*(.+)", re.IGNORECASE),
@@ -37,6 +37,9 @@ _KEY = re.compile(r"\s*(?:\S\s*[-–=:]\s|(?:key|legend)\b)", re.IGNORECASE)
 """A line of the key of letters, "f - flam", or the word above it."""
 _AGAIN = re.compile(r"[\s(]*(?:repeat|play|[x×]\s*[0-9]|[0-9]+\s*[x×])", re.IGNORECASE)
 _LOOSE_X = re.compile(r"\bX\b[^A-Za-z\n]{1,6}[^\n]{0,80}\b(?:loose|open|slosh)", re.IGNORECASE)
+
+_MOST_WORDS = 300
+"""Characters of a line in which a name, a tempo or a meter is looked for (our choice: no screen shows more of one)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +80,9 @@ class TabText:
 
 def tab_text(text: str, source: str) -> TabText:
     """The systems of `text` in their order; raises `BadInput` for a tab line whose label or letters are unknown."""
-    found, waiting, system = TabText(loose_x=bool(_LOOSE_X.search(text))), TabSystem(), TabSystem()
+    lines = text.expandtabs().splitlines()
+    loose_x = any(_LOOSE_X.search(line[:_MOST_WORDS]) for line in lines)
+    found, waiting, system = TabText(loose_x=loose_x), TabSystem(), TabSystem()
 
     def close() -> None:
         nonlocal system, waiting
@@ -94,7 +99,7 @@ def tab_text(text: str, source: str) -> TabText:
             if not system.rows:
                 system = waiting
             system.rows.append(row)
-            system.times = max(system.times, _times(line.rpartition("|")[2]))
+            system.times = max(system.times, _times(line.rpartition("|")[2][:_MOST_WORDS]))
         elif _COUNT_LINE.match(line):
             (system if system.rows else waiting).count = line
         elif system.rows and _AGAIN.match(line):
@@ -144,7 +149,12 @@ def _heading(lines: Sequence[str], found: TabText) -> int:
     """
     top = next((i for i, line in enumerate(lines) if line.strip()), len(lines))
     below = lines[top + 1 : top + 2]
-    if not below or tab_line(below[0]) or _COUNT_LINE.match(below[0]):
+    if (
+        not below
+        or max(len(lines[top]), len(below[0])) > _MOST_WORDS
+        or tab_line(below[0])
+        or _COUNT_LINE.match(below[0])
+    ):
         return 0
     line = _tidy(lines[top])
     title = _TITLE.match(line)
@@ -174,6 +184,7 @@ def _read_words(line: str, found: TabText, waiting: TabSystem) -> None:
         if (said := pattern.match(line)) and key not in found.words:
             found.words[key] = " ".join(said[1].split())
             return
+    line = line.rstrip()[:_MOST_WORDS]
     if (meter := _METER.search(line)) and int(meter[1]):
         waiting.meter = int(meter[1]), int(meter[2])
     if tempo := _TEMPO.search(line):

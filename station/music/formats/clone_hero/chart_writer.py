@@ -8,6 +8,7 @@ foot is the second kick, a buzz roll a roll lane over one note.
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 
+from station.core.errors import BadInput
 from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece, word
 from station.core.units import PPQ
 from station.core.utf8 import one_line
@@ -53,7 +54,7 @@ _MARKS = {Dynamic.ACCENT: ACCENT_MARK, Dynamic.GHOST: GHOST_MARK}
 
 
 def write_chart(part: DrumPart) -> WrittenFile:
-    """The part as the text of a `.chart`."""
+    """The part as the text of a `.chart`; raises `BadInput` where no stroke has a lane."""
     lost = LostBars()
     score = part.score
     resolution = _resolution(score)
@@ -64,6 +65,8 @@ def write_chart(part: DrumPart) -> WrittenFile:
         "Events": list(_events(part, per_tick, lost)),
         "ExpertDrums": list(_track(score, per_tick, lost)),
     }
+    if not any(" = N " in line for line in blocks["ExpertDrums"]):
+        raise BadInput(score.title or "part", "", "the games have no lane for any of its strokes")
     lines = [line for name, body in blocks.items() for line in (f"[{name}]", "{", *(f"  {b}" for b in body), "}")]
     return WrittenFile(("\r\n".join(lines) + "\r\n").encode(), lost.told())
 

@@ -59,12 +59,17 @@ class _Chip:
 
 
 def write_dtx(part: DrumPart) -> WrittenFile:
-    """The part as a DTX chart in UTF-8, its sounds named but not there; raises `BadInput` for more than 3600 bars."""
+    """The part as a DTX chart in UTF-8, its sounds named but not there.
+
+    Raises `BadInput` for more than 3600 bars, and where no stroke has a lane.
+    """
     score = part.score
     if score.bar_count > _MOST_BARS:
         raise BadInput(score.title or "part", "", f"DTX numbers no more than {_MOST_BARS} bars")
     lost: dict[Loss, None] = {}
     chips = sorted(_chips(score, lost))
+    if not chips:
+        raise BadInput(score.title or "part", "", "DTX has no lane for any of its strokes")
     sounds = {sound: _base_36(i + 1) for i, sound in enumerate(sorted({(c.lane, c.percent) for c in chips}))}
     lines = [*_head(part, lost), *_sounds(sounds), *_lengths(score, lost), *_tempos(score, lost)]
     for (bar, lane), group in groupby(chips, key=lambda c: (c.bar, c.lane)):
