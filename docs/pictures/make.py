@@ -14,7 +14,7 @@ from station.music.judgement import Label
 from station.render.camera import NamedView
 from station.render.files.png_file import write_png
 from station.render.framing import named
-from station.render.notation.sheet import PAPERS, sheet
+from station.render.notation.page.sheet import PAPERS, sheet
 from station.render.picture import PictureMaker
 from station.render.quality import QUALITIES
 from station.render.report.report_picture import draw_report_png

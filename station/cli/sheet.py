@@ -13,7 +13,7 @@ from station.core.files import write_whole
 
 ENDING = ".pdf"
 PAPERS = ("a4", "letter")
-"""Those of `station.render.notation.sheet.PAPERS`."""
+"""Those of `station.render.notation.page.sheet.PAPERS`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,7 +15,7 @@ from station.music.drum_part import DrumPart
 from station.music.score import Score
 from station.music.swing import triplets_spelled_out
 from station.render.files.pdf_file import pdf
-from station.render.notation.sheet import PAPERS, SheetWords, sheet
+from station.render.notation.page.sheet import PAPERS, SheetWords, sheet
 from station.scenes.section_names import section_names
 
 Bars = tuple[int, int]

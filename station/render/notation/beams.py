@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from station.music.tempo import TempoMap
-from station.render.notation.beaming import BeamSpan
 from station.render.notation.note_shapes import draw_figures, figures_width
+from station.render.notation.spelling.beaming import BeamSpan
 from station.render.notation.staff_rows import TUPLET_SCALE, flag_overhang
 from station.render.palette import INK
 from station.render.text.draw_list import DrawList

@@ -23,7 +23,7 @@ from station.render.notation.chord_width import (
 )
 from station.render.notation.head_places import EDGE_X, PlacedHead, placed_heads
 from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_letters, draw_slur
-from station.render.notation.note_values import TimedValue, Value
+from station.render.notation.spelling.note_values import TimedValue, Value
 from station.render.notation.staff import FOOT_PIECES, height, ledger_steps, step_of
 from station.render.notation.staff_rows import LETTER_LINE, STACK_GAP, StaffRows, stack_height, stacked_signs
 from station.render.palette import INK, INK_SOFT

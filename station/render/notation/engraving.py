@@ -17,8 +17,8 @@ from station.render.notation.bar_signs import BarSigns
 from station.render.notation.beams import FEET, HANDS, Anchor
 from station.render.notation.chord_pen import Chord, ChordPen
 from station.render.notation.loudness_row import draw_loudness
-from station.render.notation.note_values import Value
 from station.render.notation.rests import draw_rest
+from station.render.notation.spelling.note_values import Value
 from station.render.notation.staff_rows import closing_hats, shown_limbs, staff_rows
 from station.render.notation.voice_pen import BarSpan, VoicePen
 from station.render.notation.written_strokes import feet_of, written_strokes

@@ -8,7 +8,7 @@ then (Gould, "Behind Bars", 2011, "Rests in double-stemmed parts").
 from collections.abc import Sequence
 from math import ceil, floor
 
-from station.render.notation.note_values import Value
+from station.render.notation.spelling.note_values import Value
 from station.render.notation.staff import height
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from station.music.passages import diddle_pairs
 from station.music.score import Score
 from station.render.notation.beams import Anchor, StaffVoice
-from station.render.notation.note_values import TimedValue
-from station.render.notation.written_rhythm import beats_of
+from station.render.notation.spelling.note_values import TimedValue
+from station.render.notation.spelling.written_rhythm import beats_of
 from station.render.palette import INK
 from station.render.text.sign_outlines import BEAM_STEP
 

@@ -8,8 +8,6 @@ from dataclasses import dataclass, replace
 
 from station.core.pieces import Dynamic
 from station.music.tempo import MeterChange
-from station.render.notation.bar_spelling import spell_bar
-from station.render.notation.beaming import beam_runs, beam_spans
 from station.render.notation.beams import (
     FEET,
     STEM_X,
@@ -21,8 +19,10 @@ from station.render.notation.beams import (
 )
 from station.render.notation.chord_pen import Chord, ChordPen
 from station.render.notation.held_rolls import draw_tie, tie_way
-from station.render.notation.note_values import BeatGroup, Stroke, TimedValue, Tuplet
 from station.render.notation.rests import draw_rest, rest_edge
+from station.render.notation.spelling.bar_spelling import spell_bar
+from station.render.notation.spelling.beaming import beam_runs, beam_spans
+from station.render.notation.spelling.note_values import BeatGroup, Stroke, TimedValue, Tuplet
 from station.render.notation.staff import height
 from station.render.notation.staff_rows import flag_room, stem_end
 from station.render.notation.tremolo import draw_slashes

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from station.render.notation.note_values import BeatGroup
+from station.render.notation.spelling.note_values import BeatGroup
 
 
 def gaps(groups: Sequence[BeatGroup], length: int) -> list[tuple[int, int]]:

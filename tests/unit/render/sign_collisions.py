@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from station.music.score import Score
 from station.render.notation.engraving import Engraver
-from station.render.notation.line_breaks import lines
-from station.render.notation.sheet_bars import sheet_bars
-from station.render.notation.sheet_line import LineSetter
+from station.render.notation.page.line_breaks import lines
+from station.render.notation.page.sheet_bars import sheet_bars
+from station.render.notation.page.sheet_line import LineSetter
 from station.render.text.paper import SQUARE, Filled, OutlineAtlas
 from station.render.text.sign_outlines import BEAM, SIGNS, STEM
 

@@ -3,9 +3,9 @@
 import pytest
 
 from station.music.tempo import MeterChange
-from station.render.notation.bar_spelling import spell_bar
-from station.render.notation.beaming import beam_runs, beam_spans
-from station.render.notation.note_values import BeatGroup, Stroke
+from station.render.notation.spelling.bar_spelling import spell_bar
+from station.render.notation.spelling.beaming import beam_runs, beam_spans
+from station.render.notation.spelling.note_values import BeatGroup, Stroke
 
 
 def group_of(letters: str, beats: int = 1, unit: int = 4, accents: tuple[int, ...] = ()) -> BeatGroup:

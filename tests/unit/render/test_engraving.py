@@ -13,8 +13,8 @@ from station.music.loudness_marks import LoudnessMark
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.notation.engraving import Engraver
-from station.render.notation.note_values import Value
 from station.render.notation.rests import draw_rest
+from station.render.notation.spelling.note_values import Value
 from station.render.notation.staff import PLACES, NoteHead, head_of, height, ledger_steps
 from station.render.notation.staff_rows import staff_rows
 from station.render.notation.swing_words import swing_marks

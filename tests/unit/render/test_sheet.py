@@ -17,8 +17,8 @@ from station.music.loudness_marks import LoudnessMark
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.files.pdf_file import pdf
-from station.render.notation.sheet import MARGIN, PAPERS, SPACES, SheetWords, sheet
-from station.render.notation.sheet_key import draw_key, notes_used, signs_used
+from station.render.notation.page.sheet import MARGIN, PAPERS, SPACES, SheetWords, sheet
+from station.render.notation.page.sheet_key import draw_key, notes_used, signs_used
 from station.render.palette import INK, INK_FAINT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face

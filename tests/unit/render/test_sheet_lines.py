@@ -11,11 +11,11 @@ from station.drills.library import find_lesson
 from station.music.repeats import Passage, folded
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
-from station.render.notation.bar_columns import BarColumns, bar_columns, stretch_to
 from station.render.notation.bar_lines import BarLine, Volta
 from station.render.notation.engraving import Engraver
-from station.render.notation.line_breaks import SetBar, lines
-from station.render.notation.sheet_bars import number_words, sheet_bars
+from station.render.notation.page.bar_columns import BarColumns, bar_columns, stretch_to
+from station.render.notation.page.line_breaks import SetBar, lines
+from station.render.notation.page.sheet_bars import number_words, sheet_bars
 from station.render.notation.sheet_words import LineWord, draw_words
 from station.render.notation.skyline import Skyline
 from station.render.palette import INK

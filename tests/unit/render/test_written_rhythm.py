@@ -12,9 +12,9 @@ from station.drills.library import shipped_lessons
 from station.music.formats.format_table import read_part
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.render.notation.bar_spelling import spell_bar
-from station.render.notation.note_values import BeatGroup, Stroke
-from station.render.notation.written_rhythm import written_ticks
+from station.render.notation.spelling.bar_spelling import spell_bar
+from station.render.notation.spelling.note_values import BeatGroup, Stroke
+from station.render.notation.spelling.written_rhythm import written_ticks
 from station.render.notation.written_strokes import feet_of, written_strokes
 from tests.unit.render.rhythm_sums import gaps
 

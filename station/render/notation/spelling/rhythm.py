@@ -9,9 +9,16 @@ from dataclasses import replace
 from functools import lru_cache
 
 from station.core.units import PPQ
-from station.render.notation.beat_divisions import COMPOUND, Division, Part, divisions, nearest_slot, slot_ticks
-from station.render.notation.nearest_division import nearest_division
-from station.render.notation.note_values import BeatGroup, Stroke, TimedValue, Tuplet, Value
+from station.render.notation.spelling.beat_divisions import (
+    COMPOUND,
+    Division,
+    Part,
+    divisions,
+    nearest_slot,
+    slot_ticks,
+)
+from station.render.notation.spelling.nearest_division import nearest_division
+from station.render.notation.spelling.note_values import BeatGroup, Stroke, TimedValue, Tuplet, Value
 
 EXACT_TICKS = PPQ // 480
 """Onsets so close to a division are on it: one tick of a 480 PPQ file (our choice)."""

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from station.core.units import PPQ
 from station.music.score import Score
-from station.render.notation.bar_spelling import beat_groups
-from station.render.notation.beat_divisions import Division, divisions, nearest_slot, slot_ticks
-from station.render.notation.nearest_division import code_lengths, guesses
+from station.render.notation.spelling.bar_spelling import beat_groups
+from station.render.notation.spelling.beat_divisions import Division, divisions, nearest_slot, slot_ticks
+from station.render.notation.spelling.nearest_division import code_lengths, guesses
 
 _ROUNDED = PPQ // 192
 """Half a tick of a 96 PPQ file: so far its onsets stray from the simple divisions that they were meant on."""

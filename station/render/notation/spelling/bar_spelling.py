@@ -16,9 +16,9 @@ from types import MappingProxyType
 
 from station.core.units import PPQ
 from station.music.tempo import MeterChange
-from station.render.notation.beat_divisions import COMPOUND, tuplets_over
-from station.render.notation.note_values import BeatGroup, Stroke, TimedValue, Value
-from station.render.notation.rhythm import spell, spell_by
+from station.render.notation.spelling.beat_divisions import COMPOUND, tuplets_over
+from station.render.notation.spelling.note_values import BeatGroup, Stroke, TimedValue, Value
+from station.render.notation.spelling.rhythm import spell, spell_by
 
 _LONG: Mapping[int, Value] = MappingProxyType(
     {PPQ: Value(4), COMPOUND: Value(4, 1)}

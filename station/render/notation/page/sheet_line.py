@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from station.music.repeats import written_forms
 from station.music.score import Score
 from station.render.notation import note_shapes
-from station.render.notation.bar_columns import BarColumns, bar_columns
 from station.render.notation.bar_lines import REPEAT_WIDTH, THIN, BarLine, Volta, draw_bar_line, line_width
 from station.render.notation.engraving import Engraver
-from station.render.notation.line_breaks import BarBox, SetBar
-from station.render.notation.sheet_bars import SheetBar
+from station.render.notation.page.bar_columns import BarColumns, bar_columns
+from station.render.notation.page.line_breaks import BarBox, SetBar
+from station.render.notation.page.sheet_bars import SheetBar
 from station.render.notation.sheet_words import LineWord, draw_number, draw_times, draw_voltas, draw_words
 from station.render.notation.skyline import Skyline
 from station.render.text.draw_list import DrawList

@@ -12,7 +12,7 @@ from math import inf, log
 import numpy as np
 from numpy.typing import NDArray
 
-from station.render.notation.bar_columns import BarColumns, stretch_to
+from station.render.notation.page.bar_columns import BarColumns, stretch_to
 
 _WIDE, _NARROW = log(1.4), log(0.76)
 """A line stretched or squeezed by so much is as bad as one that ends within a phrase (our choice)."""

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from station.core.units import PPQ
-from station.render.notation.note_values import BeatGroup
+from station.render.notation.spelling.note_values import BeatGroup
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,10 +13,10 @@ from station.core.units import PPQ
 from station.music.score import Score
 from station.music.tempo_words import read_tempo_words
 from station.render.notation.engraving import Engraver
-from station.render.notation.line_breaks import line_count, lines
-from station.render.notation.sheet_bars import sheet_bars
-from station.render.notation.sheet_key import draw_key
-from station.render.notation.sheet_line import LineInk, LineSetter
+from station.render.notation.page.line_breaks import line_count, lines
+from station.render.notation.page.sheet_bars import sheet_bars
+from station.render.notation.page.sheet_key import draw_key
+from station.render.notation.page.sheet_line import LineInk, LineSetter
 from station.render.notation.sheet_words import LineWord, TempoSign
 from station.render.notation.swing_words import SwingMark, swing_marks
 from station.render.palette import INK, INK_SOFT
