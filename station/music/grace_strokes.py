@@ -13,6 +13,9 @@ from station.music.score import Note
 MIN_VELOCITY, MAX_VELOCITY = 1, 127
 """MIDI 1.0: 0 would be a note off."""
 
+FLAM_RANGE_MS, DRAG_RANGE_MS = (10, 80), (20, 120)
+"""The spacings that a lesson may say (wider than HUMANS: a teacher may ask for an open flam; our choice)."""
+
 OTHER_HAND = {Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND}
 
 

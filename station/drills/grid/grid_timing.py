@@ -15,7 +15,7 @@ from station.core.toml_places import KeyPath
 from station.core.units import PPQ
 from station.drills.grid.stroke_settings import StrokeSettings, Velocities
 from station.drills.grid.tab_symbols import LINE_PIECES
-from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY, Graces
+from station.music.grace_strokes import DRAG_RANGE_MS, FLAM_RANGE_MS, MAX_VELOCITY, MIN_VELOCITY, Graces
 from station.music.swing import MAX_RATIO, MIN_RATIO, Swing
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
 
@@ -99,8 +99,8 @@ def note_length(value: object) -> int:
 _VELOCITIES: Fields = {key: optional(whole(MIN_VELOCITY, MAX_VELOCITY)) for key in ("ghost", "normal", "accent")}
 DYNAMICS: Fields = {**_VELOCITIES, **{key: optional(said(_VELOCITIES)) for key in LINE_PIECES}}
 GRACES: Fields = {
-    "flam_ms": optional(number(10, 80)),
-    "drag_ms": optional(number(20, 120)),
+    "flam_ms": optional(number(*FLAM_RANGE_MS)),
+    "drag_ms": optional(number(*DRAG_RANGE_MS)),
     "share": optional(number(0.1, 1)),
 }
 """Wider than HUMANS' 15–40 and 40–70 ms: a teacher may ask for an open flam or a slow drag (our choice)."""

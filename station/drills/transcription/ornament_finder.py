@@ -19,7 +19,7 @@ from statistics import fmean, median
 
 from station.core.pieces import TOMS, Articulation, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS, PPQ
-from station.music.grace_strokes import Graces
+from station.music.grace_strokes import DRAG_RANGE_MS, FLAM_RANGE_MS, Graces
 from station.music.score import Note, Score
 
 BOUNCE_MS = 10.0
@@ -282,17 +282,17 @@ def _spacing(strokes: Sequence[_Stroke]) -> Graces:
     shares = [share for s in strokes for share in s.shares]
     share = round(median(shares), 2) if _are_alike(shares, _EXACT_SHARE) else usual.share
     return Graces(
-        _exact(flams, usual.flam_ms),
-        _exact(drags, usual.drag_ms),
+        _exact(flams, usual.flam_ms, FLAM_RANGE_MS),
+        _exact(drags, usual.drag_ms, DRAG_RANGE_MS),
         usual.share if abs(share - usual.share) <= _EXACT_SHARE else share,
     )
 
 
-def _exact(leads_ms: Sequence[float], usual_ms: float) -> float:
-    """The whole number of milliseconds that all of them are, else the usual one."""
+def _exact(leads_ms: Sequence[float], usual_ms: float, range_ms: tuple[int, int]) -> float:
+    """The whole number of milliseconds that all of them are, if a lesson may say it, else the usual one."""
     whole = round(median(leads_ms)) if leads_ms else usual_ms
     is_exact = all(abs(lead - whole) <= _EXACT_MS for lead in leads_ms)
-    return float(whole) if is_exact else usual_ms
+    return float(whole) if is_exact and range_ms[0] <= whole <= range_ms[1] else usual_ms
 
 
 def _are_alike(values: Sequence[float], spread: float) -> bool:

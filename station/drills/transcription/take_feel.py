@@ -141,9 +141,12 @@ def _refined(take: Take, feel: Feel) -> Feel:
 
 
 def mean_error(errors: Floats, spread_s: float) -> float:
-    """The mean of the errors that are no slips."""
+    """The mean of the errors that are no slips; their middle where all are, two far apart."""
+    if not len(errors):
+        return 0.0
     middle = float(np.median(errors))
-    return float(errors[np.abs(errors - middle) <= SLIP * spread_s].mean()) if len(errors) else 0.0
+    near = errors[np.abs(errors - middle) <= SLIP * spread_s]
+    return float(near.mean()) if len(near) else middle
 
 
 def take_of(ns: Ints, piece: Ints, spans: BeatSpans) -> Take:

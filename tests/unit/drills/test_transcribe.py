@@ -9,6 +9,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.drills.lesson import Lesson
 from station.drills.library import find_lesson
+from station.drills.transcription.take_feel import mean_error
 from station.drills.transcription.transcribe import transcribe
 from station.drills.writing.lesson_part import part_of
 from station.drills.writing.score_difference import score_difference
@@ -355,3 +356,14 @@ def test_a_bar_that_comes_again_has_the_same_hands() -> None:
     hands = [lesson.score.bars(bar, bar).notes["limb"].tolist() for bar in (0, 2)]
     assert hands[0] == hands[1]
     assert Limb.LEFT_HAND in hands[0]
+
+
+def test_two_strokes_far_apart_in_error_have_their_middle() -> None:
+    """Neither lies near the middle of both: there is no slip to leave out."""
+    assert mean_error(np.array([-1.0, 1.0]), 0.01) == 0.0
+
+
+def test_a_flam_closer_than_a_lesson_may_say_is_written_as_the_usual_one() -> None:
+    """5 ms apart at 20 beats a minute: a lesson says 10 ms at the least."""
+    notes = [Note(0, Piece.SNARE, velocity=1), Note(176, Piece.SNARE, velocity=1)]
+    assert transcribe(DrumPart(Score.from_notes(notes, TempoMap.constant(20))), "x").lesson.score.is_grace.sum() <= 1
