@@ -124,7 +124,7 @@ def _written(music: _Music, meant: Meant) -> GridTimes:
         Score.from_array(moved[origin], music.tempo_map, end, score.title, score.loudness),
         origin,
         meant.swing,
-        _beat_ticks(music.tempo_map),
+        music.tempo_map.meter_at(0).usual_beat_ticks,
         _beats(spans, meant),
         meant.lean_s * _MS_PER_S,
         meant.spread_s * _MS_PER_S,
@@ -191,11 +191,3 @@ def _beats(spans: BeatSpans, meant: Meant) -> tuple[BeatCells, ...]:
     struck = np.unique(meant.span)
     columns = (spans.starts[struck], spans.lengths[struck], meant.cells[struck])
     return tuple(BeatCells(*row) for row in np.stack(columns, axis=1).tolist())
-
-
-def _beat_ticks(tempo_map: TempoMap) -> int:
-    """The beat that is counted: a dotted quarter in 6/8 and its like, else a quarter."""
-    meter = tempo_map.meter_at(0)
-    groups = set(meter.felt_groups)
-    is_compound = meter.unit == 8 and not meter.groups and groups == {3}
-    return 3 * PPQ // 2 if is_compound else PPQ

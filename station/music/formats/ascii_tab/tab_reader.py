@@ -21,6 +21,7 @@ from station.music.formats.ascii_tab.tab_lines import TabBar
 from station.music.formats.ascii_tab.tab_text import TabRow, TabSystem, TabText, tab_text
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
+from station.music.stroke_velocities import usual_velocity
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 
 MOST_BYTES = 1 << 20
@@ -29,8 +30,6 @@ _MOST_BARS = 2000
 _MOST_CELLS = 384
 """A bar; our choice."""
 _USUAL_BPM = 120.0
-_VELOCITY = {Dynamic.GHOST: 32, Dynamic.NORMAL: 80, Dynamic.ACCENT: 116}
-"""What a stroke of each dynamic sounds like in the station where nothing says more (docs/lesson-format.md)."""
 _IN_EIGHTHS_AND_OTHERS = {4: (4, 4), 6: (6, 8), 8: (4, 4), 9: (9, 8), 24: (4, 4), 32: (4, 4), 48: (4, 4), 64: (4, 4)}
 """Cells a bar that are no sixteenths: quarters, eighths, sextuplets, thirty-seconds (usual in tabs, our choice)."""
 
@@ -240,7 +239,7 @@ def _note(stroke: _Stroke, start: int, bar_ticks: int) -> Note:
         start + round(stroke.at * bar_ticks),
         stroke.piece,
         struck.zone,
-        _VELOCITY[struck.dynamic],
+        usual_velocity(struck.dynamic),
         struck.articulation,
         struck.dynamic,
         openness=struck.openness,

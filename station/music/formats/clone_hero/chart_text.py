@@ -58,11 +58,6 @@ class _Line:
         return [int(w) for w in words] if all(_is_number(w) for w in words) else []
 
 
-def is_chart(data: bytes) -> bool:
-    """Whether the text has one of a chart's sections."""
-    return any(f"[{name}]" in _text(data[:MOST_CHART_BYTES]) for name in ("Song", "SyncTrack", "ExpertDrums"))
-
-
 def read_chart(data: bytes, source: str) -> DrumChart:
     """The drums of a `.chart` file; raises `BadInput` with the line of a fault."""
     if data.count(b"\n") + data.count(b"\r") > 2 * _MOST_LINES:
