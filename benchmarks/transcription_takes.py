@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.lesson import Lesson
 from station.drills.reading.lesson_file import parse_lesson
-from station.drills.transcription.grid_times import GridTimes, quantised_times
-from station.drills.transcription.ornament_finder import found_ornaments
+from station.drills.transcription.strokes.ornament_finder import found_ornaments
+from station.drills.transcription.timing.grid_times import GridTimes, quantised_times
 from station.music.formats.format_table import read_part
 from station.music.score import Score
 

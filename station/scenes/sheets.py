@@ -8,7 +8,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Dynamic, Limb, Ornament
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
-from station.drills.transcription.grid_times import quantised_times
+from station.drills.transcription.timing.grid_times import quantised_times
 from station.drills.transcription.transcribe import transcribe
 from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart

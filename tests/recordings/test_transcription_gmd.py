@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from station.core.units import PPQ
-from station.drills.transcription.grid_times import GridTimes, quantised_times
-from station.drills.transcription.ornament_finder import found_ornaments
+from station.drills.transcription.strokes.ornament_finder import found_ornaments
+from station.drills.transcription.timing.grid_times import GridTimes, quantised_times
 from station.music.formats.format_table import read_part
 from station.music.score import Score
 from tests.real_data import real_files

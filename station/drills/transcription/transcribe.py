@@ -16,19 +16,19 @@ from station.drills.grid.lines_from_score import graces_of
 from station.drills.grid.stroke_settings import Velocities
 from station.drills.lesson import Lesson
 from station.drills.reading.lesson_file import parse_lesson
-from station.drills.transcription.diddle_finder import with_diddles
 from station.drills.transcription.form_finder import found_form
-from station.drills.transcription.grid_times import GridTimes, quantised_times
 from station.drills.transcription.import_remarks import remarks_on
-from station.drills.transcription.letters import as_letter, unified
-from station.drills.transcription.loudness_levels import with_dynamics
-from station.drills.transcription.meter_finder import with_heard_meter
-from station.drills.transcription.ornament_finder import FoundOrnaments, found_ornaments
-from station.drills.transcription.reach import within_reach
-from station.drills.transcription.ringing import with_lengths
-from station.drills.transcription.stated_swing import readable, stated_times
 from station.drills.transcription.sticking_proposal import with_sticking
-from station.drills.transcription.tempo_steps import steady
+from station.drills.transcription.strokes.diddle_finder import with_diddles
+from station.drills.transcription.strokes.letters import as_letter, unified
+from station.drills.transcription.strokes.loudness_levels import with_dynamics
+from station.drills.transcription.strokes.ornament_finder import FoundOrnaments, found_ornaments
+from station.drills.transcription.strokes.reach import within_reach
+from station.drills.transcription.strokes.ringing import with_lengths
+from station.drills.transcription.timing.grid_times import GridTimes, quantised_times
+from station.drills.transcription.timing.meter_finder import with_heard_meter
+from station.drills.transcription.timing.stated_swing import readable, stated_times
+from station.drills.transcription.timing.tempo_steps import steady
 from station.drills.writing.lesson_form import LessonForm
 from station.drills.writing.lesson_writer import write_lesson
 from station.music.drum_part import DrumPart, PartSection

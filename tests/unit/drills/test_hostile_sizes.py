@@ -8,8 +8,8 @@ import pytest
 from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.core.units import PPQ
+from station.drills.transcription.timing.whole_bars import at_bar_starts
 from station.drills.transcription.transcribe import transcribe
-from station.drills.transcription.whole_bars import at_bar_starts
 from station.music.drum_part import DrumPart
 from station.music.formats.ascii_tab.tab_writer import ASCII_TAB
 from station.music.formats.clone_hero.clone_hero_format import CHART

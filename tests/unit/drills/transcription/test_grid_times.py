@@ -7,7 +7,7 @@ import pytest
 
 from station.core.pieces import Articulation, Piece
 from station.core.units import NS_PER_S, PPQ
-from station.drills.transcription.grid_times import BeatCells, quantised_times
+from station.drills.transcription.timing.grid_times import BeatCells, quantised_times
 from station.music.score import Note, Score
 from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange, TempoMap

@@ -10,7 +10,7 @@ from functools import cached_property
 
 import numpy as np
 
-from station.drills.transcription.beat_spans import BeatSpans, Floats, Ints
+from station.drills.transcription.timing.beat_spans import BeatSpans, Floats, Ints
 
 SLIP = 3.0
 """Standard deviations from which an error counts as a slip."""

@@ -12,8 +12,8 @@ from itertools import product
 
 import numpy as np
 
-from station.drills.transcription.beat_spans import Floats
-from station.drills.transcription.take_feel import Feel, Take, clipped_errors, cost_of, settled
+from station.drills.transcription.timing.beat_spans import Floats
+from station.drills.transcription.timing.take_feel import Feel, Take, clipped_errors, cost_of, settled
 
 STROKES = 10
 """As many make a point of the drift: their mean is known to a third of their spread."""

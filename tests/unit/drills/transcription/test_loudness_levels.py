@@ -7,7 +7,7 @@ import pytest
 
 from station.core.pieces import Dynamic, Piece
 from station.drills.grid.stroke_settings import Velocities
-from station.drills.transcription.loudness_levels import levels_of, with_dynamics
+from station.drills.transcription.strokes.loudness_levels import levels_of, with_dynamics
 from station.music.score import Note
 
 G, N, A = Dynamic

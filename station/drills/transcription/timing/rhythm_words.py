@@ -13,9 +13,9 @@ from math import lgamma, log
 
 import numpy as np
 
-from station.drills.transcription.beat_spans import BeatSpans, Floats, Ints
-from station.drills.transcription.divisions import Division, cell_places, divisions_of
-from station.drills.transcription.take_fit import Strokes, collision_cost, nearest_cells
+from station.drills.transcription.timing.beat_spans import BeatSpans, Floats, Ints
+from station.drills.transcription.timing.divisions import Division, cell_places, divisions_of
+from station.drills.transcription.timing.take_fit import Strokes, collision_cost, nearest_cells
 from station.music.swing import Swing
 
 NEW_WORDS = 2.0

@@ -4,7 +4,7 @@ import pytest
 
 from station.core.pieces import Articulation, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.drills.transcription.ornament_finder import FoundOrnaments, found_ornaments
+from station.drills.transcription.strokes.ornament_finder import FoundOrnaments, found_ornaments
 from station.music.grace_strokes import Graces
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap

@@ -9,15 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
-from station.drills.transcription.beat_spans import BeatSpans, Ints, spans_of
-from station.drills.transcription.drift import steadied
-from station.drills.transcription.exact_grid import exact_meant
-from station.drills.transcription.meant import Meant, recut
-from station.drills.transcription.rhythm_words import MAX_WORDS, cells_of
-from station.drills.transcription.take_feel import Take, feel_of, take_of
-from station.drills.transcription.tempo_finder import at_heard_tempo
-from station.drills.transcription.triplet_swing import triplet_swing
-from station.drills.transcription.whole_bars import at_bar_starts
+from station.drills.transcription.timing.beat_spans import BeatSpans, Ints, spans_of
+from station.drills.transcription.timing.drift import steadied
+from station.drills.transcription.timing.exact_grid import exact_meant
+from station.drills.transcription.timing.meant import Meant, recut
+from station.drills.transcription.timing.rhythm_words import MAX_WORDS, cells_of
+from station.drills.transcription.timing.take_feel import Take, feel_of, take_of
+from station.drills.transcription.timing.tempo_finder import at_heard_tempo
+from station.drills.transcription.timing.triplet_swing import triplet_swing
+from station.drills.transcription.timing.whole_bars import at_bar_starts
 from station.music.score import Score
 from station.music.swing import STRAIGHT, TRIPLETS, Swing
 from station.music.tempo import TempoMap

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from station.core.units import PPQ
 from station.drills.grid.grid_writer import PLAIN_CELLS, TUPLET_CELLS
-from station.drills.transcription.beat_spans import BeatSpans, Floats, Ints
-from station.drills.transcription.divisions import cell_places
-from station.drills.transcription.meant import Meant
-from station.drills.transcription.take_feel import Feel, Take, prior_cost
+from station.drills.transcription.timing.beat_spans import BeatSpans, Floats, Ints
+from station.drills.transcription.timing.divisions import cell_places
+from station.drills.transcription.timing.meant import Meant
+from station.drills.transcription.timing.take_feel import Feel, Take, prior_cost
 from station.music.swing import MAX_RATIO, STRAIGHT, TRIPLETS, Swing
 
 TOLERANCE_TICKS = PPQ // 960

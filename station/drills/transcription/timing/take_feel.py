@@ -13,9 +13,9 @@ from types import MappingProxyType
 import numpy as np
 
 from station.core.units import NS_PER_S, PPQ
-from station.drills.transcription.beat_spans import BeatSpans, Floats, Ints
-from station.drills.transcription.rhythm_words import Reading, cells_of, played_places, read
-from station.drills.transcription.take_fit import SLIP, strokes_at
+from station.drills.transcription.timing.beat_spans import BeatSpans, Floats, Ints
+from station.drills.transcription.timing.rhythm_words import Reading, cells_of, played_places, read
+from station.drills.transcription.timing.take_fit import SLIP, strokes_at
 from station.music.swing import STRAIGHT, TRIPLETS, Swing
 
 USUAL_SPREAD_S = 0.015

@@ -9,7 +9,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.drills.lesson import Lesson
 from station.drills.library import find_lesson
-from station.drills.transcription.take_feel import mean_error
+from station.drills.transcription.timing.take_feel import mean_error
 from station.drills.transcription.transcribe import transcribe
 from station.drills.writing.lesson_part import part_of
 from station.drills.writing.score_difference import score_difference

@@ -12,7 +12,7 @@ from types import MappingProxyType
 import numpy as np
 
 from station.core.units import PPQ
-from station.drills.transcription.beat_spans import BeatSpans, Floats, Ints
+from station.drills.transcription.timing.beat_spans import BeatSpans, Floats, Ints
 from station.music.swing import TRIPLETS, Swing
 
 MIN_BEATS = 3

@@ -8,7 +8,7 @@ from bisect import bisect_right
 from dataclasses import replace
 
 from station.drills.grid.cell_strokes import BarClock
-from station.drills.transcription.grid_times import GridTimes, quantised_times
+from station.drills.transcription.timing.grid_times import GridTimes, quantised_times
 from station.music.score import Score
 from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoMap

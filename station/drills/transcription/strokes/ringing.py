@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from station.core.pieces import Articulation, Piece
 from station.core.units import PPQ
-from station.drills.transcription.grid_times import BeatCells, GridTimes
-from station.drills.transcription.reach import Reach
+from station.drills.transcription.strokes.reach import Reach
+from station.drills.transcription.timing.grid_times import BeatCells, GridTimes
 from station.music.score import Note
 
 SHORTEST_BUZZ_TICKS = PPQ // 4

@@ -11,7 +11,7 @@ from itertools import groupby
 
 from station.core.pieces import HALF_OPEN, Articulation, Limb, Ornament, Piece
 from station.drills.grid.tab_symbols import BEYOND_SYMBOLS, FOOT_OF, family_of
-from station.drills.transcription.two_feet import with_both_feet
+from station.drills.transcription.strokes.two_feet import with_both_feet
 from station.motion.feasibility.playable import MAX_HANDS, unplayable_rows
 from station.music.grace_strokes import Graces, with_graces
 from station.music.score import Note, Score

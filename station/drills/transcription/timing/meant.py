@@ -4,9 +4,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from station.drills.transcription.beat_spans import BeatSpans, Floats, Ints
-from station.drills.transcription.divisions import cell_places
-from station.drills.transcription.rhythm_words import played_places
+from station.drills.transcription.timing.beat_spans import BeatSpans, Floats, Ints
+from station.drills.transcription.timing.divisions import cell_places
+from station.drills.transcription.timing.rhythm_words import played_places
 from station.music.swing import Swing
 
 _SAME = 1e-6

@@ -12,8 +12,8 @@ from math import log2
 import numpy as np
 
 from station.core.units import NS_PER_S, PPQ
-from station.drills.transcription.beat_spans import Floats, spans_of
-from station.drills.transcription.take_feel import Feel, Take, cost_of, settled, take_of
+from station.drills.transcription.timing.beat_spans import Floats, spans_of
+from station.drills.transcription.timing.take_feel import Feel, Take, cost_of, settled, take_of
 from station.music.score import Score
 from station.music.swing import Swing
 from station.music.tempo import DEFAULT_US_PER_QUARTER, TempoChange, TempoMap

@@ -1,0 +1,1 @@
+"""What each stroke of a take is: ornament, dynamic, letter, limb, length."""
