@@ -10,7 +10,6 @@ from station.core.errors import BadInput
 from station.core.pieces import HAND_PIECES, Limb
 from station.core.units import PPQ
 from station.music.formats.music_xml.note_reading import (
-    SHARE_OF_NORMAL,
     NoteReader,
     velocity_of,
 )
@@ -19,6 +18,7 @@ from station.music.formats.music_xml.written_bars import STOP, LostMarks, Writte
 from station.music.formats.playing_order import MOST_BARS
 from station.music.formats.safe_xml import text_of
 from station.music.loudness_marks import FADE, GROW
+from station.music.stroke_velocities import shaded
 from station.music.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
 from station.music.tempo import MeterChange
 
@@ -122,7 +122,7 @@ class _BarContent:
         if self._reader._note_count > MOST_NOTES:
             raise self._fault(f"more than {MOST_NOTES:,} notes")
         found = self._reader._notes.read(note, start, length, self._bar.name)
-        found.usual_velocity = min(max(round(self._reader._base * SHARE_OF_NORMAL[found.dynamic]), 1), 127)
+        found.usual_velocity = shaded(self._reader._base, found.dynamic)
         waiting = self._reader._graces
         if is_grace:
             waiting.setdefault(found.voice, []).append(found)
