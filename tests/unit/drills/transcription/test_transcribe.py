@@ -40,7 +40,7 @@ def through_midi(lesson: Lesson) -> Lesson:
     return transcribe(MIDI.read(written(part_of(lesson)).data, "x.mid"), "x").lesson
 
 
-# --- the beat that is counted -------------------------------------------------------------------------------------------
+# --- the beat that is counted -----------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(
