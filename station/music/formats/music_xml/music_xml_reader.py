@@ -9,7 +9,8 @@ from xml.etree.ElementTree import Element
 from station.core.errors import BadInput
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart, PartSection
-from station.music.formats.music_xml.bar_reading import VELOCITY_OF_MARK, BarReader
+from station.music.formats.music_xml.bar_reading import BarReader
+from station.music.formats.music_xml.direction_reading import VELOCITY_OF_MARK
 from station.music.formats.music_xml.mxl_container import score_text
 from station.music.formats.music_xml.note_reading import NoteReader
 from station.music.formats.music_xml.part_choice import FilePart, drum_parts, parts_of
