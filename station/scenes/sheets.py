@@ -16,7 +16,7 @@ from station.music.score import Score
 from station.music.swing import triplets_spelled_out
 from station.render.files.pdf_file import pdf
 from station.render.notation.page.sheet import PAPERS, SheetWords, sheet
-from station.scenes.section_names import section_names
+from station.scenes.score_words import section_names
 
 Bars = tuple[int, int]
 """First and last bar, from 0."""
