@@ -92,7 +92,7 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     lesson = Lesson(
         name,
         _printable(part.score.title) or name,
-        Score.from_notes(rows, score.tempo_map, score.end_tick),
+        Score.from_notes(rows, score.tempo_map, score.end_tick, beyond=beyond),
         author=_printable(part.author),
         about=_printable(part.about),
         tags=_TAGS,
@@ -100,7 +100,6 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         swing=part.swing if times.swing.ratio == STRAIGHT and not times.spread_ms else times.swing,
         beat_ticks=replace(part, score=score).beat_ticks,
         velocities=velocities,
-        beyond=Score.from_notes(beyond, score.tempo_map, score.end_tick).notes,
     )
     form = found_form(lesson, part.sections)
     lesson = with_sticking(replace(lesson, level=_level(lesson, form)), form)
