@@ -11,6 +11,7 @@ Rows are ordered by tick, then grace strokes first, then piece; `Score.notes` is
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
+from math import isnan
 from operator import attrgetter
 from types import MappingProxyType
 
@@ -87,7 +88,7 @@ def _notes(rows: NDArray[np.void]) -> Iterator[Note]:
     """The rows (n,) as notes, column by column: so it costs a tenth of asking each row for each field."""
     columns = {name: rows[name].tolist() for name in _FIELDS}
     columns |= {name: [words[number] for number in columns[name]] for name, words in _WORDS.items()}
-    columns["openness"] = [None if openness != openness else openness for openness in columns["openness"]]
+    columns["openness"] = [None if isnan(openness) else openness for openness in columns["openness"]]
     return map(Note, *columns.values())
 
 
