@@ -17,8 +17,8 @@ from typing import assert_never
 
 from station.app.actions.file_actions import CancelFilm, Export, ExportKind, FileAction, FilmTake
 from station.app.view_settings import ViewSettings
+from station.core.disk.files import growing, write_whole
 from station.core.errors import DeviceError, StationError
-from station.core.files import growing, write_whole
 from station.core.settings import Settings
 from station.drills.lesson import BarCue, Lesson
 from station.drills.writing.lesson_text import show, with_value

@@ -9,7 +9,7 @@ from dataclasses import asdict
 
 from station.core.errors import BadInput
 from station.core.pieces import word
-from station.core.toml_write import toml_text
+from station.core.toml.toml_write import toml_text
 from station.core.units import PPQ
 from station.drills.grid.grid_writer import GridSetting, LineText, frame_of, with_repeats, write_lines
 from station.drills.grid.line_group import MAX_CELLS
