@@ -25,6 +25,7 @@ from station.drills.transcription.strokes.loudness_levels import with_dynamics
 from station.drills.transcription.strokes.ornament_finder import FoundOrnaments, found_ornaments
 from station.drills.transcription.strokes.reach import within_reach
 from station.drills.transcription.strokes.ringing import with_lengths
+from station.drills.transcription.strokes.steady_dynamics import steady_dynamics
 from station.drills.transcription.timing.grid_times import GridTimes, quantised_times
 from station.drills.transcription.timing.meter_finder import with_heard_meter
 from station.drills.transcription.timing.stated_swing import readable, stated_times
@@ -84,7 +85,9 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         times = times.bars(int(times.score.bar[0]), int(times.score.bar[-1]))
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
     strokes, velocities = with_dynamics([as_letter(note) for note in score])
-    strokes = unified(strokes) if times.spread_ms else strokes
+    if times.spread_ms:
+        heard = score.notes["velocity"].tolist()
+        strokes = unified(steady_dynamics(strokes, heard, velocities, score.tempo_map))
     strokes = [_written(note, velocities) for note in strokes]
     reach = within_reach(strokes, ornaments.graces, score.tempo_map, score.end_tick)
     notes = with_diddles(with_lengths(reach, _ends(score, part), times), reach.beyond, score.tempo_map, velocities)
