@@ -12,6 +12,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from statistics import fmean
 from string import ascii_uppercase
 
 from station.drills.grid.grid_reader import MAX_TIMES
@@ -32,8 +33,9 @@ _GRID, _ENTRY = 2.0, 0.3
 """What a grid's head and an entry of the form cost on the page, in bars that are written out (our choice)."""
 _WIDE = 4
 """Bars beside each other that a page has room for: four of sixteenths are 90 characters. Further ones cost twice."""
-_ALIKE = 0.75
-"""Grids that share so many of their strokes are one idea and its variation (our choice)."""
+_ALIKE = 0.7
+"""Grids that share so many of their strokes are one idea and its variation: three bars of four, and a fill (our
+choice)."""
 _FILL, _PICK_UP = "fill", "pick-up"
 _LONGEST_FILL = 2
 
@@ -243,20 +245,18 @@ def _models(blocks: Sequence[_Block], lesson: Lesson) -> list[_Model | None]:
 
 
 _Marks = Mapping[str, object]
-_Strokes = frozenset[tuple[int, int, int]]
-"""Bar of the grid, piece, and tick in the bar, of each stroke."""
+_Strokes = tuple[frozenset[tuple[int, int]], ...]
+"""Piece, and tick in the bar, of each stroke of each bar."""
 
 
 def _strokes(by_bar: Mapping[int, Sequence[WrittenStroke]], block: _Block) -> _Strokes:
-    inside = [stroke for bar in range(block.first, block.first + block.bars) for stroke in by_bar.get(bar, ())]
-    return frozenset(
-        (stroke.bar - block.first, int(stroke.note.piece), stroke.note.tick - stroke.start) for stroke in inside
-    )
+    bars = (by_bar.get(bar, ()) for bar in range(block.first, block.first + block.bars))
+    return tuple(frozenset((int(s.note.piece), s.note.tick - s.start) for s in bar) for bar in bars)
 
 
 def _share(model: _Strokes, own: _Strokes) -> float:
-    """How many of the strokes of both are the same (Jaccard 1901)."""
-    return len(model & own) / max(len(model | own), 1)
+    """How many of the strokes of both are the same, bar by bar (Jaccard 1901), in the mean."""
+    return fmean(len(a & b) / len(a | b) if a | b else 1.0 for a, b in zip(model, own, strict=True))
 
 
 def _marks(lines: Sequence[LineText]) -> _Marks:
