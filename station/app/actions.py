@@ -6,7 +6,6 @@ player, `MappingAction` the editor of kits, `StickAction` that of sticks, `Calib
 """
 
 from dataclasses import dataclass
-from enum import StrEnum
 from pathlib import Path
 
 from station.app.first_start import FirstAnswers
@@ -543,21 +542,18 @@ EquipmentAction = MappingAction | CalibrationAction | StickAction
 # --- files ------------------------------------------------------------------------------------------------------------
 
 
-class ExportKind(StrEnum):
-    """What the chosen bars are written as."""
+@dataclass(frozen=True, slots=True)
+class Export:
+    """Write the chosen bars to a file that ends in `ending` (".mid", ".pdf", ".mp4" …), which says what it is."""
 
-    MIDI = "midi"
-    LESSON = "lesson"
-    SHEET = "sheet"
-    FILM = "film"
-    LOOP = "loop"
+    ending: str
 
 
 @dataclass(frozen=True, slots=True)
-class Export:
-    """Write the chosen bars to a file."""
+class ExportTake:
+    """Write what was played as MIDI beside its capture."""
 
-    kind: ExportKind
+    capture: Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -572,7 +568,22 @@ class CancelFilm:
     """Give the video up."""
 
 
-FileAction = Export | FilmTake | CancelFilm
+FileAction = Export | ExportTake | FilmTake | CancelFilm
+
+
+@dataclass(frozen=True, slots=True)
+class Import:
+    """Make a lesson of a music file, a take, a song's folder or a link, or keep a lesson file, and choose it."""
+
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class CancelImport:
+    """Import nothing of what is being read and waits."""
+
+
+ImportAction = Import | CancelImport
 
 # --- a motion and its phase -------------------------------------------------------------------------------------------
 
@@ -618,5 +629,6 @@ Action = (
     | SettingsAction
     | EquipmentAction
     | FileAction
+    | ImportAction
     | PhaseAction
 )

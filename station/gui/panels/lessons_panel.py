@@ -10,7 +10,7 @@ from itertools import groupby
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, Begin, FilmTake, JudgeAt, Listen, Select, TapBeat
+from station.app.actions import Action, Begin, FilmTake, Import, JudgeAt, Listen, Select, TapBeat
 from station.app.room_state import LessonCard, RoomState
 from station.app.selection import MAX_LOOPS, LessonGroup, Selection
 from station.app.window_state import State
@@ -26,6 +26,8 @@ ADAPT_LABEL = "the tempo follows me"
 FREE_LABEL = "Just play##free"
 LISTEN_LABEL, STOP_LISTENING = "Listen back##listen", "Stop listening##listen"
 FILM_LABEL = "Video of it##film"
+LESSON_LABEL = "Lesson of it##take"
+IMPORT_LABEL = "Import…##open-import"
 TAP_LABEL = "Tap##tap"
 
 
@@ -46,8 +48,8 @@ all (our choice)."""
 class LessonsPanel:
     """The list, the chosen lesson's words, its tempo and passes, and the button that starts it."""
 
-    def __init__(self, dispatch: Callable[[Action], None]) -> None:
-        self._dispatch = dispatch
+    def __init__(self, dispatch: Callable[[Action], None], open_import: Callable[[], None]) -> None:
+        self._dispatch, self._open_import = dispatch, open_import
         self._is_low = False
         self._below = self._about = 0.0  # pixels that the part under the list, and its words, took in the last frame
 
@@ -60,11 +62,7 @@ class LessonsPanel:
             self._start_button(selection)
         elif height >= theme.points(_HIGH):
             theme.heading("Lessons")
-        imgui.set_next_item_width(-1)
-        hint = theme.one_line("Search: a word of title, level or tag", imgui.calc_item_width() - theme.points(24))
-        imgui.set_next_item_width(-1)
-        selection = replace(selection, search=imgui.input_text_with_hint("##search", hint, selection.search)[1])
-        theme.tooltip("Shows the lessons that contain every word")
+        selection = replace(selection, search=self._search(selection.search))
         selection = course_picker(selection)
         room = imgui.get_content_region_avail().y
         least = _ROWS * imgui.get_text_line_height_with_spacing()
@@ -82,6 +80,21 @@ class LessonsPanel:
         self._below = imgui.get_cursor_pos_y() - top + imgui.get_style().item_spacing.y
         if selection != before:
             self._dispatch(Select(selection))
+
+    def _search(self, words: str) -> str:
+        """The words that are searched for, and beside them what brings more lessons."""
+        spacing = imgui.get_style().item_spacing.x
+        beside = imgui.calc_text_size(IMPORT_LABEL, True).x + 2 * imgui.get_style().frame_padding.x + spacing
+        imgui.set_next_item_width(-beside)
+        hint = theme.one_line("Search: a word of title, level or tag", imgui.calc_item_width() - theme.points(24))
+        imgui.set_next_item_width(-beside)
+        _, words = imgui.input_text_with_hint("##search", hint, words)
+        theme.tooltip("Shows the lessons that contain every word")
+        imgui.same_line()
+        if imgui.button(IMPORT_LABEL):
+            self._open_import()
+        theme.tooltip("Make a lesson of a music file, a song's folder, a GrooveScribe link or a take; or drop it here")
+        return str(words)
 
     def _list(self, selection: Selection) -> Selection:
         pressed, _ = imgui.selectable(FREE_LABEL, selection.free)
@@ -219,10 +232,15 @@ class LessonsPanel:
         imgui.end_disabled()
         theme.tooltip("The last take from its recording, through the station's own drums")
         imgui.begin_disabled(room.take is None)
-        if imgui.button(FILM_LABEL, imgui.ImVec2(-1, theme.points(38))) and room.take is not None:
+        half = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
+        if imgui.button(FILM_LABEL, imgui.ImVec2(half, theme.points(38))) and room.take is not None:
             self._dispatch(FilmTake(room.take))
-        imgui.end_disabled()
         theme.tooltip("The drummer plays your last take, as MP4 beside its recording; it is filmed while you go on")
+        imgui.same_line()
+        if imgui.button(LESSON_LABEL, imgui.ImVec2(half, theme.points(38))) and room.take is not None:
+            self._dispatch(Import(str(room.take)))
+        theme.tooltip("Your last take on the grid, as a lesson of your own; Export has it as MIDI, stroke by stroke")
+        imgui.end_disabled()
         return selection
 
     def _tempo(self, selection: Selection) -> Selection:

@@ -14,7 +14,6 @@ from station.app.actions import (
     Dismiss,
     EndSession,
     Export,
-    ExportKind,
     FinishFirstStart,
     HearBar,
     JudgeAt,
@@ -29,6 +28,7 @@ from station.app.actions import (
     Veto,
 )
 from station.app.controller import Controller
+from station.app.export import LESSON
 from station.app.first_start import FirstAnswers
 from station.app.room_state import Stage
 from station.app.sessions.session_control import LIVELY_NS, Launch
@@ -414,7 +414,7 @@ def test_who_practises_for_this_call_alone_has_what_is_exported(tmp_path: Path) 
     """`--student Ann` over a file that says Bob."""
     path = save_settings(Settings(sessions=str(tmp_path), student="Bob"), tmp_path / "settings.toml")
     station = station_on([Line()], SettingsStore(path, {"student": "Ann"}), Launch(PLAN))
-    station.dispatch(Export(ExportKind.LESSON))
+    station.dispatch(Export(LESSON))
     assert [path.relative_to(tmp_path).parts[0] for path in tmp_path.glob("*/take-along/*")] == ["Ann"]
 
 
