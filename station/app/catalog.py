@@ -35,11 +35,14 @@ class Catalog:
         return card(row_of(self._first))
 
     def cards(self) -> Sequence[LessonCard]:
-        """Every lesson that can be chosen, in the order in which they are shown; the first call takes a moment."""
+        """Every lesson that can be chosen, in the order in which they are shown, own ones first.
+
+        The first call takes a moment.
+        """
         if self._cards is None:
             rows = {row.name: row for row in lesson_rows()}
             self._own = own_lessons(self.courses(), self._store.now.own_lessons_dir, rows)
-            rows |= {name: row_of(lesson) for name, lesson in self._own.items()}
+            rows = {name: row_of(lesson) for name, lesson in self._own.items()} | rows
             kind = rows[self._first.name].folder if self._first.name in rows else ""
             rows[self._first.name] = row_of(self._first, kind)
             self._cards = [card(row) for row in rows.values()]
@@ -50,7 +53,7 @@ class Catalog:
         added, others = card(row_of(lesson)), [each for each in self.cards() if each.name != lesson.name]
         self._own[lesson.name] = lesson
         self._first = lesson if lesson.name == self._first.name else self._first
-        self._cards = [*others, added]
+        self._cards = [added, *others]
         return added
 
     def courses(self) -> Sequence[Course]:

@@ -51,6 +51,7 @@ class LessonsPanel:
     def __init__(self, dispatch: Callable[[Action], None], open_import: Callable[[], None]) -> None:
         self._dispatch, self._open_import = dispatch, open_import
         self._is_low = False
+        self._chosen_last, self._is_chosen_anew = "", False
         self._below = self._about = 0.0  # pixels that the part under the list, and its words, took in the last frame
 
     def gui(self, state: State) -> None:
@@ -64,6 +65,8 @@ class LessonsPanel:
             theme.heading("Lessons")
         selection = replace(selection, search=self._search(selection.search))
         selection = course_picker(selection)
+        chosen = "" if selection.card is None else selection.card.name
+        self._is_chosen_anew, self._chosen_last = chosen != self._chosen_last, chosen
         room = imgui.get_content_region_avail().y
         least = _ROWS * imgui.get_text_line_height_with_spacing()
         lines = int((room - least - (self._below - self._about)) / imgui.get_text_line_height())
@@ -125,12 +128,11 @@ class LessonsPanel:
         rows = [self._row(selection, card, f"{k}  {card.title}") for k, card in enumerate(group.cards, before + 1)]
         return next((card for card in rows if card is not None), None)
 
-    @staticmethod
-    def _kind(selection: Selection, group: LessonGroup) -> bool:
+    def _kind(self, selection: Selection, group: LessonGroup) -> bool:
         """The heading of a kind, which opens and closes; returns whether it is open."""
         has_chosen = selection.card is not None and any(card.name == selection.card.name for card in group.cards)
         if has_chosen:
-            imgui.set_next_item_open(True, imgui.Cond_.once)
+            imgui.set_next_item_open(True, imgui.Cond_.always if self._is_chosen_anew else imgui.Cond_.once)
         counted = f"{selection.mastered(group.cards)} of {len(group.cards)}"
         is_open = imgui.collapsing_header(f"{group.title} · {counted}###kind-{group.title}")
         theme.tooltip(f"{counted} lessons of this kind are mastered")
@@ -149,15 +151,16 @@ class LessonsPanel:
         rows = [self._row(selection, card, card.title) for card in cards]
         return next((card for card in rows if card is not None), None)
 
-    @staticmethod
-    def _row(selection: Selection, card: LessonCard, words: str) -> LessonCard | None:
+    def _row(self, selection: Selection, card: LessonCard, words: str) -> LessonCard | None:
         """One line of the list; returns its lesson where it was pressed."""
         chosen = not selection.free and selection.card is not None and selection.card.name == card.name
         progress, today = selection.progress.get(card.name), date.today()
         room = imgui.get_content_region_avail().x - (0.0 if progress is None else mark_width())
         pressed, _ = imgui.selectable(f"{theme.one_line(words, room)}###{card.name}", chosen)
+        if chosen and self._is_chosen_anew and not imgui.is_item_visible():
+            imgui.set_scroll_here_y()
         mark(progress, today)
-        facts = f"{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm"
+        facts = f"{_bars(card)}, {card.meter}, {card.beats_a_minute:g} bpm"
         far = [] if progress is None else [progress.words(today)]
         theme.tooltip("\n".join([card.title, card.about, facts, *selection.first_words(card), *far]))
         return card if pressed else None
@@ -166,7 +169,7 @@ class LessonsPanel:
         """The lesson, so many `lines` of what it is about, and how to practise it; returns how it is chosen to be."""
         theme.heading(card.title, 20)
         author = f" · {card.author}" if card.author else ""
-        theme.soft(f"{card.bars} bars · {card.meter} · {card.beats_a_minute:g} bpm{author}")
+        theme.soft(f"{_bars(card)} · {card.meter} · {card.beats_a_minute:g} bpm{author}")
         for line in selection.first_words(card)[: _MOST_BEFORE if lines > 0 else 1]:
             theme.soft(line)
             theme.tooltip("What should come before; nothing is forbidden")
@@ -255,3 +258,7 @@ class LessonsPanel:
             self._dispatch(TapBeat(monotonic_ns()))
         theme.tooltip("Click on every beat, twice or more: the tempo follows")
         return selection
+
+
+def _bars(card: LessonCard) -> str:
+    return f"{card.bars} bar{'' if card.bars == 1 else 's'}"
