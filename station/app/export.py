@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import assert_never
 
-from station.app.actions import CancelFilm, Export, ExportTake, FileAction, FilmTake
+from station.app.actions.file_actions import CancelFilm, Export, ExportTake, FileAction, FilmTake
 from station.app.music_files.named_parts import load_part
 from station.app.music_files.part_export import bars_of, write_part
 from station.app.view_settings import ViewSettings

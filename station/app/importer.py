@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import assert_never
 
-from station.app.actions import CancelImport, Import, ImportAction
+from station.app.actions.file_actions import CancelImport, Import, ImportAction
 from station.app.music_files.lesson_import import KeptLesson, keep_import
 from station.app.settings_store import SettingsStore
 from station.app.worker_process import StartWork, Work, WorkerProcess

@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, CancelFilm, Export, ExportTake
+from station.app.actions.action import Action
+from station.app.actions.file_actions import CancelFilm, Export, ExportTake
 from station.app.export import FILM, LESSON, LOOP, SHEET, ExportedFile
 from station.app.music_files.part_export import WRITTEN
 from station.app.window_state import State

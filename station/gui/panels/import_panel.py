@@ -6,7 +6,8 @@ from urllib.parse import unquote, urlsplit
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, CancelImport, Import
+from station.app.actions.action import Action
+from station.app.actions.file_actions import CancelImport, Import
 from station.app.importer import ImportView
 from station.app.music_files.lesson_import import KeptLesson
 from station.gui import theme

@@ -8,25 +8,21 @@ from pathlib import Path
 
 import pytest
 
-from station.app.actions import (
+from station.app.actions.action import Show
+from station.app.actions.file_actions import Export
+from station.app.actions.practice_actions import (
     Begin,
     ChooseBars,
     Dismiss,
     EndSession,
-    Export,
-    FinishFirstStart,
     HearBar,
     JudgeAt,
-    LearnPause,
     Leave,
-    PutUp,
     Select,
-    SetPreferences,
-    SetView,
-    Show,
     StrikeKey,
     Veto,
 )
+from station.app.actions.settings_actions import FinishFirstStart, LearnPause, PutUp, SetPreferences, SetView
 from station.app.controller import Controller
 from station.app.export import LESSON
 from station.app.first_start import FirstAnswers

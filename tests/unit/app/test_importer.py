@@ -3,7 +3,9 @@
 import time
 from pathlib import Path
 
-from station.app.actions import Begin, CancelImport, Import, Show
+from station.app.actions.action import Show
+from station.app.actions.file_actions import CancelImport, Import
+from station.app.actions.practice_actions import Begin
 from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
 from station.app.importer import Importer
