@@ -21,8 +21,9 @@ _MOST_OF_A_NAME = 999
 
 @dataclass(frozen=True, slots=True)
 class ImportedLesson:
-    """The `text` of a lesson, and what was done to the music and what is lost of it, a sentence each."""
+    """The `title` and `text` of a lesson, and what was done to the music and what is lost of it, a sentence each."""
 
+    title: str
     text: str
     remarks: tuple[str, ...] = ()
     lost: tuple[str, ...] = ()
@@ -49,7 +50,7 @@ def import_lesson(source: str, name: str) -> ImportedLesson:
     part = load_part(source)
     title = part.score.title or (name if is_groove_url(source) else _own_name(source))
     found = transcribe(replace(part, score=replace(part.score, title=title)), name, source)
-    return ImportedLesson(found.lesson.text, found.remarks, part.lost)
+    return ImportedLesson(found.lesson.title, found.lesson.text, found.remarks, part.lost)
 
 
 def keep_import(source: str, folder: Path) -> KeptLesson:
@@ -57,10 +58,12 @@ def keep_import(source: str, folder: Path) -> KeptLesson:
 
     It gets a name that no other lesson has; the same again is not kept twice. Raises `StationError`.
     """
-    name = _LINK_NAME if is_groove_url(source) else _file_name(source)
-    is_written = Path(source).suffix.lower() == ENDING
-    made = ImportedLesson(read_lesson(existing(source)).text) if is_written else import_lesson(source, name)
-    path, is_new = _place(folder, name, made.text.encode())
+    if Path(source).suffix.lower() == ENDING:
+        written = read_lesson(existing(source))
+        made = ImportedLesson(written.title, written.text)
+    else:
+        made = import_lesson(source, _LINK_NAME if is_groove_url(source) else _own_name(source))
+    path, is_new = _place(folder, _file_name(source, made.title), made.text.encode())
     if is_new:
         write_whole(path, made.text.encode())
     lesson = read_lesson(path)
@@ -75,9 +78,10 @@ def _own_name(source: str) -> str:
     return path.name if path.is_dir() else path.stem
 
 
-def _file_name(source: str) -> str:
-    """The same with single hyphens for what no file system likes."""
-    return "-".join(filter(None, folder_name(_own_name(source)).split("-")))
+def _file_name(source: str, title: str) -> str:
+    """The same with single hyphens for what no file system likes; a link's lesson is called by its title."""
+    name = title.lower() if is_groove_url(source) else _own_name(source)
+    return "-".join(filter(None, folder_name(name).split("-")))
 
 
 def _place(folder: Path, name: str, text: bytes) -> tuple[Path, bool]:

@@ -74,8 +74,10 @@ def test_a_link_and_a_song_s_folder_are_imported(tmp_path: Path) -> None:
     song.mkdir()
     (song / "notes.chart").write_text(CHART)
     by_link = keep_import(LINK, tmp_path / "lessons")
+    by_title = keep_import(f"{LINK}&Title=Half-time%20shuffle", tmp_path / "lessons")
     by_folder = keep_import(str(song), tmp_path / "lessons")
     assert (by_link.path.stem, by_link.bars) == ("groove", 1)
+    assert by_title.path.stem == "half-time-shuffle"
     assert (by_folder.path.stem, by_folder.title) == ("Band-Song", "Band - Song")
     assert [note.piece for note in load_part(str(song)).score] == [Piece.KICK, Piece.SNARE] * 2
     assert not is_lesson(str(song))
