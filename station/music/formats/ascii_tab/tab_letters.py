@@ -39,17 +39,19 @@ def _many(names: str, meaning: LineMeaning) -> dict[str, LineMeaning]:
 
 LABELS: Mapping[str, LineMeaning] = MappingProxyType(
     {
-        **_many("bd b kd k bass bassdrum kick kickdrum", LineMeaning(Piece.KICK)),
+        **_many("bd b kd k bs ba bass bassdrum kick kickdrum", LineMeaning(Piece.KICK)),
         **_many("sd s sn snare snaredrum", LineMeaning(Piece.SNARE)),
-        **_many("ss cs rc xs sidestick crossstick rimclick", LineMeaning(Piece.SNARE, Articulation.CROSS_STICK)),
-        **_many("hh h hat hihat hc ch closedhihat", LineMeaning(Piece.HIHAT)),
-        **_many("ho oh openhihat", LineMeaning(Piece.HIHAT, openness=OPEN)),
-        **_many("hf fh hp ph pf hhf pedal foothihat hihatpedal", LineMeaning(Piece.HIHAT_PEDAL)),
+        **_many(
+            "ss cs rc xs stick xstick sidestick crossstick rimclick", LineMeaning(Piece.SNARE, Articulation.CROSS_STICK)
+        ),
+        **_many("hh h hat hihat hc ch hhc chh closedhihat", LineMeaning(Piece.HIHAT)),
+        **_many("ho oh hho ohh openhihat", LineMeaning(Piece.HIHAT, openness=OPEN)),
+        **_many("hf fh hp ph pf hhf hhp pedal foothihat hihatpedal", LineMeaning(Piece.HIHAT_PEDAL)),
         **_many("rd r ri rc1 rcy ride ridecymbal", LineMeaning(Piece.RIDE)),
         **_many("rb bell ridebell", LineMeaning(Piece.RIDE, zone=Zone.BELL)),
         **_many("r2 ride2", LineMeaning(Piece.RIDE_2)),
-        **_many("cc c cr c1 cy crash crash1 crashcymbal lc", LineMeaning(Piece.CRASH_1)),
-        **_many("c2 crash2 rcr", LineMeaning(Piece.CRASH_2)),
+        **_many("cc c cr c1 cr1 cy crash crash1 crashcymbal lc", LineMeaning(Piece.CRASH_1)),
+        **_many("c2 cr2 cc2 crash2 rcr", LineMeaning(Piece.CRASH_2)),
         **_many("sp spl sc splash", LineMeaning(Piece.SPLASH)),
         **_many("cn chi chn china", LineMeaning(Piece.CHINA)),
         **_many("t1 t ht st tom tom1 hightom hitom", LineMeaning(Piece.TOM_1)),

@@ -1,7 +1,8 @@
 """One line of tablature: its label, wherever people put it, and the cells of its bars.
 
-`HH|x-x-|` and `HH: x-x-`, but also `|x-x-| HH` with the label behind, and `Hi-hat  x-x-x-x-` without a bar line. Cells
-may be parted by blanks to be read, `x-x- x-x-`; where a line has no other rest, its blanks are the rests.
+`HH|x-x-|` and `HH: x-x-`, but also `HH-x-x-|` with a dash for the first bar line, `|x-x-| HH` with the label behind,
+and `Hi-hat  x-x-x-x-` without a bar line. Cells may be parted by blanks to be read, `x-x- x-x-`; where a line has no
+other rest, its blanks are the rests.
 """
 
 import re
@@ -13,6 +14,7 @@ from station.music.formats.ascii_tab.tab_letters import LABELS, RESTS, TAB_CHARA
 
 _LABEL = r"[A-Za-z][A-Za-z0-9 /_.-]{0,13}?"
 _BEFORE = re.compile(rf"\s*({_LABEL})\s*[|:]{{1,3}}(.*)$")
+_DASHED = re.compile(rf"\s*({_LABEL})-(?=[^ |:]+\|)")
 _BEHIND = re.compile(rf"\s*[|:]{{1,2}}(.*)\|[|:]?\s*({_LABEL})\s*$")
 _WITHOUT_BAR_LINES = re.compile(rf"\s*({_LABEL})\s+((?=[^ ]*-)[^ |:]{{6,}})\s*$")
 _KNOWN = 0.8
@@ -51,12 +53,21 @@ class FoundLine:
 def found_line(line: str) -> FoundLine | None:
     """The label and the cells of a line in any of the shapes, whether or not its label is known."""
     if "|" in line:
+        if (dashed := _DASHED.match(line)) and label_key(dashed[1]) in LABELS:
+            start = dashed.end() - _is_a_rest(line, dashed.end())
+            return FoundLine(dashed[1], start, _end_of_cells(line, start))
         if found := _BEFORE.match(line):
             return FoundLine(found[1], found.start(2), _end_of_cells(line, found.start(2)))
         behind = _BEHIND.match(line)
         return FoundLine(behind[2], behind.start(1), behind.end(1)) if behind else None
     bare = _WITHOUT_BAR_LINES.match(line)
     return FoundLine(bare[1], bare.start(2), bare.end(2)) if bare else None
+
+
+def _is_a_rest(line: str, start: int) -> bool:
+    """Whether the dash between a label and the cells from `start` is one of them: all bars then are as long with it."""
+    first, *others = line[start:].rstrip(" |").split("|")
+    return bool(others) and all(len(bar) == len(first) + 1 for bar in others)
 
 
 def tab_line(line: str) -> FoundLine | None:
