@@ -272,6 +272,13 @@ def test_a_repeated_bar_sounds() -> None:
     assert _struck(part) == [(0, Piece.KICK), (4, Piece.KICK)]
 
 
+def test_a_slash_is_no_stroke_but_where_an_instrument_says_which() -> None:
+    slash = "<notehead>slash</notehead>"
+    part = _read(_note("nobody", 24, slash) + _note("kick", 24, slash))
+    assert _struck(part) == [(2, Piece.KICK)]
+    assert part.lost == ("slashes, where drummers play as they like: 1, the first in bar 1",)
+
+
 def test_title_and_author() -> None:
     head = (
         "<work><work-title>A Groove</work-title></work>"
@@ -324,6 +331,9 @@ def test_notes_without_instruments_are_known_by_their_line() -> None:
         (XmlInstrument("open high conga", "", 63), NoteMeaning(Piece.PERCUSSION)),
         (XmlInstrument("", "metal.cymbal.splash", None), NoteMeaning(Piece.SPLASH, Zone.EDGE)),
         (XmlInstrument("Pedal Hi-Hat", "", None), NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, 0.0)),
+        (XmlInstrument("Mid Tom", "", None), NoteMeaning(Piece.TOM_2)),
+        (XmlInstrument("Tom (medium)", "", None), NoteMeaning(Piece.TOM_2)),
+        (XmlInstrument("Low-Mid Tom", "", None), NoteMeaning(Piece.TOM_3)),
         (XmlInstrument("Drumset", "", None), None),
     ],
 )

@@ -118,6 +118,9 @@ class _BarContent:
         if note.find("cue") is not None:
             self._reader._lost.add("cue notes", self._bar.name)
             return
+        if self._reader._notes.is_slash(note):
+            self._reader._lost.add("slashes, where drummers play as they like", self._bar.name)
+            return
         self._reader._note_count += 1
         if self._reader._note_count > MOST_NOTES:
             raise self._fault(f"more than {MOST_NOTES:,} notes")

@@ -20,7 +20,7 @@ from station.core.pieces import (
 )
 from station.core.units import PPQ
 from station.music.formats.music_xml.written_bars import LostMarks, WrittenNote
-from station.music.formats.music_xml.xml_instruments import XmlInstrument, placed_strike
+from station.music.formats.music_xml.xml_instruments import XmlInstrument, instrument_id, placed_strike
 from station.music.formats.safe_xml import text_of
 from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY
 
@@ -61,13 +61,17 @@ class NoteReader:
         found.limb = _limb(note, found.strike.piece)
         return found
 
+    def is_slash(self, note: Element) -> bool:
+        """Whether it only says that the drummer plays as they like: a slash of no instrument that is known."""
+        return text_of(note, "notehead") == "slash" and not self._is_known(note)
+
     # --- which strike -------------------------------------------------------------------------------------------------
 
     def _strike(self, note: Element, bar: str) -> tuple[NoteMeaning, int]:
-        instrument = note.find("instrument")
+        name = instrument_id(note)
         head = text_of(note, "notehead", "normal")
         step, octave = _line(note)
-        key = ("" if instrument is None else instrument.get("id", ""), head, step, octave)
+        key = (name, head, step, octave)
         if key not in self._strikes:
             self._strikes[key] = self._looked_up(note, *key, bar)
         return self._strikes[key]
@@ -75,11 +79,7 @@ class NoteReader:
     def _looked_up(
         self, note: Element, name: str, head: str, step: str, octave: str, bar: str
     ) -> tuple[NoteMeaning, int]:
-        instrument = self._instruments.get(name)
-        if instrument is None and len(self._instruments) == 1:
-            instrument = next(iter(self._instruments.values()))
-        if (number := _pitch_number(note)) is not None and (instrument is None or instrument.midi is None):
-            instrument = XmlInstrument(midi=number)
+        instrument = self._instrument(note, name)
         strike = instrument.meaning() if instrument is not None else None
         strike = strike or placed_strike(step, octave, head)
         if strike is None:
@@ -88,6 +88,18 @@ class NoteReader:
         if strike.piece is Piece.RIDE and head == "diamond":
             strike = NoteMeaning(Piece.RIDE, Zone.BELL)
         return strike, (instrument.midi if instrument is not None else None) or 0
+
+    def _is_known(self, note: Element) -> bool:
+        instrument = self._instrument(note, instrument_id(note))
+        return instrument is not None and instrument.meaning() is not None
+
+    def _instrument(self, note: Element, name: str) -> XmlInstrument | None:
+        instrument = self._instruments.get(name)
+        if instrument is None and len(self._instruments) == 1:
+            instrument = next(iter(self._instruments.values()))
+        if (number := _pitch_number(note)) is not None and (instrument is None or instrument.midi is None):
+            return XmlInstrument(midi=number)
+        return instrument
 
     # --- its signs ----------------------------------------------------------------------------------------------------
 

@@ -13,7 +13,7 @@ from xml.etree.ElementTree import Element
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece
-from station.music.formats.music_xml.xml_instruments import XmlInstrument
+from station.music.formats.music_xml.xml_instruments import XmlInstrument, instrument_id
 from station.music.formats.safe_xml import text_of
 
 _DRUM_CHANNEL = "10"
@@ -98,12 +98,7 @@ def drum_parts(parts: Sequence[FilePart], source: str) -> list[FilePart]:
 
 def _pieces(part: FilePart) -> set[object]:
     """The different pieces of a kit that the part has: by instrument, else by line."""
-    used = {(_instrument_id(note), note.findtext("unpitched/display-step")) for note in part.drum_notes}
+    used = {(instrument_id(note), note.findtext("unpitched/display-step")) for note in part.drum_notes}
     strikes = {name: part.instruments[name].meaning() for name, _ in used if name in part.instruments}
     found: set[object] = {step if (strike := strikes.get(name)) is None else strike.piece for name, step in used}
     return found - {Piece.PERCUSSION}
-
-
-def _instrument_id(note: Element) -> str:
-    instrument = note.find("instrument")
-    return "" if instrument is None else instrument.get("id", "")

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from types import MappingProxyType
+from xml.etree.ElementTree import Element
 
 from station.core.note_map import GENERAL_MIDI, NoteMeaning, general_midi_note
 from station.core.pieces import CLOSED, CYMBALS, HALF_OPEN, OPEN, TOMS, Articulation, Piece, Zone
@@ -79,6 +80,7 @@ _PIECE_WORDS: tuple[tuple[str, Piece], ...] = (
     (r"floor.*tom", Piece.FLOOR_TOM_1),
     (r"(hi(gh)?|alto)[- ]mid.*tom|tom.*\b2", Piece.TOM_2),
     (r"low[- ]mid.*tom|tom.*\b3", Piece.TOM_3),
+    (r"\bmid(dle)?[- ]?tom|\bmedium[- ]?tom|tom.*\b(mid(dle)?|medium)\b", Piece.TOM_2),
     (r"low.*tom|tom.*\b4", Piece.TOM_4),
     (r"\btoms?\b|tom-tom", Piece.TOM_1),
     (r"ride.*2", Piece.RIDE_2),
@@ -122,7 +124,7 @@ _CROSS_PLACES = {
     "D6": Piece.CHINA,
 }
 """Where drum parts that name no instrument put round and crossed heads: Weinberg's, and MuseScore's drum set."""
-_CROSSES = frozenset({"x", "cross", "circle-x", "diamond", "slash"})
+_CROSSES = frozenset({"x", "cross", "circle-x", "diamond"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +145,12 @@ class XmlInstrument:
                 return NoteMeaning(Piece.PERCUSSION) if self.midi is not None else None
             known = plain_strike(piece)
         return _refined(known, words)
+
+
+def instrument_id(note: Element) -> str:
+    """Of which instrument of its part a note is; "" where it does not say."""
+    instrument = note.find("instrument")
+    return "" if instrument is None else instrument.get("id", "")
 
 
 def plain_strike(piece: Piece) -> NoteMeaning:
