@@ -121,6 +121,19 @@ def test_signs_of_a_note() -> None:
     assert part.lost == ("staccato signs: 1, the first in bar 2",)
 
 
+@pytest.mark.parametrize(("velocity", "snare"), [("", Dynamic.ACCENT), (' dynamics="90"', Dynamic.NORMAL)])
+def test_an_accent_is_a_chords_unless_each_note_says_how_loud_it_is(velocity: str, snare: Dynamic) -> None:
+    """Notation programs have articulations on chords, and write them with the first note."""
+    accent = "<notations><articulations><accent/></articulations></notations>"
+    ghost = '<notehead parentheses="yes">normal</notehead>'
+    chord = (
+        _note("hat", 12, accent) + _note("snare", 12, before="<chord/>") + _note("foot", 12, ghost, before="<chord/>")
+    )
+    part = _read(chord.replace("<note>", f"<note{velocity}>"))
+    dynamics = {note.piece: note.dynamic for note in part.score}
+    assert dynamics == {Piece.HIHAT: Dynamic.ACCENT, Piece.SNARE: snare, Piece.HIHAT_PEDAL: Dynamic.GHOST}
+
+
 def test_flams_and_drags() -> None:
     part = _read(_grace("snare") + _note("snare", 12) + _grace("snare") * 2 + _note("snare", 36))
     flam, main, first, second, drag = part.score

@@ -12,6 +12,7 @@ from station.core.units import PPQ
 from station.music.formats.music_xml.note_reading import (
     SHARE_OF_NORMAL,
     NoteReader,
+    accent_whole_chord,
     velocity_of,
 )
 from station.music.formats.music_xml.words_of_swing import swing_in_words
@@ -91,6 +92,7 @@ class _BarContent:
                 handler(self, element)
         self._bar.length = self._end
         for notes, graces in self._chords:
+            accent_whole_chord(notes)
             self._attach(notes, graces)
         free = {
             note.start: note

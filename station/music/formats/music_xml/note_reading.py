@@ -1,7 +1,7 @@
 """One `<note>` of a percussion part: which strike it is, how loud, by which hand, and with which signs."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from xml.etree.ElementTree import Element
 
@@ -120,6 +120,15 @@ class NoteReader:
             _tremble(sign, note, found)
         elif group in ("articulations", "ornaments", "technical") and sign.tag not in _READ_TECHNICAL:
             self._lost.add(f"{sign.tag} signs", bar)
+
+
+def accent_whole_chord(chord: Sequence[WrittenNote]) -> None:
+    """An accent on a chord's first note is the whole chord's, as programs write it that give no note a velocity."""
+    first = chord[0]
+    if first.dynamic is Dynamic.ACCENT and all(note.velocity is None for note in chord):
+        for note in chord:
+            if note.dynamic is Dynamic.NORMAL:
+                note.dynamic, note.usual_velocity = first.dynamic, first.usual_velocity
 
 
 def velocity_of(dynamics: str | None) -> int | None:
