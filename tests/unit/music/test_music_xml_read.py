@@ -210,6 +210,12 @@ def test_meters() -> None:
     )
 
 
+def test_bars_without_a_meter_are_as_long_as_what_stands_in_them() -> None:
+    part = _read(_note("kick", 36) + _note("snare", 24), _note("kick", 24), time="<senza-misura/>")
+    assert [str(part.score.tempo_map.meter_at(tick)) for tick in (0, 5 * PPQ)] == ["5/4", "2/4"]
+    assert part.lost == ("music without a meter, each bar as long as what stands in it: 1, the first in bar 1",)
+
+
 def test_a_pick_up_is_a_bar_of_its_own() -> None:
     part = _read(_note("snare", 12), _note("snare", 48))
     assert part.score.tempo_map.meters == (MeterChange(0, 1, 4), MeterChange(PPQ, 4, 4))
@@ -359,7 +365,6 @@ def test_what_instruments_are(instrument: XmlInstrument, strike: NoteMeaning | N
     ("data", "place", "fault"),
     [
         (b"<html/>", "line 1", "score-partwise"),
-        (_score("<attributes><time><senza-misura/></time></attributes>" + _note("kick", 48)), "bar 1", "meter"),
         (_score(_note("kick", 48)).replace(b"<duration>48", b"<duration>1e9"), "bar 1", "duration"),
         (_score(_note("kick", 48)).replace(b"<divisions>12", b"<divisions>0"), "bar 1", "divisions"),
         (_score(_note("kick", 48)).replace(b"<beats>4", b"<beats>0"), "bar 1", "beats"),

@@ -180,7 +180,9 @@ class _BarContent:
                 raise self._fault(f"{divisions[:20]!r} is no number of divisions; expected 1 to {_FINEST:,}")
             self._reader._divisions = Fraction(found[1])
         time = element.find("time")
-        if time is not None:
+        if time is not None and time.find("senza-misura") is not None:
+            self._reader._lost.add("music without a meter, each bar as long as what stands in it", self._bar.name)
+        elif time is not None:
             self._bar.meter = self._meter(time)
         for style in element.iter("measure-repeat"):
             text = (style.text or "1").strip()
@@ -191,8 +193,6 @@ class _BarContent:
                 self._reader._lost.add("bars of slashes", self._bar.name)
 
     def _meter(self, time: Element) -> MeterChange:
-        if time.find("senza-misura") is not None:
-            raise self._fault("music without a meter is not read; expected a time signature")
         beats = [(element.text or "").replace(" ", "") for element in time.findall("beats")]
         units = [(element.text or "").strip() for element in time.findall("beat-type")]
         are_sound = all(re.fullmatch(r"\d{1,3}(\+\d{1,3}){0,31}", text) for text in beats)
