@@ -175,6 +175,7 @@ HAT_ON_EIGHTHS = [k * EIGHTH for k in range(8)]
         "    1   2   3   4\nHH||x-x-|x-x-|x-x-|x-x-||\nSD||----|o---|----|o---||\n",
         "HH|x-x-|x-x-|x-x-|x-x-|\nSD|----|o---|----|o---|\n",
         "HH-x-x-x-x-x-x-x-x-|\nSD-----o-------o---|\n",
+        "HH x-x-x-x-x-x-x-x-|\nSD ----o-------o---|\n",
         "   1e+a2e+a3e+a4e+a\nHH|x-x-x-x-x-x-x-x|\nSD|----o-------o--|\n",
         "4/4\nHH|x-x-x-x-x-x-x-x--|\nSD|----o-------o----|\n",
         "HH|-xxxxxxxx|\nSD|---o---o-|\n",
@@ -189,13 +190,14 @@ HAT_ON_EIGHTHS = [k * EIGHTH for k in range(8)]
         "beats counted",
         "beats",
         "dash for a bar line",
+        "no first bar line",
         "a cell short",
         "a cell long",
         "dash before eighths",
         "closed hats",
     ],
 )
-def test_one_bar_as_twelve_people_type_it(text: str) -> None:
+def test_one_bar_as_thirteen_people_type_it(text: str) -> None:
     assert is_tab(text.encode())
     part = read(text)
     assert (part.score.bar_count, str(part.score.tempo_map.meter_at(0))) == (1, "4/4")
@@ -254,6 +256,14 @@ def test_dashes_for_bar_lines_may_stand_in_every_bar() -> None:
     part = read("HH-x-x-x-x-|-x-x-x-x-|\nBD-o---o---|-o---o---|\n")
     assert part.score.bar_count == 2
     assert ticks(part, Piece.KICK) == [0, 2 * PPQ, 4 * PPQ, 6 * PPQ]
+
+
+def test_a_key_with_names_between_bar_lines_is_no_music() -> None:
+    """As the article on drum tablature of Wikipedia shows the labels."""
+    key = "HH|-Hi-hat----------|\nSN|-Snare drum------|\nHf/FH|-Hi-hat w/foot|\n\n|-o-| Strike\n|-s-| Splash\n\n"
+    part = read(f"{key} HH|x-x-x-x-x-x-x-x-||\n  S|----o-------o---||\n")
+    assert part.score.bar_count == 1
+    assert (ticks(part, Piece.HIHAT), ticks(part, Piece.SNARE)) == (HAT_ON_EIGHTHS, [PPQ, 3 * PPQ])
 
 
 def test_numbers_of_bars_name_no_part() -> None:
