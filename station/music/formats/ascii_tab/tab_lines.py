@@ -17,7 +17,7 @@ _BEFORE = re.compile(rf"\s*({_LABEL})\s*[|:]{{1,3}}(.*)$")
 _DASHED = re.compile(rf"\s*({_LABEL})-(?=[^ |:]+\|)")
 _SPACED = re.compile(rf"\s*({_LABEL})\s+(?=[-.=_xXoOgfFdDbBcshHrRzZ#@]+\|)")
 _WORD = re.compile(r"[A-Za-z]{3,}")
-_BEHIND = re.compile(rf"\s*[|:]{{1,2}}(.*)\|[|:]?\s*({_LABEL})\s*$")
+_BEHIND = re.compile(rf"\s*[|:]{{1,2}}(.{{6,}})\|[|:]?\s*({_LABEL})\s*$")
 _WITHOUT_BAR_LINES = re.compile(rf"\s*({_LABEL})\s+((?=[^ ]*-)[^ |:]{{6,}})\s*$")
 _KNOWN = 0.8
 """A line of fewer known letters is words (our choice)."""
