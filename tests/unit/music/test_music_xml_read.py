@@ -337,6 +337,39 @@ def test_notes_without_instruments_are_known_by_their_line() -> None:
     assert _struck(part) == [(0, Piece.KICK), (2, Piece.HIHAT)]
 
 
+_HEADS_AND_PLACES = ((("G", 5), "x"), (("F", 4), "normal"), (("C", 5), "normal"), (("C", 5), "slashed"))
+_GENERAL_MIDI = ((("F", 2), "normal"), (("C", 2), "normal"), (("D", 2), "normal"), (("A", 4), "normal"))
+
+
+@pytest.mark.parametrize(
+    ("pitches", "pieces"),
+    [
+        (_HEADS_AND_PLACES, [Piece.HIHAT, Piece.KICK, Piece.SNARE, Piece.SNARE]),
+        (_GENERAL_MIDI, [Piece.FLOOR_TOM_2, Piece.KICK, Piece.SNARE, Piece.PERCUSSION]),
+    ],
+    ids=["lines of the staff", "numbers of General MIDI"],
+)
+@pytest.mark.parametrize(
+    ("name", "sign"), [("P", "percussion"), ("Drum Set", "G")], ids=["known by its clef", "known by its name"]
+)
+def test_pitched_notes_of_a_kit(
+    pitches: tuple[tuple[tuple[str, int], str], ...], pieces: list[Piece], name: str, sign: str
+) -> None:
+    """General MIDI 1 has its kick at C2, 36, its snare at D2, 38, its low floor tom at F2, 41, its cabasa at A4, 69."""
+    notes = "".join(
+        f"<note><pitch><step>{step}</step><octave>{octave}</octave></pitch><duration>1</duration>"
+        f"<notehead>{head}</notehead></note>"
+        for (step, octave), head in pitches
+    )
+    part = read_music_xml(
+        f'<score-partwise><part-list><score-part id="P"><part-name>{name}</part-name></score-part></part-list>'
+        f'<part id="P"><measure number="1"><attributes><divisions>1</divisions><clef><sign>{sign}</sign></clef>'
+        f"</attributes>{notes}</measure></part></score-partwise>".encode(),
+        "file.musicxml",
+    )
+    assert _struck(part) == list(enumerate(pieces))
+
+
 @pytest.mark.parametrize(
     ("instrument", "strike"),
     [
