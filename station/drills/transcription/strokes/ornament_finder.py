@@ -14,11 +14,11 @@ What a file says itself (ornaments, grace strokes, buzzes) stays, and then nothi
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import inf
-from statistics import fmean, median
+from statistics import median
 
 from station.core.pieces import TOMS, Articulation, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS, PPQ
+from station.drills.transcription.strokes.close_pairs import Neighbours, is_two_of_a_run, neighbours
 from station.music.grace_strokes import DRAG_RANGE_MS, FLAM_RANGE_MS, Graces
 from station.music.score import Note, Score
 
@@ -33,25 +33,22 @@ AT_ONCE_MS = 8.0
 CLOSE_MS = 45.0
 """A flam's grace stroke comes 15–40 ms before its note (HUMANS, Timing); a hand's own next stroke after 50 ms or more
 (`limb_speeds`)."""
-DRAG_MS = (15.0, 72.0)
+DRAG_MS = (15.0, 78.0)
 """The strokes of a drag are 40–70 ms apart (HUMANS, Timing); tight ruffs go down to a buzz's spacing."""
 _SOFT = 0.75
 """Grace strokes have 25–50 % of their note's velocity (HUMANS, Timing); human spread allows half as much again."""
 _DRAG_SOFT = 0.62
-RUN_MS = 120.0
-"""So near to other strokes of its drum a pair is part of a run: sixteenths at 125 bpm (our choice)."""
-_CELLS_OF_TWO, _CELLS_BESIDE = 2.5, 1.75
-"""From the stroke before two of a run to the one after them are three cells, about a flam two; what is farther from
-the next stroke is the end of a run."""
 _LATE_HAND = 1.1
 _NEXT_HAND = 1.2
 """So much louder than rebounds is the other hand's stroke after them: rebounds lose a third; where it also
 comes so much later than a rebound would, less will do (our choice)."""
-_ALIKE = 0.5
+_ALIKE = 0.4
 """Both strokes of a drag are of one bounce: the softer has at least this share of the louder (our choice)."""
 _APART = 1.3
 """So many times as far as its own spacing a drag stands from the stroke before it, or so many times softer than it is,
 else the three are a run (our choice)."""
+_ALONE = 3.0
+"""So many times as far as its own spacing from the stroke before it nothing but a drag is so quick (our choice)."""
 _RUN_TICKS = (PPQ // 8, PPQ // 12)
 """Strokes that lie exactly on these cells of an exact score are written strokes, not grace strokes."""
 _FEWEST = 3
@@ -151,32 +148,8 @@ def _without_chains(line: Sequence[_Stroke], score: Score) -> list[_Stroke]:
             chains[-1].append(stroke)
         else:
             chains.append([stroke])
-    is_run = _are_of_runs([chain[0].ms for chain in chains], [chain[-1].ms for chain in chains])
-    return [found for chain, inside in zip(chains, is_run, strict=True) for found in _meant(chain, inside, score)]
-
-
-def _are_of_runs(starts: Sequence[float], ends: Sequence[float]) -> list[bool]:
-    """Whether each chain, from `starts` to `ends` (ms), stands where a run of strokes needs two.
-
-    Three cells of the run lie then between the strokes before and after; at its end or begin a whole cell beside it.
-    """
-    found: list[bool] = []
-    for i, (start, end) in enumerate(zip(starts, ends, strict=True)):
-        before, after = ends[max(i - 2, 0) : i], starts[i + 1 : i + 3]
-        gaps = [b - a for a, b in (*pairwise(before), *pairwise(after)) if b - a <= RUN_MS]
-        left, right = start - before[-1] if before else inf, after[0] - end if after else inf
-        if gaps:
-            found.append(_is_of_run(left / fmean(gaps), end - start, right / fmean(gaps), fmean(gaps)))
-        else:
-            found.append(max(left, right) < inf and min(left, right) <= RUN_MS)
-    return found
-
-
-def _is_of_run(left: float, wide_ms: float, right: float, cell_ms: float) -> bool:
-    """Whether two strokes `wide_ms` apart, so many cells after a run's stroke and before its next, are two of it."""
-    if max(left, right) <= _CELLS_BESIDE:
-        return left + wide_ms / cell_ms + right >= _CELLS_OF_TWO
-    return 1 <= left <= _CELLS_BESIDE or 1 < right <= _CELLS_BESIDE
+    starts, ends = [chain[0].ms for chain in chains], [chain[-1].ms for chain in chains]
+    return [found for i, chain in enumerate(chains) for found in _meant(chain, neighbours(starts, ends, i), score)]
 
 
 def _begins_another(chain: Sequence[_Stroke], stroke: _Stroke) -> bool:
@@ -192,13 +165,13 @@ def _begins_another(chain: Sequence[_Stroke], stroke: _Stroke) -> bool:
     return is_louder and max(heard) > _SOFT * velocity
 
 
-def _meant(chain: Sequence[_Stroke], is_run: bool, score: Score) -> list[_Stroke]:
-    """What a chain is; `is_run`: another stroke of the drum is near."""
+def _meant(chain: Sequence[_Stroke], near: Neighbours | None, score: Score) -> list[_Stroke]:
+    """What a chain is; `near` is the run that it stands in."""
     first, last = chain[0], chain[-1]
     if len(chain) == 1 or not all(_is_plain(s.note) for s in chain):
         return list(chain)
     if len(chain) == 2:
-        return _flam(first, last, is_run)
+        return _flam(first, last, near)
     before = max(s.note.velocity for s in chain[:-1])
     if before <= _SOFT * last.note.velocity:
         return [_graced(last, Ornament.DRAG, chain[-3:-1])]
@@ -218,14 +191,11 @@ def _is_plain(note: Note) -> bool:
     return note.articulation in (Articulation.NORMAL, Articulation.RIM_SHOT)
 
 
-def _flam(first: _Stroke, second: _Stroke, is_run: bool) -> list[_Stroke]:
-    """Two close strokes: a flam, but where the first is by far the louder, a stroke and its rebound.
-
-    In a run of strokes two that are nearly alike are two of the run, one late and one early.
-    """
+def _flam(first: _Stroke, second: _Stroke, near: Neighbours | None) -> list[_Stroke]:
+    """Two close strokes: a flam or two of a run, but where the first is by far the louder, a stroke and its rebound."""
     share = first.note.velocity / second.note.velocity
     is_at_once = second.ms - first.ms <= AT_ONCE_MS and share >= _BOUNCE_SHARE
-    if is_run and share > _DRAG_SOFT and not is_at_once:
+    if near and not is_at_once and is_two_of_a_run(first.ms, second.ms, share, near):
         return [first, second]
     if share <= _SOFT or is_at_once:
         return [_graced(second, Ornament.FLAM, [first])]
@@ -264,7 +234,10 @@ def _is_drag(before: Sequence[_Stroke], first: _Stroke, second: _Stroke, main: _
     if not all(DRAG_MS[0] <= gap <= DRAG_MS[1] for gap in gaps) or _is_written_run(three):
         return False
     low, high = sorted((first.note.velocity, second.note.velocity))
-    if high > _DRAG_SOFT * main.note.velocity or low < _ALIKE * high:
+    is_alone = not before or first.ms - before[0].ms >= _ALONE * max(gaps)
+    if high > _SOFT * main.note.velocity or low < _ALIKE * high:
+        return False
+    if (low + high) / 2 > _DRAG_SOFT * main.note.velocity and not is_alone:
         return False
     return not before or first.ms - before[0].ms >= _APART * gaps[0] or before[0].note.velocity >= _APART * high
 
