@@ -13,7 +13,7 @@ from statistics import fmean, median
 
 RUN_MS = 120.0
 """So near to other strokes of its drum a pair is part of a run: sixteenths at 125 bpm (our choice)."""
-_NEAR = 4
+_NEAR = 8
 """So many gaps before and after tell how far apart a run's strokes are (our choice)."""
 _BESIDE = 1.75
 """What is farther than so many cells is no neighbour in the run, but a rest lies between."""
@@ -41,14 +41,12 @@ class Neighbours:
 def neighbours(starts: Sequence[float], ends: Sequence[float], at: int) -> Neighbours | None:
     """The run about chain `at` of those that go from `starts` to `ends` (ms), or None where none is near."""
     gaps = [b - a for a, b in (*pairwise(ends[max(at - _NEAR, 0) : at]), *pairwise(starts[at + 1 : at + 1 + _NEAR]))]
-    left = starts[at] - ends[at - 1] if at else None
-    right = starts[at + 1] - ends[at] if at + 1 < len(starts) else None
-    cells = [gap for gap in gaps if gap <= RUN_MS] or [g for g in (left, right) if g is not None and g <= RUN_MS]
+    cells = [gap for gap in gaps if gap <= RUN_MS]
     if not cells:
         return None
     cell = median(cells)
-    before = ends[at - 1] if left is not None and left <= _BESIDE * cell else None
-    after = starts[at + 1] if right is not None and right <= _BESIDE * cell else None
+    before = ends[at - 1] if at and starts[at] - ends[at - 1] <= _BESIDE * cell else None
+    after = starts[at + 1] if at + 1 < len(starts) and starts[at + 1] - ends[at] <= _BESIDE * cell else None
     return Neighbours(cell, before, after) if before is not None or after is not None else None
 
 

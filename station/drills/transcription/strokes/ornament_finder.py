@@ -42,11 +42,13 @@ _LATE_HAND = 1.1
 _NEXT_HAND = 1.2
 """So much louder than rebounds is the other hand's stroke after them: rebounds lose a third; where it also
 comes so much later than a rebound would, less will do (our choice)."""
-_ALIKE = 0.4
+_ALIKE = 0.25
 """Both strokes of a drag are of one bounce: the softer has at least this share of the louder (our choice)."""
 _APART = 1.3
 """So many times as far as its own spacing a drag stands from the stroke before it, or so many times softer than it is,
 else the three are a run (our choice)."""
+_EVEN = 1.6
+"""A louder stroke that comes by so much earlier before a grace stroke is a stroke of its own (our choice)."""
 _ALONE = 3.0
 """So many times as far as its own spacing from the stroke before it nothing but a drag is so quick (our choice)."""
 _RUN_TICKS = (PPQ // 8, PPQ // 12)
@@ -235,9 +237,9 @@ def _is_drag(before: Sequence[_Stroke], first: _Stroke, second: _Stroke, main: _
         return False
     low, high = sorted((first.note.velocity, second.note.velocity))
     is_alone = not before or first.ms - before[0].ms >= _ALONE * max(gaps)
-    if high > _SOFT * main.note.velocity or low < _ALIKE * high:
+    if high > (_SOFT if is_alone else _DRAG_SOFT) * main.note.velocity or low < _ALIKE * high:
         return False
-    if (low + high) / 2 > _DRAG_SOFT * main.note.velocity and not is_alone:
+    if gaps[0] > _EVEN * gaps[1] and first.note.velocity > second.note.velocity / _SOFT:
         return False
     return not before or first.ms - before[0].ms >= _APART * gaps[0] or before[0].note.velocity >= _APART * high
 
