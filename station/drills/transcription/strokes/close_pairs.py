@@ -8,13 +8,15 @@ a flam's spacing and is, as a rule, far softer. Where no run is near, close stro
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import log
+from math import inf, log
 from statistics import fmean, median
 
 RUN_MS = 120.0
 """So near to other strokes of its drum a pair is part of a run: sixteenths at 125 bpm (our choice)."""
 _NEAR = 8
 """So many gaps before and after tell how far apart a run's strokes are (our choice)."""
+_REST = 1.6
+"""So much longer than the shorter gaps is one with a rest in it (our choice)."""
 _BESIDE = 1.75
 """What is farther than so many cells is no neighbour in the run, but a rest lies between."""
 _SPREAD_MS = 15.0
@@ -41,13 +43,20 @@ class Neighbours:
 def neighbours(starts: Sequence[float], ends: Sequence[float], at: int) -> Neighbours | None:
     """The run about chain `at` of those that go from `starts` to `ends` (ms), or None where none is near."""
     gaps = [b - a for a, b in (*pairwise(ends[max(at - _NEAR, 0) : at]), *pairwise(starts[at + 1 : at + 1 + _NEAR]))]
-    cells = [gap for gap in gaps if gap <= RUN_MS]
-    if not cells:
+    cell = _cell(gaps)
+    if cell > RUN_MS:
         return None
-    cell = median(cells)
     before = ends[at - 1] if at and starts[at] - ends[at - 1] <= _BESIDE * cell else None
     after = starts[at + 1] if at + 1 < len(starts) and starts[at + 1] - ends[at] <= _BESIDE * cell else None
     return Neighbours(cell, before, after) if before is not None or after is not None else None
+
+
+def _cell(gaps: Sequence[float]) -> float:
+    """The length of most of the short gaps: those that are no rests."""
+    if not gaps:
+        return inf
+    short = sorted(gaps)[len(gaps) // 4]
+    return median(gap for gap in gaps if gap <= _REST * short)
 
 
 def is_two_of_a_run(first_ms: float, second_ms: float, share: float, near: Neighbours) -> bool:
