@@ -9,7 +9,9 @@ from dataclasses import replace
 
 from imgui_bundle import hello_imgui
 
-from station.app.actions import Action, Drill, Seek, Show
+from station.app.actions.action import Action, Show
+from station.app.actions.player_actions import Seek
+from station.app.actions.practice_actions import Drill
 from station.app.room_state import Stage
 from station.app.window_state import State
 from station.core.units import ns_from_s
@@ -19,6 +21,7 @@ from station.gui.panels import (
     export_panel,
     graph_panel,
     hits_panel,
+    import_panel,
     phase_panel,
     practice_panel,
     sticks_panel,
@@ -42,7 +45,7 @@ class Pages:
     def __init__(self, dispatch: Callable[[Action], None], viewport: Viewport) -> None:
         self._dispatch = dispatch
         self.view_keys = ViewKeys(viewport, dispatch)
-        self._lessons = LessonsPanel(dispatch)
+        self._lessons = LessonsPanel(dispatch, self.open_import)
         self._playback = PlaybackRow(dispatch)
         self.hits = hits_panel.HitsPanel(self._playback)
         self.figure = style_panel.StylePanel(dispatch)
@@ -50,6 +53,7 @@ class Pages:
         self._devices = devices_panel.DevicesPanel(dispatch)
         self._sticks = sticks_panel.SticksPanel(dispatch)
         self._export = export_panel.ExportPanel(dispatch)
+        self.imports = import_panel.ImportPanel(dispatch)
         self.graph = graph_panel.GraphPanel(lambda to_s: dispatch(Seek(ns_from_s(to_s))))
         self._phase = phase_panel.PhasePanel(dispatch)
         viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go)
@@ -70,6 +74,7 @@ class Pages:
             Panel(practice_panel.PRACTICE, right, self._practice.gui, practice_panel.ABOUT, help=practice_panel.HELP),
             Panel(devices_panel.DEVICES, right, self._devices.gui, devices_panel.ABOUT, help=devices_panel.HELP),
             Panel(sticks_panel.STICKS, right, self._sticks.gui, sticks_panel.ABOUT, help=sticks_panel.HELP),
+            Panel(import_panel.IMPORT, right, self._import_gui, import_panel.ABOUT, help=import_panel.HELP),
             Panel(export_panel.EXPORT, right, self._export.gui, export_panel.ABOUT, help=export_panel.HELP),
             Panel(GRAPH, strip, self._graph_gui, graph_panel.ABOUT, help=graph_panel.HELP),
             Panel(phase_panel.PHASE, strip, self._phase_gui, phase_panel.ABOUT, help=phase_panel.HELP),
@@ -90,6 +95,10 @@ class Pages:
     def _docked(self, name: str) -> hello_imgui.DockableWindow:
         assert self.docking is not None, "the window has been made"
         return self.docking.dockable_window_of_name(name)
+
+    def open_import(self) -> None:
+        """Show the panel that brings music in."""
+        self._docked(import_panel.IMPORT).is_visible = True
 
     def show(self, state: State, is_welcomed: bool) -> None:
         """Show what belongs to `state`, nothing before the first questions were answered."""
@@ -117,6 +126,9 @@ class Pages:
     def _open_tools(self) -> None:
         assert self.docking is not None, "the window has been made"
         panels_popup(self.tools, self.docking)
+
+    def _import_gui(self, state: State) -> None:
+        self.imports.gui(state.imports)
 
     def _bars_gui(self, state: State) -> None:
         self._playback.is_listening = state.room.listening
