@@ -59,12 +59,15 @@ def _cell(gaps: Sequence[float]) -> float:
     return median(gap for gap in gaps if gap <= _REST * short)
 
 
-def is_two_of_a_run(first_ms: float, second_ms: float, share: float, near: Neighbours) -> bool:
-    """Whether strokes at those times, the first of `share` of the second's velocity, are two of the run."""
+def is_two_of_a_run(first_ms: float, second_ms: float, share: float, near: Neighbours, rare: float) -> bool:
+    """Whether strokes at those times, the first of `share` of the second's velocity, are two of the run.
+
+    `rare` is what a flam costs before anything is heard, as seldom as the drum has them.
+    """
     before = [] if near.before_ms is None else [near.before_ms]
     after = [] if near.after_ms is None else [near.after_ms]
     two = _unevenness([*before, first_ms, second_ms, *after], near.cell_ms) + log(_SPREAD_MS)
-    flam = _unevenness([*before, second_ms, *after], near.cell_ms) + log(_FLAM_SPREAD_MS)
+    flam = _unevenness([*before, second_ms, *after], near.cell_ms) + log(_FLAM_SPREAD_MS) + rare
     flam += ((second_ms - first_ms - _FLAM_MS) / _FLAM_SPREAD_MS) ** 2 / 2
     two += min((log(share) / _RUN_SPREAD) ** 2 / 2, _ACCENT_COST)
     soft = (log(share / _GRACE_SHARE) / _SHARE_SPREAD) ** 2 / 2

@@ -11,14 +11,16 @@ spacing belongs to the hand, not to the beat. What a stroke is called, by the ga
 What a file says itself (ornaments, grace strokes, buzzes) stays, and then nothing is looked for.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from math import inf, log
 from statistics import median
 
 from station.core.pieces import TOMS, Articulation, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.transcription.strokes.close_pairs import Neighbours, is_two_of_a_run, neighbours
+from station.drills.transcription.strokes.press_rolls import FEWEST, hands_strokes
 from station.music.grace_strokes import DRAG_RANGE_MS, FLAM_RANGE_MS, Graces
 from station.music.score import Note, Score
 
@@ -33,6 +35,8 @@ AT_ONCE_MS = 8.0
 CLOSE_MS = 45.0
 """A flam's grace stroke comes 15–40 ms before its note (HUMANS, Timing); a hand's own next stroke after 50 ms or more
 (`limb_speeds`)."""
+WIDE_MS = 60.0
+"""A soft stroke so near before a louder one, and alone with it, is its grace stroke (our choice: as in a drag)."""
 DRAG_MS = (15.0, 78.0)
 """The strokes of a drag are 40–70 ms apart (HUMANS, Timing); tight ruffs go down to a buzz's spacing."""
 _SOFT = 0.75
@@ -136,10 +140,42 @@ def _line(piece: Piece, line: list[_Stroke], score: Score) -> list[_Stroke]:
     """The main strokes of one piece."""
     if piece not in _DRUMS:
         return line
-    return _without_chains(_with_drags(line), score)
+    return [found for stretch in _stretches(_with_drags(line), score) for found in stretch]
 
 
 # --- chains of close strokes ------------------------------------------------------------------------------------------
+
+
+def _stretches(line: Sequence[_Stroke], score: Score) -> Iterator[list[_Stroke]]:
+    """The line with the rolls of rebounds parted into hands' strokes, and what lies between them as the strokes it is."""
+    rest: list[_Stroke] = []
+    for roll in _rolls(line):
+        hands = _hands(roll, score)
+        if not hands:
+            rest += roll
+            continue
+        yield _without_chains(rest, score)
+        rest = []
+        yield [_buzz(roll[a:b], score) for a, b in pairwise([*hands, len(roll)])]
+    yield _without_chains(rest, score)
+
+
+def _rolls(line: Sequence[_Stroke]) -> Iterator[list[_Stroke]]:
+    """The line cut where a gap is wider than `CLOSE_MS`."""
+    roll: list[_Stroke] = []
+    for stroke in line:
+        if roll and stroke.ms - roll[-1].ms > CLOSE_MS:
+            yield roll
+            roll = []
+        roll.append(stroke)
+    if roll:
+        yield roll
+
+
+def _hands(roll: Sequence[_Stroke], score: Score) -> tuple[int, ...]:
+    if len(roll) < FEWEST or any(stroke.leads_ms or not _is_plain(stroke.note) for stroke in roll):
+        return ()
+    return hands_strokes([s.ms for s in roll], [s.note.velocity for s in roll], score.tempo_map)
 
 
 def _without_chains(line: Sequence[_Stroke], score: Score) -> list[_Stroke]:
@@ -150,8 +186,51 @@ def _without_chains(line: Sequence[_Stroke], score: Score) -> list[_Stroke]:
             chains[-1].append(stroke)
         else:
             chains.append([stroke])
+    chains = _with_wide_flams(chains)
     starts, ends = [chain[0].ms for chain in chains], [chain[-1].ms for chain in chains]
-    return [found for i, chain in enumerate(chains) for found in _meant(chain, neighbours(starts, ends, i), score)]
+    runs = [neighbours(starts, ends, i) if len(chain) == 2 else None for i, chain in enumerate(chains)]
+    likely = [len(c) == 2 and not _is_two_of_run(c, run, 0.0) for c, run in zip(chains, runs, strict=True)]
+    rare = log((len(chains) + 1) / (sum(likely) + 0.5))
+    return [
+        found for c, run in zip(chains, runs, strict=True) for found in _meant(c, _is_two_of_run(c, run, rare), score)
+    ]
+
+
+def _with_wide_flams(chains: Sequence[list[_Stroke]]) -> list[list[_Stroke]]:
+    """The chains, a soft stroke a little farther before a louder one in its chain where both stand alone."""
+    found: list[list[_Stroke]] = []
+    for i, chain in enumerate(chains):
+        after = chains[i + 1][0].ms if i + 1 < len(chains) else inf
+        if found and _is_wide_flam(found[-2:-1], found[-1], chain, after):
+            found[-1] = [*found[-1], *chain]
+        else:
+            found.append(chain)
+    return found
+
+
+def _is_wide_flam(before: Sequence[list[_Stroke]], soft: list[_Stroke], loud: list[_Stroke], after_ms: float) -> bool:
+    gap = loud[0].ms - soft[-1].ms
+    room = min(soft[0].ms - before[0][-1].ms if before else inf, after_ms - loud[0].ms)
+    return (
+        len(soft) == len(loud) == 1
+        and gap <= WIDE_MS
+        and room >= _ALONE * gap
+        and not soft[0].leads_ms
+        and not loud[0].leads_ms
+        and soft[0].note.velocity <= _DRAG_SOFT * loud[0].note.velocity
+        and not _is_written_run((*soft, *loud))
+    )
+
+
+def _is_two_of_run(chain: Sequence[_Stroke], run: Neighbours | None, rare: float) -> bool:
+    """Whether two close strokes are two of the run; a flam costs `rare` more, as seldom as the drum has them."""
+    if run is None or len(chain) != 2:
+        return False
+    first, second = chain
+    share = first.note.velocity / second.note.velocity
+    if second.ms - first.ms <= AT_ONCE_MS and share >= _BOUNCE_SHARE:
+        return False
+    return is_two_of_a_run(first.ms, second.ms, share, run, rare)
 
 
 def _begins_another(chain: Sequence[_Stroke], stroke: _Stroke) -> bool:
@@ -167,16 +246,24 @@ def _begins_another(chain: Sequence[_Stroke], stroke: _Stroke) -> bool:
     return is_louder and max(heard) > _SOFT * velocity
 
 
-def _meant(chain: Sequence[_Stroke], near: Neighbours | None, score: Score) -> list[_Stroke]:
-    """What a chain is; `near` is the run that it stands in."""
+def _meant(chain: Sequence[_Stroke], is_run: bool, score: Score) -> list[_Stroke]:
+    """What a chain is; `is_run`: its two strokes are two of a run."""
     first, last = chain[0], chain[-1]
     if len(chain) == 1 or not all(_is_plain(s.note) for s in chain):
         return list(chain)
     if len(chain) == 2:
-        return _flam(first, last, near)
+        return list(chain) if is_run else _flam(first, last)
     before = max(s.note.velocity for s in chain[:-1])
     if before <= _SOFT * last.note.velocity:
         return [_graced(last, Ornament.DRAG, chain[-3:-1])]
+    return [_buzz(chain, score)]
+
+
+def _buzz(chain: Sequence[_Stroke], score: Score) -> _Stroke:
+    """A stroke and its rebounds as one; alone it is the stroke after a roll."""
+    first, last = chain[0], chain[-1]
+    if len(chain) == 1:
+        return first
     rebounds_until = last.ms + (last.ms - first.ms) / (len(chain) - 1)
     end = int(score.tempo_map.ticks_at_ns(round(rebounds_until * NS_PER_MS)))
     note = replace(
@@ -186,19 +273,17 @@ def _meant(chain: Sequence[_Stroke], near: Neighbours | None, score: Score) -> l
         ornament=Ornament.ROLL,
         duration_ticks=max(1, end - first.note.tick),
     )
-    return [_Stroke(note, first.ms)]
+    return _Stroke(note, first.ms)
 
 
 def _is_plain(note: Note) -> bool:
     return note.articulation in (Articulation.NORMAL, Articulation.RIM_SHOT)
 
 
-def _flam(first: _Stroke, second: _Stroke, near: Neighbours | None) -> list[_Stroke]:
-    """Two close strokes: a flam or two of a run, but where the first is by far the louder, a stroke and its rebound."""
+def _flam(first: _Stroke, second: _Stroke) -> list[_Stroke]:
+    """Two close strokes: a flam, but where the first is by far the louder, a stroke and its rebound."""
     share = first.note.velocity / second.note.velocity
     is_at_once = second.ms - first.ms <= AT_ONCE_MS and share >= _BOUNCE_SHARE
-    if near and not is_at_once and is_two_of_a_run(first.ms, second.ms, share, near):
-        return [first, second]
     if share <= _SOFT or is_at_once:
         return [_graced(second, Ornament.FLAM, [first])]
     if share <= 1 / _SOFT:
@@ -237,7 +322,11 @@ def _is_drag(before: Sequence[_Stroke], first: _Stroke, second: _Stroke, main: _
         return False
     low, high = sorted((first.note.velocity, second.note.velocity))
     is_alone = not before or first.ms - before[0].ms >= _ALONE * max(gaps)
-    if high > (_SOFT if is_alone else _DRAG_SOFT) * main.note.velocity or low < _ALIKE * high:
+    is_even = max(gaps) <= _APART * min(gaps)
+    heard = (low + high) / 2 if is_even else high
+    if (not is_alone and heard > _DRAG_SOFT * main.note.velocity) or high > _SOFT * main.note.velocity:
+        return False
+    if low < _ALIKE * high:
         return False
     if gaps[0] > _EVEN * gaps[1] and first.note.velocity > second.note.velocity / _SOFT:
         return False
