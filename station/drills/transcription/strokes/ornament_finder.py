@@ -20,7 +20,7 @@ from statistics import median
 from station.core.pieces import TOMS, Articulation, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.transcription.strokes.close_pairs import Neighbours, is_two_of_a_run, neighbours
-from station.drills.transcription.strokes.press_rolls import FEWEST, hands_strokes
+from station.drills.transcription.strokes.press_rolls import FEWEST, Roll, hands_strokes
 from station.music.grace_strokes import DRAG_RANGE_MS, FLAM_RANGE_MS, Graces
 from station.music.score import Note, Score
 
@@ -147,16 +147,19 @@ def _line(piece: Piece, line: list[_Stroke], score: Score) -> list[_Stroke]:
 
 
 def _stretches(line: Sequence[_Stroke], score: Score) -> Iterator[list[_Stroke]]:
-    """The line with the rolls of rebounds parted into hands' strokes, and what lies between them as the strokes it is."""
+    """The line, its rolls of rebounds parted into hands' strokes, and what lies between them as the strokes it is."""
     rest: list[_Stroke] = []
-    for roll in _rolls(line):
-        hands = _hands(roll, score)
-        if not hands:
+    together = list(_rolls(line))
+    presses = [roll for roll in together if _may_be_pressed(roll)]
+    hands = {id(roll): at for roll, at in zip(presses, _hands(presses, score), strict=True)}
+    for roll in together:
+        at = hands.get(id(roll), ())
+        if not at:
             rest += roll
             continue
         yield _without_chains(rest, score)
         rest = []
-        yield [_buzz(roll[a:b], score) for a, b in pairwise([*hands, len(roll)])]
+        yield [_buzz(roll[a:b], score) for a, b in pairwise([*at, len(roll)])]
     yield _without_chains(rest, score)
 
 
@@ -172,10 +175,13 @@ def _rolls(line: Sequence[_Stroke]) -> Iterator[list[_Stroke]]:
         yield roll
 
 
-def _hands(roll: Sequence[_Stroke], score: Score) -> tuple[int, ...]:
-    if len(roll) < FEWEST or any(stroke.leads_ms or not _is_plain(stroke.note) for stroke in roll):
-        return ()
-    return hands_strokes([s.ms for s in roll], [s.note.velocity for s in roll], score.tempo_map)
+def _may_be_pressed(roll: Sequence[_Stroke]) -> bool:
+    return len(roll) >= FEWEST and not any(stroke.leads_ms or not _is_plain(stroke.note) for stroke in roll)
+
+
+def _hands(presses: Sequence[Sequence[_Stroke]], score: Score) -> list[tuple[int, ...]]:
+    rolls = [Roll([s.ms for s in press], [s.note.velocity for s in press]) for press in presses]
+    return hands_strokes(rolls, score.tempo_map)
 
 
 def _without_chains(line: Sequence[_Stroke], score: Score) -> list[_Stroke]:

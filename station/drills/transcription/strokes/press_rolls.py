@@ -7,6 +7,8 @@ t-value, less what the louder of two would have by chance.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import sqrt
+from statistics import fmean
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,20 +34,52 @@ _CLEAR = 2.0
 """The t-value from which on the cells are heard (our choice: one in forty by chance)."""
 
 
+_OTHERWISE = 1.5
+"""By so much more clearly a roll must be in another division than the rest (our choice)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Roll:
+    """Strokes of one drum without a gap: times in ms, velocities 1–127."""
+
+    times_ms: Sequence[float]
+    velocities: Sequence[int]
+
+
 @dataclass(frozen=True, slots=True)
 class _Heard:
-    clear: float
+    """Under one division which strokes are the hands', and how far those after the first stand out."""
+
+    worth: tuple[float, ...]
     at: tuple[int, ...]
 
 
-def hands_strokes(times_ms: Sequence[float], velocities: Sequence[int], tempo_map: TempoMap) -> tuple[int, ...]:
-    """Which of a roll's strokes are the hands', the first always; empty where the beat does not tell."""
-    times = np.asarray(times_ms, np.float64)
-    loud = _standing_out(np.log(np.asarray(velocities, np.float64)))
+def hands_strokes(rolls: Sequence[Roll], tempo_map: TempoMap) -> list[tuple[int, ...]]:
+    """Of each roll of a drum which of its strokes are the hands', the first always; empty where nothing tells.
+
+    What all rolls say together counts first, for few are in another division than the rest.
+    """
+    heard = [_by_parts(roll, tempo_map) for roll in rolls]
+    shared = [_clear([worth for parts in heard for worth in parts[k].worth]) for k in range(len(_PARTS))]
+    usual = int(np.argmax(shared)) if shared else 0
+    found: list[tuple[int, ...]] = []
+    for parts in heard:
+        own = max(parts, key=lambda h: _clear(h.worth))
+        is_own = _clear(own.worth) >= max(_CLEAR, _clear(parts[usual].worth) + _OTHERWISE)
+        found.append(own.at if is_own else parts[usual].at if shared[usual] >= _CLEAR else ())
+    return found
+
+
+def _by_parts(roll: Roll, tempo_map: TempoMap) -> list[_Heard]:
+    times = np.asarray(roll.times_ms, np.float64)
+    loud = _standing_out(np.log(np.asarray(roll.velocities, np.float64)))
     start = int(tempo_map.ticks_at_ns(round((times[0] - _REACH_MS) * NS_PER_MS)))
-    found = [_heard(times, loud, _cells(times, start, tempo_map, parts)) for parts in _PARTS]
-    best = max(found, key=lambda heard: heard.clear)
-    return best.at if best.clear >= _CLEAR else ()
+    return [_heard(times, loud, _cells(times, start, tempo_map, parts)) for parts in _PARTS]
+
+
+def _clear(worth: Sequence[float]) -> float:
+    """The t-value of strokes that stand out so far."""
+    return (fmean(worth) - _BY_CHANCE) * sqrt(len(worth)) if worth else 0.0
 
 
 def _standing_out(loud: Floats) -> Floats:
@@ -68,14 +102,13 @@ def _cells(times: Floats, start: int, tempo_map: TempoMap, parts: int) -> Floats
 
 
 def _heard(times: Floats, loud: Floats, cells: Floats) -> _Heard:
-    """How clearly strokes on those cells stand out, and which they are."""
-    if len(cells) < 2 or cells[1] - cells[0] < _FASTEST_MS:
-        return _Heard(0.0, ())
+    """Which strokes are on those cells."""
+    if len(cells) > 1 and cells[1] - cells[0] < _FASTEST_MS:
+        return _Heard((), (0,))
+    if not len(cells):
+        return _Heard((), (0,))
     far = times - cells[:, None]
     worth = np.where(np.abs(far) <= _REACH_MS, loud - (far / _SPREAD_MS) ** 2 / 2, -np.inf)
     worth = worth[np.isfinite(worth).any(axis=1)]
     at = sorted({0, *np.argmax(worth, axis=1).tolist()})
-    inner = at[1:]
-    if not inner:
-        return _Heard(0.0, ())
-    return _Heard((float(loud[inner].mean()) - _BY_CHANCE) * float(np.sqrt(len(inner))), tuple(at))
+    return _Heard(tuple(loud[at[1:]].tolist()), tuple(at))
