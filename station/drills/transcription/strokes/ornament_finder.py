@@ -42,8 +42,8 @@ DRAG_MS = (15.0, 78.0)
 _SOFT = 0.75
 """Grace strokes have 25–50 % of their note's velocity (HUMANS, Timing); human spread allows half as much again."""
 _DRAG_SOFT = 0.62
-_LATE_HAND = 1.1
-_NEXT_HAND = 1.2
+_LATE_GAP, _LATE_HAND = 1.2, 1.2
+_NEXT_HAND = 1.35
 """So much louder than rebounds is the other hand's stroke after them: rebounds lose a third; where it also
 comes so much later than a rebound would, less will do (our choice)."""
 _ALIKE = 0.25
@@ -247,7 +247,7 @@ def _begins_another(chain: Sequence[_Stroke], stroke: _Stroke) -> bool:
         return False
     heard, velocity = [s.note.velocity for s in chain], stroke.note.velocity
     gap = median(b.ms - a.ms for a, b in pairwise(chain))
-    is_late = stroke.ms - chain[-1].ms >= _NEXT_HAND * gap
+    is_late = stroke.ms - chain[-1].ms >= _LATE_GAP * gap
     is_louder = velocity >= (_LATE_HAND if is_late else _NEXT_HAND) * median(heard[1:])
     return is_louder and max(heard) > _SOFT * velocity
 

@@ -18,7 +18,7 @@ from station.music.tempo import TempoMap
 
 Floats = NDArray[np.float64]
 
-FEWEST = 8
+FEWEST = 6
 """Strokes of a roll that holds several hands' strokes: fewer are one hand's (our choice)."""
 _PARTS = (1, 2, 3, 4, 6, 8)
 """Into so many cells a beat is cut."""
