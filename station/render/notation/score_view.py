@@ -224,7 +224,8 @@ class ScoreView:
         line = (line_x - place.left) / space
         draw_list.box((line - 0.14, place.top_y), (0.28, place.height / space), with_opacity(BRAND, 0.95))
         tick = max(int(snapshot.score.tempo_map.ticks_at(snapshot.position_s)), 0)
-        note_shapes.time_signature(draw_list, snapshot.score.tempo_map.meter_at(tick), _SIGNATURE_X)
+        bar = int(snapshot.score.tempo_map.bars_at(tick))
+        note_shapes.time_signature(draw_list, self._engraved(snapshot).signs.meter_of(bar), _SIGNATURE_X)
         return draw_list.shapes()
 
     def _heads(self, score: Score) -> NDArray[np.float64]:

@@ -169,7 +169,8 @@ class LineSetter:
         for box in boxes:
             bar, left, right = self._bars[box.index], lead + box.left, lead + box.right
             edge = 0.0 if box is boxes[0] else left
-            draw_number(staff, skyline, edge, bar.number)
+            if bar.number:
+                draw_number(staff, skyline, edge, bar.number)
             if bar.times:
                 draw_times(staff, skyline, right, bar.times)
             if bar.volta is not None:
