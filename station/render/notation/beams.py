@@ -54,7 +54,7 @@ class Anchor:
         self.draw_list.time_s, self.draw_list.span_s = self.seconds(tick), 0.0
 
     def until(self, tick: int) -> None:
-        """What follows stretches from where it hangs to `tick` of the score."""
+        """What follows is drawn out from where it hangs to `tick` of the score."""
         self.draw_list.span_s = self.seconds(tick) - self.draw_list.time_s
 
     def seconds(self, tick: int) -> float:

@@ -283,7 +283,7 @@ def lead_spaces(score: Score) -> float:
 
 
 def visible_bars(score: Score, first_s: float, last_s: float) -> range:
-    """The bars of the score that a stretch of time touches, and the bar line after the last."""
+    """The bars of the score that a span of time touches, and the bar line after the last."""
     ticks = score.tempo_map.ticks_at([max(first_s, 0.0), max(last_s, 0.0)])
     first, last = score.tempo_map.bars_at(ticks).tolist()
     return range(first, min(last, score.bar_count) + 1) if last_s >= 0 else range(0)
