@@ -91,8 +91,7 @@ def on_grid(part: DrumPart) -> DrumPart:
         found = quantised_times(part.score, part.is_played)
     except BadInput:
         return part
-    beat = found.beat_ticks if part.beat_ticks == PPQ else part.beat_ticks
-    return replace(part, score=triplets_spelled_out(found.score), beat_ticks=beat)
+    return replace(part, score=triplets_spelled_out(found.score))
 
 
 def pdf_of(score: Score, bars: Bars, words: SheetWords, paper: str, with_sticking: bool = True) -> bytes:

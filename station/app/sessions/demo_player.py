@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import assert_never
 
-from station.app.actions import (
+from station.app.actions.player_actions import (
     GoToFlag,
     KeepFlag,
     PlayerAction,

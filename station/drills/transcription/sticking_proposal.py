@@ -17,7 +17,7 @@ from station.core.pieces import HAND_PIECES, Limb, Ornament, Piece
 from station.drills.grid.sticking_line import RIGHT_FIRST
 from station.drills.lesson import Lesson
 from station.drills.writing.lesson_form import FormGrid, LessonForm
-from station.motion.kit.kit import load_kit
+from station.motion.kit.kit import Kit, load_kit
 from station.motion.sticking.limbs import limbs_and_reasons
 from station.music.grace_strokes import OTHER_HAND
 from station.music.score import Score
@@ -42,9 +42,10 @@ def with_sticking(lesson: Lesson, form: LessonForm) -> Lesson:
     rows = lesson.score.notes.copy()
     if np.isin(rows["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any():
         return lesson
-    limbs = [_sure_limbs(_played(lesson.score, grid, grid.first_bar)) for grid in form.grids]
-    for grid, first_bar in _turns(form):
-        own = limbs[form.grids.index(grid)]
+    kit = load_kit()
+    limbs = [_sure_limbs(_played(lesson.score, grid, grid.first_bar), kit) for grid in form.grids]
+    for i, first_bar in _turns(form):
+        grid, own = form.grids[i], limbs[i]
         start, end = (lesson.score.tempo_map.bar_start(b) for b in (first_bar, first_bar + grid.bars))
         rows["limb"][(rows["tick"] >= start) & (rows["tick"] < end)] = own
     score = replace(lesson.score, notes=rows)
@@ -55,21 +56,21 @@ def _played(score: Score, grid: FormGrid, first_bar: int) -> Score:
     return score.bars(first_bar, first_bar + grid.bars - 1)
 
 
-def _turns(form: LessonForm) -> Iterator[tuple[FormGrid, int]]:
-    """Each grid whenever it is played, and its first bar then."""
+def _turns(form: LessonForm) -> Iterator[tuple[int, int]]:
+    """The index of each grid whenever it is played, and its first bar then."""
     bar = 0
     for index in form.order:
         for _ in range(form.grids[index].times):
-            yield form.grids[index], bar
+            yield index, bar
             bar += form.grids[index].bars
 
 
-def _sure_limbs(score: Score) -> NDArray[np.int8]:
+def _sure_limbs(score: Score, kit: Kit) -> NDArray[np.int8]:
     """The limb of each stroke (n,), the hands' only in bars where they are sure."""
     found: NDArray[np.int8] = score.notes["limb"].copy()
     if not len(score):
         return found
-    chosen, reasons = limbs_and_reasons(score, load_kit())
+    chosen, reasons = limbs_and_reasons(score, kit)
     hands = np.isin(score.notes["piece"], sorted(HAND_PIECES))
     chosen = _with_their_mains(score, chosen)
     bars = [np.flatnonzero(hands & (score.bar == bar)) for bar in np.unique(score.bar[hands])]
