@@ -5,7 +5,7 @@ Gould, "Behind Bars" (2011): beams half a space, a stem right of its head when u
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from station.music.tempo import TempoMap
 from station.render.notation.note_shapes import draw_figures, figures_width
@@ -48,6 +48,7 @@ class Anchor:
 
     draw_list: DrawList
     tempo: TempoMap
+    _known: dict[int, float] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def at(self, tick: int) -> None:
         """What follows hangs on `tick` of the score."""
@@ -59,7 +60,9 @@ class Anchor:
 
     def seconds(self, tick: int) -> float:
         """The score's time at `tick`."""
-        return float(self.tempo.seconds_at(tick))
+        if tick not in self._known:
+            self._known[tick] = float(self.tempo.seconds_at(tick))
+        return self._known[tick]
 
 
 def draw_flags(anchor: Anchor, tick: int, count: int, voice: StaffVoice, beam_y: float) -> None:

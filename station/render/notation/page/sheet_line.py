@@ -97,6 +97,7 @@ class LineSetter:
 
     def _shapes(self, bar: int, opens_line: bool) -> NDArray[np.void]:
         """A bar's engraved shapes, their times counted from its start."""
+        opens_line = opens_line and self._engraver.is_held_into(bar)  # else it looks the same
         key = (self._form(bar), opens_line)
         if key not in self._engraved:
             shapes = self._engraver.bar(bar, with_line=False, opens_line=opens_line).copy()
