@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from statistics import median
 
 from station.core.errors import BadInput
-from station.core.units import PPQ
 from station.drills.difficulty import difficulty
 from station.drills.grid.line_group import MAX_BARS
 from station.drills.grid.lines_from_score import graces_of
@@ -92,15 +91,14 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     lesson = Lesson(
         name,
         _printable(part.score.title) or name,
-        Score.from_notes(rows, score.tempo_map, score.end_tick),
+        Score.from_notes(rows, score.tempo_map, score.end_tick, beyond=beyond),
         author=_printable(part.author),
         about=_printable(part.about),
         tags=_TAGS,
         loop=(0, score.bar_count - 1),
         swing=part.swing if times.swing.ratio == STRAIGHT and not times.spread_ms else times.swing,
-        beat_ticks=times.beat_ticks if part.beat_ticks == PPQ else part.beat_ticks,
+        beat_ticks=replace(part, score=score).beat_ticks,
         velocities=velocities,
-        beyond=Score.from_notes(beyond, score.tempo_map, score.end_tick).notes,
     )
     form = found_form(lesson, part.sections)
     lesson = with_sticking(replace(lesson, level=_level(lesson, form)), form)
