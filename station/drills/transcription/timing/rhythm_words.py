@@ -135,8 +135,9 @@ def _read_kind(kind: _Kind, max_words: int) -> tuple[Ints, Floats, float]:
     in_bar = kind.strokes.spans.in_bar
     for _ in range(ROUNDS):
         said = table.said(chosen)
-        spoken = [_spoken(kind, word) for word in _commonest(said, max_words)]
-        table = _Table.of([*kind.by_division, *spoken])
+        if max_words:
+            spoken = [_spoken(kind, word) for word in _commonest(said, max_words)]
+            table = _Table.of([*kind.by_division, *spoken])
         chosen = np.argmin(table.error + table.word_cost(said, in_bar), axis=0)
         if np.array_equal(said, table.said(chosen)):
             break
