@@ -4,13 +4,13 @@
     .venv/bin/python benchmarks/journeys.py --takes 2000 --processes 2 [--out FILE.md]
     .venv/bin/python benchmarks/journeys.py --show KIND SEED [--click]
 
-`station/bench/rigs/journeys.py` says what is played, `journey_truth.py` what an ear can know of it. The columns: F1 of
-the pairs below an oracle's who knows the way and the tempo, its median, its 95th percentile, and the share of takes
-that lie more than .03 below; turns (skips, repeats, stops …) that could be heard and start no stretch of ours; takes
-with a stretch that nobody began; notes on which the last live word is the final one, and hits on which it is where
-notes that are alike count as one; the largest change of the score when the same take lies elsewhere in its file;
-lessons whose passes are told exactly, all, and those whose loop no shorter figure makes up. `--show` prints the true
-way of a take beside ours.
+`station/bench/rigs/journeys/journeys.py` says what is played, `journey_truth.py` what an ear can know of it. The
+columns: F1 of the pairs below an oracle's who knows the way and the tempo, its median, its 95th percentile, and the
+share of takes that lie more than .03 below; turns (skips, repeats, stops …) that could be heard and start no stretch of
+ours; takes with a stretch that nobody began; notes on which the last live word is the final one, and hits on which it
+is where notes that are alike count as one; the largest change of the score when the same take lies elsewhere in its
+file; lessons whose passes are told exactly, all, and those whose loop no shorter figure makes up. `--show` prints the
+true way of a take beside ours.
 """
 
 import argparse
@@ -24,9 +24,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from station.bench.rigs.journey_takes import Take
-from station.bench.rigs.journey_truth import Truth
-from station.bench.rigs.journeys import CLICK_KINDS, KINDS, journey
+from station.bench.rigs.journeys.journey_takes import Take
+from station.bench.rigs.journeys.journey_truth import Truth
+from station.bench.rigs.journeys.journeys import CLICK_KINDS, KINDS, journey
 from station.bench.rows.journey_rows import Result, matched, measure
 from station.core.units import NS_PER_S
 from station.scoring.align import align

@@ -14,9 +14,9 @@ from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
-from station.bench.rigs.planted_faults import FAULTS
-from station.bench.rigs.planted_table import HEAD, measure, missed_on, row
-from station.bench.rigs.planted_trials import NONE, PAIRS, Tally
+from station.bench.rigs.planted.planted_faults import FAULTS
+from station.bench.rigs.planted.planted_table import HEAD, measure, missed_on, row
+from station.bench.rigs.planted.planted_trials import NONE, PAIRS, Tally
 
 _QUICK_TAKES, _SOAK_TAKES = 15, 400
 _MORE = 5

@@ -21,7 +21,9 @@ from imgui_bundle import imgui
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
-from station.app.actions import EditStyle, OpenMotion, SeekMotion, SetView  # noqa: E402  # noqa: E402
+from station.app.actions.phase_actions import OpenMotion, SeekMotion  # noqa: E402
+from station.app.actions.settings_actions import SetView  # noqa: E402
+from station.app.actions.style_actions import EditStyle  # noqa: E402
 from station.app.room_state import Stage  # noqa: E402
 from station.core.imu import Mounting  # noqa: E402
 from station.core.pieces import Limb, Piece, Zone  # noqa: E402

@@ -2,5 +2,5 @@
 
 In: actions of the user, events of the engine, time. Out: one frozen view a frame, for `gui` to draw, and what is kept
 on disk. `controller` owns everything else here; `settings_store` alone writes the settings.
-Read `controller` first, then `actions` (all that a user can do) and `window_state` (all that is seen).
+Read `controller` first, then `actions.action` (all that a user can do) and `window_state` (all that is seen).
 """

@@ -5,7 +5,7 @@ from concurrent.futures import Executor, Future
 from dataclasses import replace
 from typing import assert_never
 
-from station.app.actions import ChoiceAction, ChooseBars, JudgeAt, Select, TapBeat
+from station.app.actions.practice_actions import ChoiceAction, ChooseBars, JudgeAt, Select, TapBeat
 from station.app.lesson_cards import request_of
 from station.app.room_state import LessonCard, Stage
 from station.app.selection import Selection

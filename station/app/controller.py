@@ -11,7 +11,33 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import assert_never
 
-from station.app import actions as do
+from station.app.actions.action import Action, Notify, Show
+from station.app.actions.equipment_actions import (
+    CalibrationAction,
+    CancelMeasuring,
+    EquipmentAction,
+    ForgetMeasured,
+    KeepMeasured,
+    MappingAction,
+    Measure,
+    StickAction,
+)
+from station.app.actions.file_actions import FileAction
+from station.app.actions.phase_actions import PhaseAction
+from station.app.actions.player_actions import PlayerAction
+from station.app.actions.practice_actions import Begin, ChoiceAction, Drill, Leave, Pause, PracticeAction, StrikeKey
+from station.app.actions.settings_actions import (
+    Embody,
+    FinishFirstStart,
+    KeepViewpoint,
+    LeadWith,
+    LearnPause,
+    PutUp,
+    SetPreferences,
+    SettingsAction,
+    SetView,
+)
+from station.app.actions.style_actions import StyleAction
 from station.app.child_programs import ChildPrograms
 from station.app.chooser import Chooser
 from station.app.engine_client import EngineClient
@@ -69,7 +95,7 @@ class Controller:
             self.sessions.listen_to, self.sessions.is_listening_to, self.sessions.quiet, ThreadPoolExecutor(1, "motion")
         )
         self._chooser = Chooser(self.sessions, store, launch, ThreadPoolExecutor(1, "catalog"))
-        self._shown = do.Show()
+        self._shown = Show()
         self._now_ns = 0
         self._view: State | None = None
 
@@ -104,7 +130,7 @@ class Controller:
             self.sessions.died()
             return []
 
-    def _handle(self, event: EngineEvent) -> do.Begin | None:
+    def _handle(self, event: EngineEvent) -> Begin | None:
         """Handle one event; a session that it asks for begins when all others are handled, anything else at once."""
         self.mapping.handle(event)
         self.sticks.handle(event)
@@ -112,7 +138,7 @@ class Controller:
         if self.mapping.learns or self.sticks.learns:  # strokes teach, and ask for nothing
             return None
         asked = self._pads.handle(event, self.sessions.practice)
-        if asked is None or isinstance(asked, do.Begin):
+        if asked is None or isinstance(asked, Begin):
             return asked
         self.dispatch(asked)
         return None
@@ -160,7 +186,7 @@ class Controller:
 
     # --- what the user does ------------------------------------------------------------------------------------------
 
-    def dispatch(self, action: do.Action) -> None:
+    def dispatch(self, action: Action) -> None:
         """Do what the user asks; what cannot be done is said in one line."""
         self._view = None
         self._tried(lambda: self._do(action))
@@ -171,52 +197,52 @@ class Controller:
         except StationError as fault:
             self._toasts.notify(str(fault))
 
-    def _do(self, action: do.Action) -> None:
+    def _do(self, action: Action) -> None:
         """Raises `StationError` where it cannot be done."""
-        if isinstance(action, do.PlayerAction):
+        if isinstance(action, PlayerAction):
             self.sessions.player.act(action)
-        elif isinstance(action, do.ChoiceAction):
+        elif isinstance(action, ChoiceAction):
             self._chooser.act(action)
-        elif isinstance(action, do.PracticeAction):
+        elif isinstance(action, PracticeAction):
             self._practise(action)
-        elif isinstance(action, do.EquipmentAction):
+        elif isinstance(action, EquipmentAction):
             self._equip(action)
-        elif isinstance(action, do.StyleAction):
+        elif isinstance(action, StyleAction):
             self._restyle(action)
-        elif isinstance(action, do.SettingsAction):
+        elif isinstance(action, SettingsAction):
             self._set(action)
-        elif isinstance(action, do.FileAction):
+        elif isinstance(action, FileAction):
             lesson, bars = self.sessions.player.lesson, self._chooser.bars
             self._toasts.notify(self.export.act(action, lesson, bars, self._store.now, self._view_settings))
-        elif isinstance(action, do.PhaseAction):
+        elif isinstance(action, PhaseAction):
             self.phase.act(action)
-        elif isinstance(action, do.Show):
+        elif isinstance(action, Show):
             self._show(action)
-        elif isinstance(action, do.Notify):
+        elif isinstance(action, Notify):
             self._toasts.notify(action.line)
         else:
             assert_never(action)
 
-    def _equip(self, action: do.EquipmentAction) -> None:
-        if isinstance(action, do.MappingAction):
+    def _equip(self, action: EquipmentAction) -> None:
+        if isinstance(action, MappingAction):
             self._toasts.notify(self.mapping.act(action))
-        elif isinstance(action, do.StickAction):
+        elif isinstance(action, StickAction):
             self.sticks.act(action)
         else:
             self._measure(action)
 
-    def _practise(self, action: do.PracticeAction) -> None:
+    def _practise(self, action: PracticeAction) -> None:
         match action:
-            case do.Begin():
+            case Begin():
                 self._begin()
-            case do.Drill(bar):
+            case Drill(bar):
                 self._begin(bar)
-            case do.Pause(strokes):
+            case Pause(strokes):
                 self._pads.forget()
                 self.sessions.practice.turn(strokes)
-            case do.Leave():
+            case Leave():
                 self._leave()
-            case do.StrikeKey(hit):
+            case StrikeKey(hit):
                 with suppress(DeviceError):  # a dead engine hears none, and has said so
                     self._engine.send(hit)
             case _:
@@ -240,7 +266,7 @@ class Controller:
         else:
             self.sessions.player.halt()
 
-    def _show(self, shown: do.Show) -> None:
+    def _show(self, shown: Show) -> None:
         before, self._shown = self._shown, shown
         self.mapping.listen(shown.devices)
         if not shown.sticks:
@@ -252,29 +278,29 @@ class Controller:
         if shown.devices and not before.devices:
             self.calibration.look_up()
 
-    def _set(self, action: do.SettingsAction) -> None:
+    def _set(self, action: SettingsAction) -> None:
         match action:
-            case do.FinishFirstStart(answers):
+            case FinishFirstStart(answers):
                 self._store.update(lambda settings: answered(settings, answers))
                 if answers is not None:
                     self._tried(lambda: self._engine.stand(student_level(self._store.now)))
                     self._chooser.show_anew()
-            case do.SetView(view_settings):
+            case SetView(view_settings):
                 self._set_view(replace(view_settings, viewpoints=self._view_settings.viewpoints))
-            case do.KeepViewpoint(slot, camera):
+            case KeepViewpoint(slot, camera):
                 self._set_view(self._view_settings.keeping(slot, camera))
                 self._toasts.notify(f"viewpoint {slot + 1} is kept: {slot + 1} comes back to it")
-            case do.SetPreferences(preferences):
+            case SetPreferences(preferences):
                 self.preferences.put(preferences)
-            case do.LearnPause(on):
+            case LearnPause(on):
                 self.preferences.learn(on)
-            case do.LeadWith(hands):
+            case LeadWith(hands):
                 self._store.update(lambda settings: replace(settings, hands=hands.value))
                 self._chooser.show_anew()
-            case do.PutUp(stands):
+            case PutUp(stands):
                 self._store.update(lambda settings: replace(settings, stands=stands))
                 self._chooser.show_anew()
-            case do.Embody(figure):
+            case Embody(figure):
                 self._embody(figure)
             case _:
                 assert_never(action)
@@ -283,7 +309,7 @@ class Controller:
         self._view_settings = view_settings
         self._store.update(lambda settings: with_view_settings(settings, view_settings))
 
-    def _restyle(self, action: do.StyleAction) -> None:
+    def _restyle(self, action: StyleAction) -> None:
         before = self._style.demonstrator.figure
         self._style.act(action, self.sessions.practice.session.plan.lesson.score)
         self.sessions.perform_as(self._style.demonstrator)
@@ -302,20 +328,20 @@ class Controller:
             raise
         self._store.update(lambda settings: replace(settings, figure=figure))
 
-    def _measure(self, action: do.CalibrationAction) -> None:
+    def _measure(self, action: CalibrationAction) -> None:
         match action:
-            case do.Measure(by, distance_m):
+            case Measure(by, distance_m):
                 from station.app.equipment.latency_methods import MeasureRequest
 
                 self.calibration.measure(MeasureRequest.of(self._store.now, by, distance_m))
-            case do.CancelMeasuring():
+            case CancelMeasuring():
                 self.calibration.cancel()
-            case do.KeepMeasured():
+            case KeepMeasured():
                 message = self.calibration.keep()
                 self.sessions.trust(latency_of(self._store.now, load_calibration()))
                 self._toasts.notify(message)
                 self.calibration.look_up()
-            case do.ForgetMeasured():
+            case ForgetMeasured():
                 self.calibration.drop()
             case _:
                 assert_never(action)

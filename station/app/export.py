@@ -15,7 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import assert_never
 
-from station.app.actions import CancelFilm, Export, ExportKind, FileAction, FilmTake
+from station.app.actions.file_actions import CancelFilm, Export, ExportKind, FileAction, FilmTake
 from station.app.view_settings import ViewSettings
 from station.core.errors import DeviceError, StationError
 from station.core.files import growing, write_whole

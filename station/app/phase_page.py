@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import assert_never
 
-from station.app.actions import ChooseTriggers, OpenMotion, PhaseAction, PlayMotion, SeekMotion
+from station.app.actions.phase_actions import ChooseTriggers, OpenMotion, PhaseAction, PlayMotion, SeekMotion
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S, ns_from_s
 from station.practice.session.listening import Listening, stretch

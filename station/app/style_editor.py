@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import assert_never
 
-from station.app.actions import (
+from station.app.actions.style_actions import (
     EditStyle,
     KeepSlot,
     ListStyles,

@@ -11,11 +11,10 @@ from station.cli.animate_motion import WRITERS
 from station.cli.animate_options import ENDINGS, AnimateOptions, check_meant, usual_of_loops
 from station.cli.console import say, say_infeasible
 from station.cli.drummer_options import assigned, drums_of, led_score
-from station.cli.input.read_scores import cues_of_lesson
+from station.cli.input.read_scores import words_of
 from station.cli.options.option_fields import Command
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S
-from station.drills.lesson import BarCue
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import GREATEST_STATURE_M, LEAST_STATURE_M, Figure, figure_of
 from station.motion.motion_plan import MotionPlan
@@ -24,6 +23,7 @@ from station.motion.style.style import Style
 from station.motion.style.style_file import load_style
 from station.music.score import Score
 from station.scenes.demonstrator import as_taught, figure_for
+from station.scenes.score_words import ScoreWords
 
 MIN_FPS, MAX_FPS = 1.0, 1000.0
 LEAD_S = 1.0
@@ -49,7 +49,7 @@ def run(options: AnimateOptions) -> int:
     if ending in (_FILM, _LOOP):
         _check_even(options.picture.size)
     whole = score = led_score(options.score, options.drums)
-    style, cues = _directed(propose_style(score) if options.style == PROPOSED else load_style(options.style), options)
+    style, words = _directed(propose_style(score) if options.style == PROPOSED else load_style(options.style), options)
     if ending == _LOOP:
         score, style = _looped(whole, style, options)
     plan = _planned(score, style, options)
@@ -60,17 +60,21 @@ def run(options: AnimateOptions) -> int:
         WRITERS[ending]()(drummer, out, times_s)
         kind = "motion "
     else:
-        kind = _draw(drummer, whole, cues, options)
+        kind = _draw(drummer, whole, words, options)
     say_infeasible((*drummer.assignment.warnings, *(demand.text for demand in drummer.left_over)))
     say(f"{kind}  {out}")
     return 0
 
 
-def _directed(style: Style, options: AnimateOptions) -> tuple[Style, tuple[BarCue, ...]]:
-    """The style over the bars of a lesson whose teacher changes it, and their cues: unless another one is asked for."""
-    cues = cues_of_lesson(options.score)
-    taught = style if "style" in options.said else as_taught(style, cues)
-    return taught, tuple(replace(cue, camera="") for cue in cues) if "view" in options.said else cues
+def _directed(style: Style, options: AnimateOptions) -> tuple[Style, ScoreWords]:
+    """The style over the bars of a lesson whose teacher changes it, and what stands by the notes.
+
+    Cues that change style or view are left out where another one is asked for.
+    """
+    words = words_of(options.score)
+    taught = style if "style" in options.said else as_taught(style, words.cues)
+    cues = tuple(replace(cue, camera="") for cue in words.cues) if "view" in options.said else words.cues
+    return taught, replace(words, cues=cues)
 
 
 def _planned(score: Score, style: Style, options: AnimateOptions) -> MotionPlan:
@@ -110,22 +114,22 @@ def _looped(score: Score, style: Style, options: AnimateOptions) -> tuple[Score,
     return FilmLoop.score(score, *bars), FilmLoop.style(style, *bars)
 
 
-def _draw(drummer: Drummer, whole: Score, cues: tuple[BarCue, ...], options: AnimateOptions) -> str:
+def _draw(drummer: Drummer, whole: Score, words: ScoreWords, options: AnimateOptions) -> str:
     """Draw what the name asks for; returns what it is, for people."""
     from station.cli import animate_pictures as pictures
 
     made = _made(options.out)
     if made == "a picture":
-        pictures.draw_picture(drummer, _moment_s(drummer.score, options), cues, options)
+        pictures.draw_picture(drummer, _moment_s(drummer.score, options), words, options)
         return "picture"
     if made == "a GIF":
-        pictures.draw_loop(drummer, whole, _bars(whole, options)[0], cues, options)
+        pictures.draw_loop(drummer, whole, _bars(whole, options)[0], words, options)
         return "loop   "
     stretch = _stretch(drummer.score, options, RING_S)
     if made == "numbered pictures":
-        pictures.draw_sequence(drummer, stretch, cues, options)
+        pictures.draw_sequence(drummer, stretch, words, options)
         return "pictures"
-    pictures.draw_film(drummer, stretch, cues, options)
+    pictures.draw_film(drummer, stretch, words, options)
     return "video  "
 
 

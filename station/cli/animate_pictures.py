@@ -9,13 +9,13 @@ from pathlib import Path
 from station.cli.animate_options import AnimateOptions, PictureOptions
 from station.cli.console import Progress
 from station.core.settings import load_settings
-from station.drills.lesson import BarCue
 from station.motion.drummer import Drummer
 from station.music.score import Score
 from station.render.framing import Stage, named
 from station.render.picture import Shot
 from station.render.quality import QUALITIES
 from station.scenes.film import FilmLoop, FilmStretch, write_film, write_loop, write_pictures
+from station.scenes.score_words import ScoreWords
 from station.scenes.soundtrack import Sounds
 from station.sound.samples.load_kit import load_kit
 
@@ -28,27 +28,29 @@ _MOST_DENOMINATOR = 1001
 
 Stretch = tuple[float, float]
 """From which second of the score on, and for how many seconds."""
-Cues = tuple[BarCue, ...]
-"""Those of the lesson's teacher that are followed."""
 
 
-def draw_picture(drummer: Drummer, at_s: float, cues: Cues, options: AnimateOptions) -> None:
+def draw_picture(drummer: Drummer, at_s: float, words: ScoreWords, options: AnimateOptions) -> None:
     """The picture of one instant."""
     write_pictures(
-        drummer, FilmStretch(at_s, 1, Fraction(1), cues), _shot(drummer, options.picture), [options.out], lambda _: None
+        drummer,
+        FilmStretch(at_s, 1, Fraction(1), words),
+        _shot(drummer, options.picture),
+        [options.out],
+        lambda _: None,
     )
 
 
-def draw_sequence(drummer: Drummer, stretch: Stretch, cues: Cues, options: AnimateOptions) -> None:
+def draw_sequence(drummer: Drummer, stretch: Stretch, words: ScoreWords, options: AnimateOptions) -> None:
     """Numbered pictures, from 1."""
-    film = replace(_film_stretch(stretch, options.fps), cues=cues)
+    film = replace(_film_stretch(stretch, options.fps), words=words)
     shot = _shot(drummer, options.picture)
     _with_progress(film, lambda show: write_pictures(drummer, film, shot, _numbered(options.out, film), show))
 
 
-def draw_loop(drummer: Drummer, whole: Score, first_bar: int, cues: Cues, options: AnimateOptions) -> None:
+def draw_loop(drummer: Drummer, whole: Score, first_bar: int, words: ScoreWords, options: AnimateOptions) -> None:
     """A GIF of bars of the `whole` score from `first_bar` (from 0) on, which `drummer` plays over and over."""
-    loop = FilmLoop.of(drummer, first_bar, whole.bar_count, cues)
+    loop = FilmLoop.of(drummer, first_bar, whole.bar_count, words)
     shot = _shot(drummer, options.picture)
     progress = Progress(round(loop.length_s * options.fps))
     try:
@@ -57,9 +59,9 @@ def draw_loop(drummer: Drummer, whole: Score, first_bar: int, cues: Cues, option
         progress.close()
 
 
-def draw_film(drummer: Drummer, stretch: Stretch, cues: Cues, options: AnimateOptions) -> None:
+def draw_film(drummer: Drummer, stretch: Stretch, words: ScoreWords, options: AnimateOptions) -> None:
     """A video with sound."""
-    film = replace(_film_stretch(stretch, options.fps), cues=cues)
+    film = replace(_film_stretch(stretch, options.fps), words=words)
     settings = load_settings()
     sounds = Sounds(load_kit(settings.drums, RATE_HZ), settings.click if options.picture.click else None)
     shot = _shot(drummer, options.picture)

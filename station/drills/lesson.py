@@ -121,9 +121,7 @@ class Lesson:
     `kit` a kit file's name, empty for the player's own; `sections` cover all bars in order, as the form plays them.
     `swing` is the first section's. `cues` are in the order of their bars. `prerequisites` name the lessons that come
     before; `hints` say by a fault's word what helps against it; `landing` (n,) of `NOTE_DTYPE`, its ticks 0, is struck
-    where the last loop ends, empty where nothing is. `beyond` (m,) of `NOTE_DTYPE`, in order of ticks from the start of
-    the music, are strokes that the music has and this player cannot make besides: kept and shown, never asked. `text`
-    is what its file says, empty where it comes from none.
+    where the last loop ends, empty where nothing is. `text` is what its file says, empty where it comes from none.
     """
 
     name: str
@@ -147,7 +145,6 @@ class Lesson:
     prerequisites: tuple[str, ...] = ()
     hints: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     landing: NDArray[np.void] = field(default_factory=lambda: np.zeros(0, NOTE_DTYPE))
-    beyond: NDArray[np.void] = field(default_factory=lambda: np.zeros(0, NOTE_DTYPE))
     text: str = field(default="", repr=False)
 
     @property
@@ -179,6 +176,11 @@ class Lesson:
     def is_swung(self) -> bool:
         """Whether offbeats come late."""
         return self.swing.ratio != STRAIGHT
+
+    @property
+    def beyond(self) -> NDArray[np.void]:
+        """The strokes of the music that this player cannot make besides, written `*`: shown, never asked."""
+        return self.score.beyond
 
     @property
     def loop_score(self) -> Score:

@@ -36,4 +36,4 @@ def reorchestrated(score: Score) -> Score:
         notes[name][moved] = value
     for name in ("choke_ticks", "midi_note"):
         notes[name][moved] = 0
-    return Score.from_array(notes, score.tempo_map, score.end_tick, score.title, score.loudness)
+    return Score.from_array(notes, score.tempo_map, score.end_tick, score.title, score.loudness, score.beyond)

@@ -9,7 +9,9 @@ from dataclasses import replace
 
 from imgui_bundle import hello_imgui
 
-from station.app.actions import Action, Drill, Seek, Show
+from station.app.actions.action import Action, Show
+from station.app.actions.player_actions import Seek
+from station.app.actions.practice_actions import Drill
 from station.app.room_state import Stage
 from station.app.window_state import State
 from station.core.units import ns_from_s

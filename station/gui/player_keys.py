@@ -5,9 +5,8 @@ from types import MappingProxyType
 
 from imgui_bundle import imgui
 
-from station.app.actions import (
-    Action,
-    ChooseBars,
+from station.app.actions.action import Action
+from station.app.actions.player_actions import (
     GoToFlag,
     KeepFlag,
     PlayOrStop,
@@ -19,6 +18,7 @@ from station.app.actions import (
     SetStep,
     StepOnce,
 )
+from station.app.actions.practice_actions import ChooseBars
 from station.app.sessions.demo_player import PlayerView
 from station.gui.keyboard_kit import slot_pressed
 from station.practice.demonstration.song_player import SongStep

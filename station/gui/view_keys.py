@@ -5,7 +5,8 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, KeepViewpoint, Notify, SetView
+from station.app.actions.action import Action, Notify
+from station.app.actions.settings_actions import KeepViewpoint, SetView
 from station.app.view_settings import ViewSettings
 from station.gui.keyboard_kit import slot_pressed, view_pressed
 from station.gui.viewport import Viewport

@@ -7,7 +7,9 @@ judgement.
 
 from imgui_bundle import hello_imgui, imgui, implot
 
-from station.app.actions import Begin, FinishFirstStart, Leave, Notify, Pause, Show, StrikeKey
+from station.app.actions.action import Notify, Show
+from station.app.actions.practice_actions import Begin, Leave, Pause, StrikeKey
+from station.app.actions.settings_actions import FinishFirstStart
 from station.app.controller import Controller
 from station.app.first_start import FirstAnswers
 from station.app.help_topics import topic_of

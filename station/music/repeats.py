@@ -108,7 +108,8 @@ class _BarForm:
 
 
 def _bar_forms(score: Score) -> Iterator[_BarForm]:
-    rows = score.notes.copy()
+    whole, is_beyond = score.whole
+    rows = whole.notes.copy()
     for name in _UNWRITTEN:
         rows[name] = 0
     starts = [score.tempo_map.bar_start(bar) for bar in range(score.bar_count + 1)]
@@ -122,7 +123,8 @@ def _bar_forms(score: Score) -> Iterator[_BarForm]:
         held = tuple((until - start, piece) for tick, until, piece in held_over if tick < start < until)
         meter = score.tempo_map.meter_at(start)
         signature = (meter.beats, meter.unit, meter.groups, end - start)
-        form = (strokes.tobytes(), held, signature, tempi.within(start, end), loudness.within(start, end))
+        small = is_beyond[edges[bar] : edges[bar + 1]].tobytes()
+        form = (strokes.tobytes(), small, held, signature, tempi.within(start, end), loudness.within(start, end))
         new_meter = str(meter) if bar == 0 or meter.tick == start else ""
         yield _BarForm(known.setdefault(form, len(known)), (new_meter, tempi.new_at(start), loudness.new_at(start)))
 

@@ -9,8 +9,11 @@ Rows are ordered by tick, then grace strokes first, then piece; `Score.notes` is
 """
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
+from math import isnan
+from operator import attrgetter
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,36 +63,41 @@ class Note:
     swing_ticks: int = 0
 
 
+_FIELDS = tuple(field.name for field in fields(Note))
+_ROW = attrgetter(*(NOTE_DTYPE.names or ()))
+_OPENNESS = (NOTE_DTYPE.names or ()).index("openness")
+_WORDS = MappingProxyType(
+    {
+        "piece": {int(p): p for p in Piece},
+        "zone": {int(z): z for z in Zone},
+        "articulation": {int(a): a for a in Articulation},
+        "dynamic": {int(d): d for d in Dynamic},
+        "limb": {int(limb): limb for limb in Limb},
+        "ornament": {int(o): o for o in Ornament},
+    }
+)
+"""By the names of the columns that hold them, the words that numbers stand for."""
+
+
 def _row(note: Note) -> tuple[float | int, ...]:
-    openness = np.nan if note.openness is None else note.openness
-    values = {name: getattr(note, name) for name in NOTE_DTYPE.names or ()} | {"openness": openness}
-    return tuple(values[name] for name in NOTE_DTYPE.names or ())
+    row: tuple[float | int, ...] = _ROW(note)
+    return row if note.openness is not None else (*row[:_OPENNESS], np.nan, *row[_OPENNESS + 1 :])
 
 
-def _note(row: np.void) -> Note:
-    return Note(
-        tick=int(row["tick"]),
-        piece=Piece(row["piece"]),
-        zone=Zone(row["zone"]),
-        velocity=int(row["velocity"]),
-        articulation=Articulation(row["articulation"]),
-        dynamic=Dynamic(row["dynamic"]),
-        limb=Limb(row["limb"]),
-        openness=None if np.isnan(row["openness"]) else float(row["openness"]),
-        ornament=Ornament(row["ornament"]),
-        lead_ms=float(row["lead_ms"]),
-        duration_ticks=int(row["duration_ticks"]),
-        choke_ticks=int(row["choke_ticks"]),
-        midi_note=int(row["midi_note"]),
-        swing_ticks=int(row["swing_ticks"]),
-    )
+def _notes(rows: NDArray[np.void]) -> Iterator[Note]:
+    """The rows (n,) as notes, column by column: so it costs a tenth of asking each row for each field."""
+    columns = {name: rows[name].tolist() for name in _FIELDS}
+    columns |= {name: [words[number] for number in columns[name]] for name, words in _WORDS.items()}
+    columns["openness"] = [None if isnan(openness) else openness for openness in columns["openness"]]
+    return map(Note, *columns.values())
 
 
 @dataclass(frozen=True, eq=False)
 class Score:
     """Strokes (`notes`, shape (n,), dtype `NOTE_DTYPE`) over `tempo_map`; `end_tick` is where the last bar ends.
 
-    `loudness` has the marks and hairpins of the part, by their ticks.
+    `loudness` has the marks and hairpins of the part, by their ticks. `beyond` (m,) of `NOTE_DTYPE`, ordered as `notes`
+    are, has strokes of the music that one player has no hand, foot or time for: written small, never asked.
     """
 
     notes: NDArray[np.void]
@@ -97,6 +105,7 @@ class Score:
     end_tick: int = 0
     title: str = ""
     loudness: tuple[LoudnessMark, ...] = ()
+    beyond: NDArray[np.void] = field(default_factory=lambda: np.zeros(0, NOTE_DTYPE))
 
     @classmethod
     def from_array(
@@ -106,30 +115,41 @@ class Score:
         end_tick: int | None = None,
         title: str = "",
         loudness: tuple[LoudnessMark, ...] = (),
+        beyond: NDArray[np.void] | None = None,
     ) -> "Score":
         """A score of rows in any order; without `end_tick` it ends with the bar of its last stroke."""
-        rows = notes[np.lexsort((notes["piece"], -notes["lead_ms"], notes["tick"]))]
-        rows.setflags(write=False)
+        rows = _ordered(notes)
         if end_tick is None:
             last = int(rows["tick"].max()) if len(rows) else 0
             end_tick = tempo_map.bar_start(int(tempo_map.bars_at(last)) + 1)
-        return cls(rows, tempo_map, end_tick, title, loudness)
+        more = np.zeros(0, NOTE_DTYPE) if beyond is None else beyond
+        return cls(rows, tempo_map, end_tick, title, loudness, _ordered(more))
 
     @classmethod
     def from_notes(
-        cls, notes: Iterable[Note], tempo_map: TempoMap, end_tick: int | None = None, title: str = ""
+        cls,
+        notes: Iterable[Note],
+        tempo_map: TempoMap,
+        end_tick: int | None = None,
+        title: str = "",
+        beyond: Iterable[Note] = (),
     ) -> "Score":
         """A score of `notes` in any order."""
-        return cls.from_array(np.array([_row(n) for n in notes], NOTE_DTYPE), tempo_map, end_tick, title)
+        rows, more = (np.array([_row(n) for n in some], NOTE_DTYPE) for some in (notes, beyond))
+        return cls.from_array(rows, tempo_map, end_tick, title, beyond=more)
 
     def __len__(self) -> int:
         return len(self.notes)
 
     def __getitem__(self, index: int) -> Note:
-        return _note(self.notes[index])
+        return self._as_notes[index]
 
     def __iter__(self) -> Iterator[Note]:
-        return (_note(row) for row in self.notes)
+        return iter(self._as_notes)
+
+    @cached_property
+    def _as_notes(self) -> tuple[Note, ...]:
+        return tuple(_notes(self.notes))
 
     @cached_property
     def onset_ns(self) -> NDArray[np.int64]:
@@ -179,13 +199,28 @@ class Score:
         """Quarter notes from tick 0 to `end_tick`."""
         return self.end_tick / PPQ
 
+    @cached_property
+    def whole(self) -> "tuple[Score, NDArray[np.bool_]]":
+        """All strokes of the music in one score, and which of its rows are `beyond` the player, shape (n + m,).
+
+        The player's own rows keep their order.
+        """
+        rows, is_beyond = (
+            np.concatenate([self.notes, self.beyond]),
+            np.arange(len(self) + len(self.beyond)) >= len(self),
+        )
+        if not len(self.beyond):
+            return self, is_beyond
+        order = _order(rows)
+        whole = Score.from_array(rows, self.tempo_map, self.end_tick, self.title, self.loudness)
+        return whole, is_beyond[order]
+
     def bars(self, first: int, last: int) -> "Score":
         """Bars `first` to `last` inclusive (from 0), moved to tick 0."""
         start, end = self.tempo_map.bar_start(first), self.tempo_map.bar_start(last + 1)
-        rows = self.notes[(self.notes["tick"] >= start) & (self.notes["tick"] < end)].copy()
-        rows["tick"] -= start
+        rows, beyond = (_between(some, start, end) for some in (self.notes, self.beyond))
         loudness = marks_within(self.loudness, start, end)
-        return Score.from_array(rows, self.tempo_map.section(start, end), end - start, self.title, loudness)
+        return Score.from_array(rows, self.tempo_map.section(start, end), end - start, self.title, loudness, beyond)
 
     def until_ns(self, stop_ns: int) -> "Score":
         """The strokes that sound before `stop_ns` from tick 0, over the same bars."""
@@ -213,23 +248,25 @@ class Score:
         """All `parts` one after the other, each from the end of the one before; at least one part."""
         assert parts, "nothing to join"
         starts = np.cumsum([0] + [p.end_tick for p in parts]).tolist()
-        rows = np.concatenate([p.notes for p in parts])
-        rows["tick"] += np.repeat(np.array(starts[:-1], np.int64), [len(p) for p in parts])
+        rows, beyond = (
+            _one_after_another(some, starts) for some in zip(*((p.notes, p.beyond) for p in parts), strict=True)
+        )
         tempos, meters = [], []
         for at, part in zip(starts, parts, strict=False):
             sounding = part.tempo_map.section(0, part.end_tick)  # what changes after its end is not for the next part
             tempos += [replace(t, tick=t.tick + at) for t in sounding.tempos]
             meters += [replace(m, tick=m.tick + at) for m in sounding.meters]
         loudness = joined_marks((at, part.loudness) for at, part in zip(starts, parts, strict=False) if len(part))
-        return Score.from_array(rows, TempoMap.build(tempos, meters), starts[-1], parts[0].title, loudness)
+        return Score.from_array(rows, TempoMap.build(tempos, meters), starts[-1], parts[0].title, loudness, beyond)
 
     @property
     def as_written(self) -> "Score":
         """The strokes where notation writes them: straight under the word swing."""
-        rows = self.notes.copy()
-        rows["tick"] -= rows["swing_ticks"]
-        rows["swing_ticks"] = 0
-        return Score.from_array(rows, self.tempo_map, self.end_tick, self.title, self.loudness)
+        rows, beyond = self.notes.copy(), self.beyond.copy()
+        for some in (rows, beyond):
+            some["tick"] -= some["swing_ticks"]
+            some["swing_ticks"] = 0
+        return Score.from_array(rows, self.tempo_map, self.end_tick, self.title, self.loudness, beyond)
 
     def at_speed(self, factor: float) -> "Score":
         """The same strokes played `factor` times as fast; grace leads keep their milliseconds."""
@@ -241,3 +278,28 @@ class Score:
         rows["limb"] = limbs
         rows.setflags(write=False)
         return replace(self, notes=rows)
+
+
+def _order(rows: NDArray[np.void]) -> NDArray[np.intp]:
+    """How rows are ordered: by tick, grace strokes first, then by piece."""
+    return np.lexsort((rows["piece"], -rows["lead_ms"], rows["tick"]))
+
+
+def _ordered(rows: NDArray[np.void]) -> NDArray[np.void]:
+    found = rows[_order(rows)]
+    found.setflags(write=False)
+    return found
+
+
+def _between(rows: NDArray[np.void], start: int, end: int) -> NDArray[np.void]:
+    """Those from tick `start` up to `end`, moved to tick 0."""
+    found = rows[(rows["tick"] >= start) & (rows["tick"] < end)].copy()
+    found["tick"] -= start
+    return found
+
+
+def _one_after_another(parts: Sequence[NDArray[np.void]], starts: Sequence[int]) -> NDArray[np.void]:
+    """The rows of all parts, each moved to where it starts."""
+    rows = np.concatenate(parts)
+    rows["tick"] += np.repeat(np.array(starts[: len(parts)], np.int64), [len(part) for part in parts])
+    return rows

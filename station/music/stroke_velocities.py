@@ -12,7 +12,7 @@ def usual_velocity(dynamic: Dynamic) -> int:
     return USUAL_VELOCITIES[dynamic]
 
 
-def shaded(velocity: int, dynamic: Dynamic) -> int:
-    """Velocity 1–127 of a stroke marked `dynamic` where an unmarked one beside it has `velocity`."""
-    loud = velocity * USUAL_VELOCITIES[dynamic] / USUAL_VELOCITIES[Dynamic.NORMAL]
+def shaded(velocity: int, dynamic: Dynamic, beside: Dynamic = Dynamic.NORMAL) -> int:
+    """Velocity 1–127 of a stroke marked `dynamic` where one that is marked `beside` has `velocity`."""
+    loud = velocity * USUAL_VELOCITIES[dynamic] / USUAL_VELOCITIES[beside]
     return min(max(round(loud), MIN_VELOCITY), MAX_VELOCITY)

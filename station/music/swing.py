@@ -61,16 +61,18 @@ def triplets_spelled_out(score: Score) -> Score:
     notes = score.notes
     within = notes["tick"] - np.array([score.tempo_map.bar_start(bar) for bar in range(score.bar_count)])[score.bar]
     is_swung, is_sixth = notes["swing_ticks"] > 0, within % (PPQ // 6) == 0
-    spelled = is_swung & False
-    for bar in np.unique(score.bar[is_sixth & ~is_swung & (within % (PPQ // 2) != 0)]):
-        inside = (score.bar == bar) & is_swung
-        spelled |= inside & is_sixth[inside].all()
-    if not spelled.any():
+    bars = [
+        bar
+        for bar in np.unique(score.bar[is_sixth & ~is_swung & (within % (PPQ // 2) != 0)]).tolist()
+        if (is_swung & (score.bar == bar)).any() and is_sixth[is_swung & (score.bar == bar)].all()
+    ]
+    if not bars:
         return score
-    rows = notes.copy()
-    rows["swing_ticks"][spelled] = 0
-    rows.setflags(write=False)
-    return replace(score, notes=rows)
+    rows, beyond = notes.copy(), score.beyond.copy()
+    for some in (rows, beyond):
+        some["swing_ticks"][np.isin(score.tempo_map.bars_at(some["tick"]), bars)] = 0
+        some.setflags(write=False)
+    return replace(score, notes=rows, beyond=beyond)
 
 
 @lru_cache

@@ -143,6 +143,12 @@ class BarNumbers:
             before = min(before, self.passes - 1)
         return self.first + bar - before * self.per_pass + 1
 
+    def section_of(self, bar: int) -> str:
+        """The name of what begins with the score's `bar`, from 0; empty where nothing does."""
+        number, within = divmod(bar, self.per_pass) if self.per_pass else (0, bar)
+        is_played = self.passes is None or number < self.passes
+        return next((name for at, name in self.sections if at == within and is_played), "")
+
 
 @dataclass(frozen=True, eq=False)
 class Strip:

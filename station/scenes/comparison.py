@@ -31,7 +31,7 @@ class Comparison:
         self, result: SessionResult, bar: int, played: Performance | None, demonstrator: Demonstrator, words: str
     ) -> None:
         plan, tempo_map = result.plan, result.score.tempo_map
-        self._lesson_bar = plan.bar_names[bar]
+        self._lesson_bar, self._beat_ticks = plan.bar_names[bar], plan.lesson.beat_ticks
         self._start_ns = int(tempo_map.ns_at(tempo_map.bar_start(bar)))
         style = in_passes(demonstrator.style, self._lesson_bar, 1, 1)
         self._drummer = Drummer(result.score.bars(bar, bar), plan.kit, demonstrator.figure, style)
@@ -61,6 +61,7 @@ class Comparison:
             strikes=strikes(past, now_ns),
             hud=self._hud,
             bar_numbers=BarNumbers(self._lesson_bar, 1),
+            beat_ticks=self._beat_ticks,
             double=None if self._is_alone else self._double(past, now_ns),
         )
 

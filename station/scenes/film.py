@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
-from station.drills.lesson import BarCue
 from station.motion.drummer import Drummer
 from station.motion.style.lanes import in_passes
 from station.motion.style.style import Style
@@ -19,8 +18,9 @@ from station.music.score import Score
 from station.render.picture import Shot
 from station.render.quality import QUALITIES
 from station.render.render_pool import artist
-from station.render.snapshot import BarNumbers, Snapshot
+from station.render.snapshot import Snapshot
 from station.scenes.pictures import directed, picture_of
+from station.scenes.score_words import NO_WORDS, ScoreWords, bar_numbers
 from station.scenes.soundtrack import Sounds, Soundtrack
 
 ShowProgress = Callable[[int], None]
@@ -31,13 +31,13 @@ ShowProgress = Callable[[int], None]
 class FilmStretch:
     """Which stretch is filmed: `pictures` of them, `fps` a second, the first at `start_s` of the score.
 
-    The `cues` of a lesson's teacher are followed: their words and their views.
+    The `words` stand by its notes; their cues are followed, what they say and their views.
     """
 
     start_s: float
     pictures: int
     fps: Fraction
-    cues: tuple[BarCue, ...] = ()
+    words: ScoreWords = NO_WORDS
 
     @property
     def times_s(self) -> NDArray[np.float64]:
@@ -84,19 +84,19 @@ def write_pictures(
 class FilmLoop:
     """Bars that are played for ever: the score of `drummer` is three passes in a row of `length_s`, the second is seen.
 
-    So the motion has no seam, nor the notes that pass. `first_bar` (from 0) and `bar_count` are the whole score's,
-    whose `cues` are followed.
+    So the motion has no seam, nor the notes that pass. `first_bar` (from 0) and `bar_count` are the whole score's, as
+    are its `words`.
     """
 
     length_s: float
     first_bar: int
     bar_count: int
-    cues: tuple[BarCue, ...] = ()
+    words: ScoreWords = NO_WORDS
 
     @classmethod
-    def of(cls, drummer: Drummer, first_bar: int, bar_count: int, cues: tuple[BarCue, ...] = ()) -> "FilmLoop":
+    def of(cls, drummer: Drummer, first_bar: int, bar_count: int, words: ScoreWords) -> "FilmLoop":
         """The loop of a drummer who plays what `score` gave."""
-        return cls(drummer.score.length_ns / NS_PER_S / _PASSES, first_bar, bar_count, cues)
+        return cls(drummer.score.length_ns / NS_PER_S / _PASSES, first_bar, bar_count, words)
 
     @staticmethod
     def score(score: Score, first_bar: int, last_bar: int) -> Score:
@@ -122,7 +122,7 @@ def write_loop(drummer: Drummer, loop: FilmLoop, fps: float, shot: Shot, path: P
     times = gif_times(loop.length_s, fps)
     seen = [loop.length_s * (1 + begin / times.end) for begin in times.begins]
     samples = seen[:: -(-len(seen) // _SAMPLES)]
-    shown = (_in_loop(picture_of(drummer, at_s), loop) for at_s in [*samples, *seen])
+    shown = (_in_loop(picture_of(drummer, at_s, loop.words), loop) for at_s in [*samples, *seen])
     with artist(shot, len(samples) + len(seen)) as drawer:
         drawn = map(pixels_of, drawer.film(shown))
         for done in write_gif(path, drawn, list(islice(drawn, len(samples))), times):
@@ -131,12 +131,13 @@ def write_loop(drummer: Drummer, loop: FilmLoop, fps: float, shot: Shot, path: P
 
 def _in_loop(snapshot: Snapshot, loop: FilmLoop) -> Snapshot:
     """The snapshot with the bars' own numbers."""
-    numbers = BarNumbers(loop.first_bar, snapshot.score.bar_count // _PASSES)
+    numbers = bar_numbers(loop.words.sections, loop.first_bar, snapshot.score.bar_count // _PASSES, passes=None)
     hud = snapshot.hud
     if hud.bar is not None:
         hud = replace(hud, bar=numbers.of(hud.bar - 1), bar_count=loop.bar_count)
-    return directed(replace(snapshot, hud=hud, bar_numbers=numbers), loop.cues)
+    return directed(replace(snapshot, hud=hud, bar_numbers=numbers), loop.words.cues)
 
 
 def _snapshots(drummer: Drummer, stretch: FilmStretch) -> Iterator[Snapshot]:
-    return (directed(picture_of(drummer, float(at_s)), stretch.cues) for at_s in stretch.times_s)
+    words = stretch.words
+    return (directed(picture_of(drummer, float(at_s), words), words.cues) for at_s in stretch.times_s)

@@ -16,10 +16,10 @@ from station.practice.records.session_files import DRUMMER_NAME, PICTURE_NAME
 from station.practice.session.session import SessionResult
 from station.render.picture import draw_png
 from station.render.report.report_picture import draw_report_png
-from station.render.snapshot import BarNumbers, ExtraHit, Hud, Snapshot, mark, no_marks
+from station.render.snapshot import ExtraHit, Hud, Snapshot, mark, no_marks
 from station.scenes.demonstrator import Demonstrator, as_taught, demonstrator_of
 from station.scenes.result_tables import session_facts
-from station.scenes.section_names import section_names
+from station.scenes.score_words import NO_WORDS, ScoreWords, bar_numbers
 from station.scoring.matching.alignment import judgements
 from station.scoring.matching.right import right_notes
 
@@ -45,8 +45,7 @@ def drummer_of(result: SessionResult, demonstrator: Demonstrator) -> Drummer:
 def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) -> None:
     """The last pass of a session, half into its first bar, every note with its judgement; raises `DeviceError`."""
     plan = result.plan
-    names = section_names(plan.lesson.sections, plan.first_bar, plan.section.bar_count)
-    numbers = BarNumbers(plan.first_bar, plan.section.bar_count, plan.passes, names)
+    numbers = bar_numbers(plan.lesson.sections, plan.first_bar, plan.section.bar_count, plan.passes)
     tempo_map = result.score.tempo_map
     tempo_map, last = result.score.tempo_map, plan.pass_starts[-1]
     begin_s, end_s = tempo_map.seconds_at([tempo_map.bar_start(last), tempo_map.bar_start(last + 1)]).tolist()
@@ -77,8 +76,8 @@ def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) 
     draw_png(shown, path)
 
 
-def picture_of(drummer: Drummer, at_s: float) -> Snapshot:
-    """The drummer at `at_s` seconds of the score; bar and beat are shown while it is played."""
+def picture_of(drummer: Drummer, at_s: float, words: ScoreWords = NO_WORDS) -> Snapshot:
+    """The drummer at `at_s` seconds of the score, `words` by its notes; bar and beat are shown while it is played."""
     score = drummer.score
     hud = Hud(title=score.title, bar_count=score.bar_count)
     if 0 <= at_s * NS_PER_S < score.length_ns:
@@ -86,7 +85,17 @@ def picture_of(drummer: Drummer, at_s: float) -> Snapshot:
         beats = score.tempo_map.meter_at(score.tempo_map.bar_start(place.bar)).beats
         hud = replace(hud, bar=place.bar + 1, beat=place.beat + 1, beats=beats)
     pose, limbs = drummer.pose(at_s), drummer.assignment.limbs
-    return Snapshot(score, at_s, drummer.kit, drummer.figure, pose, limbs, hud=hud)
+    return Snapshot(
+        score,
+        at_s,
+        drummer.kit,
+        drummer.figure,
+        pose,
+        limbs,
+        hud=hud,
+        bar_numbers=bar_numbers(words.sections, 0, score.bar_count),
+        beat_ticks=words.beat_ticks,
+    )
 
 
 def directed(snapshot: Snapshot, cues: Sequence[BarCue]) -> Snapshot:

@@ -16,9 +16,8 @@ from station.motion.style.lanes import in_passes
 from station.motion.style.style import Style
 from station.music.score import Score
 from station.practice.session.plan import Plan
-from station.render.snapshot import BarNumbers
 from station.scenes.demonstrator import Demonstrator, as_taught
-from station.scenes.section_names import section_names
+from station.scenes.score_words import bar_numbers
 
 Made = TypeVar("Made")
 
@@ -66,7 +65,7 @@ class SessionPart:
         self.start_ns = start_ns
         self._plan, self._demonstrator = plan, demonstrator
         self._bars = plan.first_bar, plan.section.bar_count, score.bar_count // plan.section.bar_count
-        self.bar_numbers = BarNumbers(*self._bars, section_names(plan.lesson.sections, *self._bars[:2]))
+        self.bar_numbers = bar_numbers(plan.lesson.sections, *self._bars)
         """The lesson's own numbers in every pass."""
         self._style = demonstrator.style
         self._drummer: Drummer | None = None

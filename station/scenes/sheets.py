@@ -16,7 +16,7 @@ from station.music.score import Score
 from station.music.swing import triplets_spelled_out
 from station.render.files.pdf_file import pdf
 from station.render.notation.page.sheet import PAPERS, SheetWords, sheet
-from station.scenes.section_names import section_names
+from station.scenes.score_words import section_names
 
 Bars = tuple[int, int]
 """First and last bar, from 0."""
@@ -57,14 +57,16 @@ def part_labels(part: DrumPart, bars: Bars, *, name: str) -> SheetWords:
 def written_down(part: DrumPart) -> DrumPart:
     """A part as a sheet writes it: one that was played as an import writes it, others on cells of the beat.
 
-    Played is also what tells strokes apart by velocities alone. Letters stand only where the part has hands.
+    Played is also what tells strokes apart by velocities alone. Letters stand only where the part has hands; what is
+    beyond two hands and two feet is small.
     """
     if not len(part.score) or not (part.is_played or _is_heard(part.score)):
         return on_grid(part)
     try:
-        found = part_of(transcribe(part, part.score.title or "take").lesson)
+        lesson = transcribe(part, part.score.title or "take").lesson
     except BadInput:
         return on_grid(part)
+    found = replace(part_of(lesson), score=lesson.played_once)
     is_silent = (part.score.notes["limb"] == Limb.UNKNOWN).all()
     limbs = np.full_like(found.score.notes["limb"], Limb.UNKNOWN) if is_silent else found.score.notes["limb"]
     score = replace(triplets_spelled_out(found.score.with_limbs(limbs)), title=part.score.title)
@@ -89,8 +91,7 @@ def on_grid(part: DrumPart) -> DrumPart:
         found = quantised_times(part.score, part.is_played)
     except BadInput:
         return part
-    beat = found.beat_ticks if part.beat_ticks == PPQ else part.beat_ticks
-    return replace(part, score=triplets_spelled_out(found.score), beat_ticks=beat)
+    return replace(part, score=triplets_spelled_out(found.score))
 
 
 def pdf_of(score: Score, bars: Bars, words: SheetWords, paper: str, with_sticking: bool = True) -> bytes:

@@ -12,7 +12,7 @@ from typing import Protocol
 
 import pytest
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.hid.hid_ports import HidDirectory

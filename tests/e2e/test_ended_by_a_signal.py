@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.devices.capture.capture import RecordKind
 from station.practice.records.session_files import CAPTURE_NAME
 from tests.fakes.captures import on_disk

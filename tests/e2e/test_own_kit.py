@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.cli.command_line import main
 from station.core.events import DeviceFound, Hit
 from station.core.pieces import Piece

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.core.clock import monotonic_ns
 from station.core.events import SensorSamples
 from station.core.imu import Mounting

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from station.bench.rigs.jack_server import JackServer, jackd_is_installed
+from station.bench.rigs.devices.jack_server import JackServer, jackd_is_installed
 
 __all__ = ["JackServer", "jackd_is_installed", "joined"]
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from station.app.actions import Begin, Select
+from station.app.actions.practice_actions import Begin, Select
 from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
 from station.app.equipment.calibration import MeasuringProcess, Running

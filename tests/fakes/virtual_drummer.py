@@ -14,7 +14,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import NamedTuple
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.simulation.sticks.stick_swing import SimulatedSticks
 from station.simulation.sticks.swing_sensor import SimulatedStick

@@ -21,7 +21,8 @@ import numpy as np
 from imgui_bundle import hello_imgui, imgui
 from numpy.typing import NDArray
 
-from station.app.actions import Dismiss, EndSession, SetView
+from station.app.actions.practice_actions import Dismiss, EndSession
+from station.app.actions.settings_actions import SetView
 from station.app.help_topics import topic_of
 from station.app.room_state import RoomState, Stage
 from station.app.settings_store import SettingsStore

@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import assert_never
 
-from station.app.actions import (
+from station.app.actions.equipment_actions import (
     GiveUp,
     HoldBack,
     LearnPad,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
-from station.app.actions import (
+from station.app.actions.equipment_actions import (
     FollowPhase,
     GiveUpSticks,
     LearnAir,

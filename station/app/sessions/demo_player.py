@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import assert_never
 
-from station.app.actions import (
+from station.app.actions.player_actions import (
     GoToFlag,
     KeepFlag,
     PlayerAction,
@@ -37,6 +37,7 @@ from station.practice.session.leading_hand import with_sticking
 from station.render.snapshot import BarNumbers, Hud, Snapshot
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator, as_taught
+from station.scenes.score_words import bar_numbers
 
 LEAD_NS = 50 * NS_PER_MS
 """How long after a change the sound begins: the engine's way and a block of sound fit in (our choice)."""
@@ -280,6 +281,7 @@ class DemoPlayer:
             pose=drummer.pose(position_s - raising_s),
             limbs=drummer.assignment.limbs,
             hud=self._hud(),
+            bar_numbers=self._bar_numbers,
             beat_ticks=self.lesson.beat_ticks,
             view=self._direction.view,
         )
@@ -292,9 +294,13 @@ class DemoPlayer:
         bar = self.player.place(self.now_ns).bar
         return direction_at(self.lesson.cues, min(bar, self.lesson.score.bar_count - 1))
 
+    @property
+    def _bar_numbers(self) -> BarNumbers:
+        return bar_numbers(self.lesson.sections, 0, self.lesson.score.bar_count)
+
     def curves(self) -> ScoreCurves:
         """The same for the graph."""
-        return ScoreCurves(self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S, BarNumbers())
+        return ScoreCurves(self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S, self._bar_numbers)
 
     def _hud(self) -> Hud:
         player, place = self.player, self.player.place(self.now_ns)

@@ -4,7 +4,8 @@ Pads ask for nothing in mid-drill but the gestures of a pause, and nothing at al
 else: a gesture to be learnt.
 """
 
-from station.app.actions import Action, Answer, Begin, Pause
+from station.app.actions.action import Action
+from station.app.actions.practice_actions import Answer, Begin, Pause
 from station.app.preferences import Preferences
 from station.app.sessions.current_practice import CurrentPractice
 from station.app.settings_store import SettingsStore

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, assert_never
 
-from station.app.actions import Answer, Dismiss, EndSession, HearBar, Listen, SessionAction, Veto
+from station.app.actions.practice_actions import Answer, Dismiss, EndSession, HearBar, Listen, SessionAction, Veto
 from station.app.catalog import Catalog
 from station.app.engine_client import EngineClient
 from station.app.room_state import FreeRequest, RoomState, SessionRequest, Stage

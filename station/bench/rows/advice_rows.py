@@ -1,13 +1,14 @@
 """Benchmark of advice: a planted fault is the first thing that is said, and without one nothing is said.
 
-`station.bench.rigs.planted_table` plays lessons and human grooves with faults of a teacher's sizes, on code that shares
-nothing with what judges them; `docs/planted-faults.md` says how. Soak benchmarks: minutes rather than seconds.
+`station.bench.rigs.planted.planted_table` plays lessons and human grooves with faults of a teacher's sizes, on code
+that shares nothing with what judges them; `docs/planted-faults.md` says how. Soak benchmarks: minutes rather than
+seconds.
 """
 
 from station.bench.harness.benchmark import Benchmark, Measurement
-from station.bench.rigs.planted_faults import FAULTS
-from station.bench.rigs.planted_table import measure
-from station.bench.rigs.planted_trials import NONE, PAIRS, Tally
+from station.bench.rigs.planted.planted_faults import FAULTS
+from station.bench.rigs.planted.planted_table import measure
+from station.bench.rigs.planted.planted_trials import NONE, PAIRS, Tally
 
 _TAKES = 100
 """Of a word; a share of 95 % is then known to 2 %."""

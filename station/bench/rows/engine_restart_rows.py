@@ -10,9 +10,9 @@ import statistics
 import time
 
 from station.bench.harness.benchmark import Benchmark, Measurement
-from station.bench.rigs.engine_hearing import KIT, WITHIN_S
-from station.bench.rigs.jack_server import JackServer
-from station.bench.rigs.playing_kit import PlayingKit
+from station.bench.rigs.devices.engine_hearing import KIT, WITHIN_S
+from station.bench.rigs.devices.jack_server import JackServer
+from station.bench.rigs.devices.playing_kit import PlayingKit
 from station.core.errors import DeviceError
 from station.devices.device_ports import DeviceRequest
 from station.engine.engine_config import EngineConfig

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.bench.harness.benchmark import Benchmark, Measurement
-from station.bench.rigs.engine_hearing import ListeningRig, Wire, read_barely, stage
-from station.bench.rigs.playing_kit import velocity_of
+from station.bench.rigs.devices.engine_hearing import ListeningRig, Wire, read_barely, stage
+from station.bench.rigs.devices.playing_kit import velocity_of
 from station.core.clock import monotonic_ns
 from station.core.disk_cache import cache_folder
 from station.core.events import DeviceFound, DeviceLost

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.bench.harness.benchmark import Benchmark, Measurement
-from station.bench.rigs.journey_takes import Take
-from station.bench.rigs.journey_truth import Truth, alike, keys
-from station.bench.rigs.journeys import CLICK_KINDS, KINDS, journey
+from station.bench.rigs.journeys.journey_takes import Take
+from station.bench.rigs.journeys.journey_truth import Truth, alike, keys
+from station.bench.rigs.journeys.journeys import CLICK_KINDS, KINDS, journey
 from station.core.units import NS_PER_S
 from station.music.judgement import Label
 from station.music.performance import Performance

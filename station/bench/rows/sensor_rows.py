@@ -11,7 +11,7 @@ from pathlib import Path
 from statistics import median
 
 from station.bench.harness.benchmark import Benchmark, Measurement
-from station.bench.rigs.imu_line import SPEECH, x_imu3_measured
+from station.bench.rigs.devices.imu_line import SPEECH, x_imu3_measured
 from station.core.events import SensorMounted, SensorSamples, StickStroke
 from station.core.imu import STANDARD_GRAVITY_M_S2, Mounting
 from station.core.units import NS_PER_MS, NS_PER_S
@@ -110,7 +110,14 @@ def _lost(is_soak: bool) -> Measurement:
     """Samples that were sent down a pty and did not come, or came wrong."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "ttyIMU"
-        words = [sys.executable, "-m", "station.bench.rigs.imu_line", str(path), str(_BAUD), str(_LINE_S[is_soak])]
+        words = [
+            sys.executable,
+            "-m",
+            "station.bench.rigs.devices.imu_line",
+            str(path),
+            str(_BAUD),
+            str(_LINE_S[is_soak]),
+        ]
         with subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as child:
             assert child.stdin is not None
             assert child.stdout is not None

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from functools import partial
 
 from station.bench.harness.benchmark import Benchmark, Measurement
-from station.bench.rigs.engine_fuzz import Fuzzed, fuzz_captures, fuzz_engine
+from station.bench.rigs.devices.engine_fuzz import Fuzzed, fuzz_captures, fuzz_engine
 
 _INPUTS, _CAPTURES = 1_000_000, 20_000
 

@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.bench.harness.benchmark import Benchmark, Measurement
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.bench.rigs.xvfb import a_screen, installed
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError

@@ -17,10 +17,10 @@ from station.music.performance import Performance
 from station.music.score import Score
 
 if TYPE_CHECKING:
-    from station.drills.lesson import BarCue
     from station.motion.kit.kit import Kit
     from station.motion.sticking.hand_notes import Hands
     from station.practice.session.click_pattern import Gap
+    from station.scenes.score_words import ScoreWords
 
 MIDI_ENDINGS = MIDI.endings
 
@@ -91,13 +91,17 @@ def kit_of_lesson(name: str) -> str:
     return find_any_lesson(name).kit
 
 
-def cues_of_lesson(name: str) -> tuple[BarCue, ...]:
-    """The cues of the lesson `name`; none where it is a music file."""
+def words_of(name: str) -> ScoreWords:
+    """What the score that `name` means says beside its notes."""
+    from station.scenes.score_words import ScoreWords
+
     if not is_lesson(name):
-        return ()
+        part = load_part(name)
+        return ScoreWords(part.sections, part.beat_ticks)
     from station.cli.input.find_own_lesson import find_any_lesson
 
-    return find_any_lesson(name).cues
+    lesson = find_any_lesson(name)
+    return ScoreWords(lesson.sections, lesson.beat_ticks, lesson.cues)
 
 
 def load_score_and_performance(score_name: str, performance_name: str) -> tuple[Score, Performance]:

@@ -5,9 +5,9 @@ strokes of the bar fall. The skeleton is read by the reader itself, so whatever 
 swing included; then the letters are put in their places. All lines of a bar share one skeleton where one fits all.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import lru_cache
 
 from station.core.errors import BadInput
 from station.drills.grid.grid import Bar, GridFrame, parse_line
@@ -24,6 +24,8 @@ left out that nobody counts, for they would hold strokes that were meant elsewhe
 _RARE_CELLS = (12, 16, 5, 7, 10, 24, 32)
 MOST_SHARED_CELLS = 12
 """Beyond so many cells a beat each line is cut for itself: finer bars are hard to read. Our choice."""
+_KEPT = 4096
+"""Skeletons whose cells are known: all that common music has, and a few megabytes of what no music has."""
 REST = "-"
 REPEAT = "%"
 
@@ -65,8 +67,9 @@ def write_lines(lines: list[LineText], bar_count: int, setting: GridSetting, fir
 
     Raises `BadInput` where a bar's strokes lie on no cell of any skeleton.
     """
+    lasting = [[(bar, m) for bar, marks in line.marks.items() for m in marks if m.until is not None] for line in lines]
     for bar in range(bar_count):
-        needed = [_needs(line, bar, setting) for line in lines]
+        needed = [_needs(line, rings, bar, setting) for line, rings in zip(lines, lasting, strict=True)]
         common = _skeleton([mark for marks in needed for mark in marks], setting, MOST_SHARED_CELLS)
         for line, marks in zip(lines, needed, strict=True):
             skeleton = common or _skeleton(marks, setting, max(TUPLET_CELLS))
@@ -88,19 +91,19 @@ _Point = tuple[int, int | None]
 # --- marks ------------------------------------------------------------------------------------------------------------
 
 
-def _needs(line: LineText, bar: int, setting: GridSetting) -> list[GridMark]:
-    """The marks of this bar, with buzz rolls that come from earlier bars and chokes that fall into it."""
+def _needs(line: LineText, lasting: Iterable[tuple[int, GridMark]], bar: int, setting: GridSetting) -> list[GridMark]:
+    """The marks of this bar, with buzz rolls that come from earlier bars and chokes that fall into it.
+
+    `lasting` are the marks of the line that end later than they begin, each with its bar.
+    """
     length = setting.frame.meter.bar_ticks
     found = list(line.marks.get(bar, []))
-    for other, marks in line.marks.items():
-        for mark in marks:
-            if mark.until is None:
-                continue
-            end = mark.until - (bar - other) * length
-            if mark.holds and other < bar and end > 0:
-                found.append(GridMark(HOLD, 0, until=end, holds=True))
-            if not mark.holds and 0 <= end < length:
-                found.append(GridMark(CHOKE, end))
+    for other, mark in lasting:
+        end = (mark.until or 0) - (bar - other) * length
+        if mark.holds and other < bar and end > 0:
+            found.append(GridMark(HOLD, 0, until=end, holds=True))
+        if not mark.holds and 0 <= end < length:
+            found.append(GridMark(CHOKE, end))
     return found
 
 
@@ -114,7 +117,7 @@ class _Slot:
     char: int
 
 
-@cache
+@lru_cache(maxsize=_KEPT)
 def _slots(skeleton: str, setting: GridSetting) -> tuple[_Slot, ...]:
     meter = setting.frame.meter
     slots: list[_Slot] = []
@@ -125,7 +128,7 @@ def _slots(skeleton: str, setting: GridSetting) -> tuple[_Slot, ...]:
     return tuple(slots)
 
 
-@cache
+@lru_cache(maxsize=_KEPT)
 def _cells(skeleton: str, frame: GridFrame) -> Bar:
     faults: list[str] = []
     (bar,) = parse_line(skeleton, [frame], lambda _, text: faults.append(text))
@@ -140,8 +143,14 @@ def _points(marks: Iterable[GridMark], bar_ticks: int) -> list[_Point]:
 
 def _holds_all(skeleton: str, points: Iterable[_Point], setting: GridSetting) -> bool:
     """Whether the skeleton has the cell that each point asks for."""
-    middles = {slot.at: slot.middle for slot in _slots(skeleton, setting)}
+    middles = _middles(skeleton, setting)
     return all(at in middles and second in (None, middles[at]) for at, second in points)
+
+
+@lru_cache(maxsize=_KEPT)
+def _middles(skeleton: str, setting: GridSetting) -> Mapping[int, int]:
+    """The middle of each cell by its start."""
+    return {slot.at: slot.middle for slot in _slots(skeleton, setting)}
 
 
 def _filled(skeleton: str, marks: Sequence[GridMark], setting: GridSetting) -> str:

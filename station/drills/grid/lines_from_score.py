@@ -98,9 +98,11 @@ def lines_of(by_bar: Mapping[int, Sequence[WrittenStroke]], first_bar: int, last
 
 def graces_of(score: Score) -> Graces:
     """The grace strokes of flams and drags as the first of each has them; the usual ones where there are none."""
+    usual = Graces()
+    if not score.is_grace.any():
+        return usual
     flams = [n.lead_ms for n in score if n.ornament is Ornament.FLAM and n.lead_ms]
     drags = [n.lead_ms for n in score if n.ornament is Ornament.DRAG and n.lead_ms]
-    usual = Graces()
     spaced = Graces(
         _tidy_ms(flams[0]) if flams else usual.flam_ms, _tidy_ms(max(drags[:2]) / 2) if drags else usual.drag_ms
     )

@@ -114,7 +114,7 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     played = faults.attempt(lambda _: laid_out(order, grids), grids, nothing) if grids else nothing
     are_sure = timing.is_sure and len(faults) == before  # else there may be more bars than could be read
     asked, beyond = parted(stroke for each in played for stroke in each.strokes)
-    score, origins = _score(asked, played, written, faults)
+    score, origins = _score((asked, beyond), played, written, faults)
     landing, landing_origins = _landing(values[LANDING], timing, faults)
     lesson = Lesson(
         name=name,
@@ -126,7 +126,6 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
         velocities=timing.velocities,
         cues=faults.attempt(lambda _: cues_of(played), None, ()),
         landing=landing,
-        beyond=Score.from_array(expand(beyond)[0], score.tempo_map).notes,
         **{key: values[key] for key in AS_THEY_ARE},
     )
     lesson = replace(lesson, goals=_goals(values["goals"], lesson, faults))
@@ -192,10 +191,16 @@ def _asks(grid: ReadGrid) -> bool:
 
 
 def _score(
-    strokes: Sequence[WrittenCell], played: Sequence[PlayedGrid], written: Sequence[WrittenGrid], faults: Faults
+    strokes: tuple[Sequence[WrittenCell], Sequence[WrittenCell]],
+    played: Sequence[PlayedGrid],
+    written: Sequence[WrittenGrid],
+    faults: Faults,
 ) -> tuple[Score, list[Origin]]:
-    """The score of the strokes of all that is played, and the letter of the file that wrote each of its rows."""
-    rows, origins = expand(strokes)
+    """The score of all that is played, and the letter of the file that wrote each of its rows.
+
+    `strokes` are those that are asked, and those beyond the player.
+    """
+    (rows, origins), (beyond, _) = map(expand, strokes)
     order = np.lexsort((rows["piece"], -rows["lead_ms"], rows["tick"]))
     tempo_map = TempoMap.build(faults.attempt(lambda _: tempos_of(played), None, []), meters_of(played))
     end = played[-1].end_tick if played else tempo_map.bar_start(1)
@@ -206,7 +211,7 @@ def _score(
     }
     at_home = [Origin(homes[origin.path], origin.char) for origin in origins]
     loudness = joined_marks((s.start_tick, s.grid.section.loudness) for s in played)
-    score = Score.from_array(rows[order], tempo_map, end, loudness=loudness)
+    score = Score.from_array(rows[order], tempo_map, end, loudness=loudness, beyond=beyond)
     return triplets_spelled_out(score), [at_home[i] for i in order]
 
 

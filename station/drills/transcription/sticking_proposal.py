@@ -17,7 +17,7 @@ from station.core.pieces import HAND_PIECES, Limb, Ornament, Piece
 from station.drills.grid.sticking_line import RIGHT_FIRST
 from station.drills.lesson import Lesson
 from station.drills.writing.lesson_form import FormGrid, LessonForm
-from station.motion.kit.kit import load_kit
+from station.motion.kit.kit import Kit, load_kit
 from station.motion.sticking.limbs import limbs_and_reasons
 from station.music.grace_strokes import OTHER_HAND
 from station.music.score import Score
@@ -45,13 +45,15 @@ def with_sticking(lesson: Lesson, form: LessonForm) -> Lesson:
     rows = lesson.score.notes.copy()
     if np.isin(rows["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any():
         return lesson
+    played = [_played(lesson.score, grid, grid.first_bar) for grid in form.grids]
     known: dict[bytes, NDArray[np.int8]] = {}
-    for grid in form.grids:
-        for written, hands in _sure_bars(_played(lesson.score, grid, grid.first_bar)):
+    kit = load_kit()
+    for each in played:
+        for written, hands in _sure_bars(each, kit):
             known.setdefault(written, hands)
-    limbs = [_limbs(_played(lesson.score, grid, grid.first_bar), known) for grid in form.grids]
-    for grid, first_bar in _turns(form):
-        own = limbs[form.grids.index(grid)]
+    limbs = [_limbs(each, known) for each in played]
+    for i, first_bar in _turns(form):
+        grid, own = form.grids[i], limbs[i]
         start, end = (lesson.score.tempo_map.bar_start(b) for b in (first_bar, first_bar + grid.bars))
         rows["limb"][(rows["tick"] >= start) & (rows["tick"] < end)] = own
     score = replace(lesson.score, notes=rows)
@@ -62,12 +64,12 @@ def _played(score: Score, grid: FormGrid, first_bar: int) -> Score:
     return score.bars(first_bar, first_bar + grid.bars - 1)
 
 
-def _turns(form: LessonForm) -> Iterator[tuple[FormGrid, int]]:
-    """Each grid whenever it is played, and its first bar then."""
+def _turns(form: LessonForm) -> Iterator[tuple[int, int]]:
+    """The index of each grid whenever it is played, and its first bar then."""
     bar = 0
     for index in form.order:
         for _ in range(form.grids[index].times):
-            yield form.grids[index], bar
+            yield index, bar
             bar += form.grids[index].bars
 
 
@@ -79,12 +81,12 @@ def _limbs(score: Score, known: Mapping[bytes, NDArray[np.int8]]) -> NDArray[np.
     return found
 
 
-def _sure_bars(score: Score) -> Iterator[tuple[bytes, NDArray[np.int8]]]:
+def _sure_bars(score: Score, kit: Kit) -> Iterator[tuple[bytes, NDArray[np.int8]]]:
     """What the hands have in each bar where they are sure, and which hand has it."""
     bars = _hands_by_bar(score)
     if not bars:
         return
-    chosen, reasons = limbs_and_reasons(score, load_kit())
+    chosen, reasons = limbs_and_reasons(score, kit)
     chosen = _with_their_mains(score, chosen)
     for rows in bars:
         mains = [i for i in rows.tolist() if not score.is_grace[i]]

@@ -10,13 +10,11 @@ from math import ceil
 from statistics import median
 
 from station.core.errors import BadInput
-from station.core.units import PPQ
 from station.drills.difficulty import difficulty
 from station.drills.grid.line_group import MAX_BARS
 from station.drills.grid.lines_from_score import graces_of
 from station.drills.grid.stroke_settings import Velocities
 from station.drills.lesson import Lesson
-from station.drills.reading.lesson_file import parse_lesson
 from station.drills.transcription.form_finder import found_form
 from station.drills.transcription.import_remarks import remarks_on
 from station.drills.transcription.sticking_proposal import with_sticking
@@ -31,7 +29,7 @@ from station.drills.transcription.timing.grid_times import GridTimes, quantised_
 from station.drills.transcription.timing.meter_finder import with_heard_meter
 from station.drills.transcription.timing.stated_swing import readable, stated_times
 from station.drills.transcription.timing.tempo_steps import steady
-from station.drills.writing.lesson_writer import write_lesson
+from station.drills.writing.lesson_writer import as_written
 from station.music.drum_part import DrumPart, PartSection
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
@@ -100,20 +98,18 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     lesson = Lesson(
         name,
         _printable(part.score.title) or name,
-        Score.from_notes(rows, score.tempo_map, score.end_tick),
+        Score.from_notes(rows, score.tempo_map, score.end_tick, beyond=beyond),
         author=_printable(part.author),
         about=_printable(part.about),
         tags=_TAGS,
         loop=(0, score.bar_count - 1),
         swing=part.swing if times.swing.ratio == STRAIGHT and not times.spread_ms else times.swing,
-        beat_ticks=times.beat_ticks if part.beat_ticks == PPQ else part.beat_ticks,
+        beat_ticks=replace(part, score=score).beat_ticks,
         velocities=velocities,
-        beyond=Score.from_notes(beyond, score.tempo_map, score.end_tick).notes,
     )
     form = found_form(lesson, part.sections)
     lesson = with_sticking(replace(lesson, level=_level(lesson)), form)
-    read = parse_lesson(write_lesson(lesson, form), name, name).lesson
-    assert read, "what write_lesson gives is a lesson"
+    read = as_written(lesson, form)
     return Transcribed(read, tuple(remarks_on(ornaments, whole, mains, reach, read)))
 
 

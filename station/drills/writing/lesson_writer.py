@@ -12,6 +12,7 @@ from station.core.pieces import word
 from station.core.toml_write import toml_text
 from station.core.units import PPQ
 from station.drills.grid.grid_writer import GridSetting, LineText, frame_of, with_repeats, write_lines
+from station.drills.grid.line_group import MAX_CELLS
 from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines_of, strokes_by_bar
 from station.drills.grid.stroke_settings import Velocities
 from station.drills.lesson import Lesson
@@ -26,10 +27,17 @@ from station.music.swing import Swing
 from station.music.tempo import TempoChange
 
 _DYNAMICS = ("ghost", "normal", "accent")
+_MOST_SHOWN = 2 * MAX_CELLS
+"""Characters of a text that is laid out; a longer one has more letters than any lesson and is refused as it is."""
 
 
 def write_lesson(lesson: Lesson, form: LessonForm | None = None) -> str:
-    """The text of a lesson file that reads as `lesson`, its grids as `form` says, else one for each section.
+    """The text of a lesson file that reads as `lesson`; see `as_written`."""
+    return as_written(lesson, form).text
+
+
+def as_written(lesson: Lesson, form: LessonForm | None = None) -> Lesson:
+    """The lesson that is read from the text written of `lesson`, its grids as `form` says, else one for each section.
 
     Raises `BadInput` for music that the grid cannot write (times between its cells, velocities beside the lesson's
     dynamics, strokes without a letter): see `transcription.transcribe`, which makes a lesson of any part.
@@ -37,15 +45,16 @@ def write_lesson(lesson: Lesson, form: LessonForm | None = None) -> str:
     form = form or form_of(lesson)
     parts = [_head(lesson, form), _dynamics(lesson.velocities), _graces(lesson.score), _grids(lesson, form)]
     text = "".join(f"{line}\n" for part in parts for line in part)
-    read = parse_lesson(text, lesson.name, lesson.name)
-    if read.lesson is None:
-        raise BadInput(lesson.name, "", f"cannot be written as a lesson: {read.faults[0].text}")
-    difference = score_difference(lesson.score, read.lesson.score)
-    if not difference and lesson.beyond.tobytes() != read.lesson.beyond.tobytes():
+    text = show(text) if len(text) <= _MOST_SHOWN else text
+    found = parse_lesson(text, lesson.name, lesson.name)
+    if (read := found.lesson) is None:
+        raise BadInput(lesson.name, "", f"cannot be written as a lesson: {found.faults[0].text}")
+    difference = score_difference(lesson.score, read.score)
+    if not difference and lesson.beyond.tobytes() != read.beyond.tobytes():
         difference = "what is beyond the player differs"
     if difference:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {difference}")
-    return show(text)
+    return read
 
 
 def _head(lesson: Lesson, form: LessonForm) -> list[str]:

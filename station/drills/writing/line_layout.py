@@ -7,6 +7,7 @@ cells are those that the grid's own reader finds, so that the layout knows no se
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 from station.drills.grid.grid import Cell, GridFrame, parse_line
@@ -132,6 +133,7 @@ def _cell(part: _Part, covered: Sequence[_Column]) -> str:
 # --- a bar ------------------------------------------------------------------------------------------------------------
 
 
+@lru_cache(maxsize=4096)
 def _cells(text: str, frame: GridFrame) -> tuple[Cell, ...]:
     (bar,) = parse_line(text, [frame], lambda _char, _words: None)
     return bar.cells

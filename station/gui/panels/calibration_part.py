@@ -4,7 +4,8 @@ from collections.abc import Callable, Sequence
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, CancelMeasuring, ForgetMeasured, KeepMeasured, Measure
+from station.app.actions.action import Action
+from station.app.actions.equipment_actions import CancelMeasuring, ForgetMeasured, KeepMeasured, Measure
 from station.app.equipment.calibration import CalibrationView
 from station.core.measured_latency import LOOPBACK, REPORT, STRIKE, TAP
 from station.gui import theme

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from imgui_bundle import imgui, implot
 
-from station.app.actions import (
-    Action,
+from station.app.actions.action import Action
+from station.app.actions.equipment_actions import (
     HoldBack,
     RevertRules,
     SaveRules,

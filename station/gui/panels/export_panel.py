@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, CancelFilm, Export, ExportKind
+from station.app.actions.action import Action
+from station.app.actions.file_actions import CancelFilm, Export, ExportKind
 from station.app.window_state import State
 from station.gui import theme
 

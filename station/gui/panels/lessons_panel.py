@@ -10,7 +10,9 @@ from itertools import groupby
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, Begin, FilmTake, JudgeAt, Listen, Select, TapBeat
+from station.app.actions.action import Action
+from station.app.actions.file_actions import FilmTake
+from station.app.actions.practice_actions import Begin, JudgeAt, Listen, Select, TapBeat
 from station.app.room_state import LessonCard, RoomState
 from station.app.selection import MAX_LOOPS, LessonGroup, Selection
 from station.app.window_state import State

@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, GiveUp, LearnPad, NameNote, UndoLearning
+from station.app.actions.action import Action
+from station.app.actions.equipment_actions import GiveUp, LearnPad, NameNote, UndoLearning
 from station.app.equipment.mapping_view import MappingView
 from station.core.labels import piece_name
 from station.core.note_map import NoteMeaning

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 from imgui_bundle import imgui, implot
 
-from station.app.actions import Action, ChooseTriggers, OpenMotion, PlayMotion, SeekMotion
+from station.app.actions.action import Action
+from station.app.actions.phase_actions import ChooseTriggers, OpenMotion, PlayMotion, SeekMotion
 from station.app.phase_page import PhaseView
 from station.gui import theme
 from station.gui.widgets import plots

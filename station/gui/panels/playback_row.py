@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, HearBar, Listen
+from station.app.actions.action import Action
+from station.app.actions.practice_actions import HearBar, Listen
 from station.app.room_state import ShownResult
 from station.gui import theme
 from station.gui.widgets.flow_row import FlowRow

@@ -10,9 +10,8 @@ from functools import partial
 from imgui_bundle import icons_fontawesome_4 as icons
 from imgui_bundle import imgui
 
-from station.app.actions import (
-    Action,
-    ChooseBars,
+from station.app.actions.action import Action
+from station.app.actions.player_actions import (
     GoToFlag,
     KeepFlag,
     PlayOrStop,
@@ -25,6 +24,7 @@ from station.app.actions import (
     StepOnce,
     Wind,
 )
+from station.app.actions.practice_actions import ChooseBars
 from station.app.sessions.demo_player import PlayerView
 from station.core.units import NS_PER_S
 from station.gui import theme

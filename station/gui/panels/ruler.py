@@ -4,7 +4,9 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, Bars, ChooseBars, GoToFlag, Seek
+from station.app.actions.action import Action
+from station.app.actions.player_actions import GoToFlag, Seek
+from station.app.actions.practice_actions import Bars, ChooseBars
 from station.gui import theme
 from station.gui.widgets.flow_row import LINE_HEIGHT
 from station.gui.widgets.ruler_scale import RulerScale

@@ -5,8 +5,8 @@ from math import degrees
 
 from imgui_bundle import imgui
 
-from station.app.actions import (
-    Action,
+from station.app.actions.action import Action
+from station.app.actions.equipment_actions import (
     FollowPhase,
     GiveUpSticks,
     LearnAir,

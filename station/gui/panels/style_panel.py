@@ -8,7 +8,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 from imgui_bundle import imgui
 
-from station.app.actions import Action, EditStyle, Embody, LeadWith, PutUp
+from station.app.actions.action import Action
+from station.app.actions.settings_actions import Embody, LeadWith, PutUp
+from station.app.actions.style_actions import EditStyle
 from station.app.room_state import Stage
 from station.app.style.style_controls import TABS, WORD_LABELS, Control, ControlGroup
 from station.app.style.style_options import PIECES, StyleOptions

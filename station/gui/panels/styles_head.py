@@ -5,7 +5,8 @@ from functools import partial
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, KeepSlot, ListStyles, LoadStyle, ProposeStyle, SaveStyle
+from station.app.actions.action import Action
+from station.app.actions.style_actions import KeepSlot, ListStyles, LoadStyle, ProposeStyle, SaveStyle
 from station.app.style.style_options import StyleOptions
 from station.app.style_editor import StyleView
 from station.gui import theme

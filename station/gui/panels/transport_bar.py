@@ -9,7 +9,9 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from station.app.actions import Action, Answer, Begin, Dismiss, EndSession, Pause, SetView, Veto
+from station.app.actions.action import Action
+from station.app.actions.practice_actions import Answer, Begin, Dismiss, EndSession, Pause, Veto
+from station.app.actions.settings_actions import SetView
 from station.app.room_state import RoomState, Stage
 from station.app.sessions.demo_player import PlayerView
 from station.app.view_settings import ViewSettings

@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterable
 import numpy as np
 from imgui_bundle import imgui, implot
 
-from station.app.actions import Action, LearnVelocity, SetCurve
+from station.app.actions.action import Action
+from station.app.actions.equipment_actions import LearnVelocity, SetCurve
 from station.app.equipment.mapping_view import MappingView, PadStroke
 from station.core.labels import piece_name
 from station.core.pieces import Piece, word

@@ -68,40 +68,49 @@ def _path(state: _State) -> list[_State]:
 def _best_into(notes: HandNotes, i: int, hand: int, states: list[_State], settled_s: float) -> list[_State]:
     """The cheapest way into each state in which `hand` plays note `i`."""
     by_itself = sum(price.alone(notes, i, hand))
-    by_own: dict[tuple[int, bool], float] = {}
-    by_other: dict[int, float] = {}
+    after_own: dict[tuple[int, bool], tuple[float, bool]] = {}
+    beside: dict[int, tuple[float, int, bool]] = {}
     best: dict[tuple[int, bool, bool], _State] = {}
     for state in states:
-        own, other, bounced = _lasts(i, hand, state)
-        if (own, bounced) not in by_own:
-            by_own[own, bounced] = sum(price.after_own(notes, i, hand, own, bounced))
-        if other not in by_other:
-            by_other[other] = sum(price.beside(notes, i, hand, other))
-        cost = state.cost + by_itself + by_own[own, bounced] + by_other[other]
-        where = other if other < 0 or notes.time_s[i] - notes.time_s[other] < settled_s else -2 - notes.kind[other]
-        doubled = _doubled(notes, i, hand, state)
-        known = best.get((where, *doubled))
+        own, other, bounced, others = _lasts(i, hand, state)
+        if (own, bounced) not in after_own:
+            after_own[own, bounced] = _after(notes, i, hand, own, bounced)
+        if other not in beside:
+            beside[other] = _beside(notes, i, hand, other, settled_s)
+        own_cost, doubled = after_own[own, bounced]
+        other_cost, where, is_fresh = beside[other]
+        cost = state.cost + by_itself + own_cost + other_cost
+        others = others and is_fresh
+        known = best.get((where, doubled, others))
         if known is None or cost < known.cost:
-            best[(where, *doubled)] = _State(cost, hand, other, doubled, state)
+            best[where, doubled, others] = _State(cost, hand, other, (doubled, others), state)
     if len(best) > MOST_STATES:
         return heapq.nsmallest(MOST_STATES, best.values(), key=_cost)
     return list(best.values())
 
 
-def _lasts(i: int, hand: int, state: _State) -> tuple[int, int, bool]:
-    """The last notes of `hand` and of the other hand before note `i`, and whether `hand` doubled."""
+def _lasts(i: int, hand: int, state: _State) -> tuple[int, int, bool, bool]:
+    """The last notes of `hand` and of the other hand before note `i`, and whether each was a double."""
     if hand == state.hand or i == 0:
-        return i - 1, state.other, state.bounced[0]
-    return state.other, i - 1, state.bounced[1]
+        return i - 1, state.other, *state.bounced
+    return state.other, i - 1, state.bounced[1], state.bounced[0]
 
 
-def _doubled(notes: HandNotes, i: int, hand: int, state: _State) -> tuple[bool, bool]:
-    """Whether `hand` doubles with note `i`, and whether the other hand did; an old double is forgotten."""
-    own, other, _ = _lasts(i, hand, state)
-    others = state.bounced[1] if hand == state.hand else state.bounced[0]
-    if others and notes.time_s[i] - notes.time_s[other] >= EASY_REPEAT_S:
-        others = False
-    return price.is_double(notes, i, own), others
+def _after(notes: HandNotes, i: int, hand: int, own: int, bounced: bool) -> tuple[float, bool]:
+    """What note `i` costs `hand` after its last note, and whether it doubles that."""
+    return sum(price.after_own(notes, i, hand, own, bounced)), price.is_double(notes, i, own)
+
+
+def _beside(notes: HandNotes, i: int, hand: int, other: int, settled_s: float) -> tuple[float, int, bool]:
+    """What it costs beside the other hand's last note, which that is, and whether a double of it is fresh.
+
+    Long after it a note is as good as any on its spot, and an old double is forgotten.
+    """
+    cost = sum(price.beside(notes, i, hand, other))
+    if other < 0:
+        return cost, other, True
+    gap_s = notes.time_s[i] - notes.time_s[other]
+    return cost, other if gap_s < settled_s else -2 - notes.kind[other], gap_s < EASY_REPEAT_S
 
 
 # --- the reason -------------------------------------------------------------------------------------------------------
@@ -120,7 +129,7 @@ _SLIGHT = 0.02
 
 def _terms(notes: HandNotes, i: int, hand: int, state: _State) -> tuple[float, ...]:
     """What note `i` costs `hand` in `state`: a price for each of `_NAMES`."""
-    own, other, bounced = _lasts(i, hand, state)
+    own, other, bounced, _ = _lasts(i, hand, state)
     beside = price.beside(notes, i, hand, other)
     return (*price.alone(notes, i, hand), *price.after_own(notes, i, hand, own, bounced), *beside)
 
@@ -133,7 +142,7 @@ def _reason(notes: HandNotes, i: int, state: _State) -> str:
         return price.ALONE[0]
     if max(chosen) >= price.IMPOSSIBLE:
         return _NOBODY
-    own, _, bounced = _lasts(i, state.hand, state.before)
+    own, _, bounced, _ = _lasts(i, state.hand, state.before)
     if price.is_rebound(notes, i, own):
         return _MORE if bounced else _DOUBLE
     spared = [b - a for a, b in zip(chosen, _terms(notes, i, 1 - state.hand, state.before), strict=True)]

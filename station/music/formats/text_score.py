@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import BadInput
-from station.core.files import read_regular, write_whole
+from station.core.files import write_whole
 from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Ornament, Piece, Zone, word
 from station.core.utf8 import utf8_text
 from station.music.drum_part import DrumPart
@@ -65,11 +65,6 @@ _PLACE = re.compile(r"([0-9]{1,6}):([0-9]{1,3})(?:\+([0-9]{1,9})/([0-9]{1,9}))?"
 def write_text_score(score: Score, limbs: NDArray[np.int8], path: Path) -> None:
     """Write `score` with its `limbs` (n,) whole to `path`; raises `DeviceError` if the disk refuses."""
     write_whole(path, score_text(score, limbs).encode())
-
-
-def read_text_score(path: Path) -> Score:
-    """The score in a file; raises `BadInput` with the line of the first fault."""
-    return _read_part(read_regular(path, MOST_BYTES), str(path)).score
 
 
 # --- writing ----------------------------------------------------------------------------------------------------------

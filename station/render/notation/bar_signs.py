@@ -13,7 +13,7 @@ from station.render.notation.beams import Anchor
 from station.render.notation.beat_note import draw_beat_note
 from station.render.notation.sheet_words import RAMPS
 from station.render.notation.swing_words import draw_swing_mark, swing_marks
-from station.render.palette import BRAND, INK_SOFT
+from station.render.palette import BRAND, INK, INK_SOFT
 from station.render.snapshot import BarNumbers
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -25,11 +25,14 @@ _NUMBER_X = 0.35
 _VOLTA_UP, _VOLTA_ENDS = 1.25, (-1.95, -2.4)
 """The bracket of an ending stands so far above the words' line, its number among them, and from the bar's own number to
 that of the next one."""
-_NUMBER, _WORD, _ENDING = (
+_NUMBER, _SECTION, _WORD, _ENDING = (
     TypeStyle(1.25, INK_SOFT, Face.BOLD),
+    TypeStyle(1.5, INK, Face.BOLD),
     TypeStyle(1.5, BRAND, Face.BOLD),
     TypeStyle(1.25, BRAND, Face.BOLD),
 )
+_LONGEST_NAME = 12
+"""Letters of a section's name, of which a bar that rolls by has room for so many (our choice)."""
 _WORD_GAP = 0.9
 """Meters and tempi stand above the staff beside the bar's number, so far apart: time leaves no room between notes."""
 
@@ -81,6 +84,8 @@ class BarSigns:
         draw_list, x = anchor.draw_list, _LINE_X
         number = str(self._numbers.of(bar))
         x += _NUMBER_X + draw_list.text(number, (x - _NUMBER_X, y), _NUMBER)
+        if name := self._numbers.section_of(bar):
+            x += _WORD_GAP + draw_list.text(_short(name), (x + _WORD_GAP / 2, y), _SECTION)
         if (volta := self._voltas.get(bar)) is not None:
             x += _WORD_GAP / 2 + self._draw_volta(anchor, (start, end), (x, y), volta)
             anchor.at(start)
@@ -113,6 +118,10 @@ class BarSigns:
         draw_volta(anchor.draw_list, _VOLTA_ENDS, y - _VOLTA_UP, bracket, BRAND)
         anchor.draw_list.span_s = 0.0
         return anchor.draw_list.text(volta.text, (x + 0.2, y), _ENDING) if volta.text else 0.0
+
+
+def _short(name: str) -> str:
+    return name if len(name) <= _LONGEST_NAME else f"{name[: _LONGEST_NAME - 1].rstrip()}…"
 
 
 def _voltas(score: Score, numbers: BarNumbers) -> dict[int, Volta]:

@@ -18,6 +18,7 @@ from station.render.notation.chord_width import (
     GRACE,
     GRACE_GAP,
     GRACE_STEP,
+    Extent,
     heads_extent,
     sticking,
 )
@@ -58,12 +59,21 @@ class Chord:
 
 
 class ChordPen:
-    """Draws chords of `score` at `anchor`; `limbs` (n,) of `Limb` are written, `closing` (n,) close the hi-hat."""
+    """Draws chords of `score` at `anchor`: `limbs` (n,) of `Limb` are written, strokes that are `is_small` (n,) small.
+
+    `closing` (n,) close the hi-hat.
+    """
 
     def __init__(
-        self, score: Score, limbs: NDArray[np.int8], closing: NDArray[np.bool_], anchor: Anchor, rows: StaffRows
+        self,
+        score: Score,
+        limbs: NDArray[np.int8],
+        is_small: NDArray[np.bool_],
+        closing: NDArray[np.bool_],
+        anchor: Anchor,
+        rows: StaffRows,
     ) -> None:
-        self._notes, self._limbs, self._closing = score.notes, limbs, closing
+        self._notes, self._limbs, self._is_small, self._closing = score.notes, limbs, is_small, closing
         self._anchor, self._draw_list, self._rows = anchor, anchor.draw_list, rows
 
     def step(self, index: int) -> int:
@@ -124,27 +134,33 @@ class ChordPen:
 
     def _placed(self, chord: Chord) -> list[PlacedHead]:
         """The heads of the chord, clear of each other and of the other voice's."""
-        return placed_heads(self._notes[self._at_once(chord)])[: len(chord.mains)]
+        rows = self._at_once(chord)
+        return placed_heads(self._notes[rows], self._is_small[rows])[: len(chord.mains)]
+
+    def _extent(self, chord: Chord) -> Extent:
+        """What the heads at the chord's place take."""
+        rows = self._at_once(chord)
+        return heads_extent(self._notes[rows], self._is_small[rows])
 
     def _stem(self, heads: Sequence[PlacedHead], voice: StaffVoice, beam_y: float) -> None:
         """From the head that is farthest from its end."""
         root = min(heads, key=lambda head: head.step) if voice.is_up else max(heads, key=lambda head: head.step)
         up, down = STEM_FROM.get(root.head, (0.0, 0.0))
-        y = height(root.step) - (up if voice.is_up else down)
+        y = height(root.step) - (up if voice.is_up else down) * root.scale
         self._draw_list.line((voice.stem_x, y), (voice.stem_x, beam_y), STEM, INK)
 
-    def _head(self, head: PlacedHead, base: int, scale: float = 1.0) -> None:
+    def _head(self, head: PlacedHead, base: int) -> None:
         y = height(head.step)
         for line in ledger_steps(head.step):
-            half = (head.right - head.left) / 2 * scale + LEDGER_OUT * scale
+            half = (head.right - head.left) / 2 + LEDGER_OUT * head.scale
             self._draw_list.line((head.x - half, height(line)), (head.x + half, height(line)), LEDGER_LINE, INK_SOFT)
-        draw_head(self._draw_list, head.head, (head.x, y), scale, base)
+        draw_head(self._draw_list, head.head, (head.x, y), head.scale, base)
         if (pair := head.brackets) is not None:
             draw_brackets(self._draw_list, (pair.left, pair.right), height(pair.step), pair.scale)
 
     def _dots(self, chord: Chord, heads: Sequence[PlacedHead], count: int) -> None:
         """Right of everything, in the space that the head stands in or the one above its line."""
-        right = heads_extent(self._notes[self._at_once(chord)]).right
+        right = self._extent(chord).right
         for k in range(count):
             x = right + DOT_GAP + sign_box("dot").width * (k + 0.5)
             for step in {head.step | 1 for head in heads}:
@@ -187,13 +203,13 @@ class ChordPen:
             return
         self._anchor.at(chord.tick)
         order = sorted(chord.graces, key=lambda i: -self._notes["lead_ms"][i])
-        heads = [placed_heads(self._notes[[i]])[0] for i in order]
-        last_x = -heads_extent(self._notes[self._at_once(chord)]).left - GRACE_GAP
+        heads = [placed_heads(self._notes[[i]], self._is_small[[i]])[0] for i in order]
+        last_x = -self._extent(chord).left - GRACE_GAP
         top = min(height(head.step) for head in heads) - _GRACE_STEM
         stems: list[float] = []
         for k, head in enumerate(heads):
             x = last_x - GRACE_STEP * (len(heads) - 1 - k)
-            self._head(PlacedHead(head.step, head.head, x, is_foot=False), 8, GRACE)
+            self._head(PlacedHead(head.step, head.head, x, is_foot=False, scale=GRACE), 8)
             stems.append(x + (EDGE_X - STEM / 2) * GRACE)
             self._draw_list.line((stems[-1], height(head.step)), (stems[-1], top), STEM * 0.8, INK)
         self._grace_flag(stems[0], top) if len(stems) == 1 else self._grace_beams(stems, top)

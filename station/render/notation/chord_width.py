@@ -29,10 +29,10 @@ class Extent(NamedTuple):
     right: float
 
 
-def heads_extent(mains: NDArray[np.void]) -> Extent:
-    """What the heads of main strokes take, with brackets, ledger lines and accents."""
+def heads_extent(mains: NDArray[np.void], is_small: NDArray[np.bool_]) -> Extent:
+    """What the heads of main strokes take, with brackets, ledger lines and accents (`placed_heads`)."""
     left = right = EDGE_X
-    heads = placed_heads(mains)
+    heads = placed_heads(mains, is_small)
     for row, head in zip(mains, heads, strict=True):
         out = LEDGER_OUT if ledger_steps(head.step) else 0.0
         left, right = max(left, out - head.left), max(right, head.right + out)

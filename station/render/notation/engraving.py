@@ -21,6 +21,7 @@ from station.render.notation.rests import draw_rest
 from station.render.notation.spelling.note_values import Value
 from station.render.notation.staff_rows import closing_hats, shown_limbs, staff_rows
 from station.render.notation.voice_pen import BarSpan, VoicePen
+from station.render.notation.whole_score import whole_score
 from station.render.notation.written_strokes import feet_of, written_strokes
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
@@ -33,6 +34,7 @@ _DRAWN = ("piece", "zone", "articulation", "dynamic", "ornament", "lead_ms", "ch
 class Engraver:
     """Engraves the bars of one score; `limbs` (n,) of `Limb` writes the sticking, None that of the score itself.
 
+    What is beyond the player stands among their strokes with small heads.
     Where time rolls, `numbers` tells bars and loops, and tempi count beats of `beat_ticks` (`bar_signs`). Notes hang on
     the time when they sound, or, `as_written`, on that of the place where they are written, as on paper.
     """
@@ -50,10 +52,11 @@ class Engraver:
         self._numbers, self._beat_ticks = numbers or BarNumbers(), beat_ticks
         self._as_written = as_written
         self._atlas = atlas
-        self._limbs = shown_limbs(score, score.notes["limb"] if limbs is None else limbs)
-        self.rows_y = staff_rows(score, self._limbs)
-        self._closing = closing_hats(score)
-        self.strokes = written_strokes(score, feet_of(score))
+        self._whole, known, self._is_small = whole_score(score, limbs)
+        self._limbs = shown_limbs(self._whole, known)
+        self.rows_y = staff_rows(self._whole, self._limbs)
+        self._closing = closing_hats(self._whole)
+        self.strokes = written_strokes(self._whole, feet_of(self._whole))
         self._order = np.argsort(self.strokes.tick, kind="stable")
 
     def bar(self, bar: int, with_line: bool = True, opens_line: bool = False) -> NDArray[np.void]:
@@ -78,7 +81,7 @@ class Engraver:
 
     def chords(self, rows: Sequence[int], feet: bool) -> list[Chord]:
         """The strokes of one voice, gathered by where they are written."""
-        notes = self.score.notes
+        notes = self._whole.notes
         places: dict[int, tuple[list[int], list[int]]] = {}
         for i in rows:
             if self.strokes.is_foot[i] == feet:
@@ -91,11 +94,11 @@ class Engraver:
 
     def _stands(self, written: int, rows: Sequence[int]) -> int:
         """On which tick a chord hangs."""
-        return written if self._as_written else int(self.score.notes["tick"][rows].min())
+        return written if self._as_written else int(self._whole.notes["tick"][rows].min())
 
     def pen(self, anchor: Anchor) -> ChordPen:
         """What draws the score's chords at `anchor`."""
-        return ChordPen(self.score, self._limbs, self._closing, anchor, self.rows_y)
+        return ChordPen(self._whole, self._limbs, self._is_small, self._closing, anchor, self.rows_y)
 
     def context(self, bar: int) -> bytes:
         """What of a bar's strokes is engraved as it is for where and beside what they stand."""
@@ -103,12 +106,13 @@ class Engraver:
         rows = self.rows(start, self.score.tempo_map.bar_start(bar + 1))
         strokes = self.strokes
         rows += [i for is_foot in (False, True) for i in strokes.held_into(start, is_foot)]
-        notes = self.score.notes[rows]
+        notes = self._whole.notes[rows]
         parts = [
             strokes.tick[rows] - start,
             strokes.until[rows] - start,
             strokes.is_measured[rows],
             self._closing[rows],
+            self._is_small[rows],
         ]
         return b"".join(part.tobytes() for part in (*parts, *(notes[name] for name in _DRAWN), self._limbs[rows]))
 

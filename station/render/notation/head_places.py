@@ -30,6 +30,8 @@ HEAD_SIGNS = {
 }
 EDGE_X = sign_box("head_round").right
 """Where a stem's outer edge stands, right of a head when up, left of it when down."""
+SMALL = 0.7
+"""How large the head of a stroke is that is beyond the player: a cue note (Gould: three quarters to two thirds)."""
 _SECOND = 1
 """Heads so many steps apart or nearer cover one another."""
 _BRACKET_GAP = 0.03
@@ -65,16 +67,17 @@ class PlacedHead:
     x: float
     is_foot: bool
     brackets: "Brackets | None" = None
+    scale: float = 1.0
 
     @property
     def left(self) -> float:
         """Its left edge."""
-        return self.x - half_width(self.head)
+        return self.x - half_width(self.head) * self.scale
 
     @property
     def right(self) -> float:
         """Its right edge."""
-        return self.x + half_width(self.head)
+        return self.x + half_width(self.head) * self.scale
 
 
 def half_width(head: NoteHead) -> float:
@@ -87,24 +90,28 @@ def _stem_half(head: NoteHead) -> float:
     return sign_box(HEAD_SIGNS[head]).advance / 2
 
 
-def placed_heads(mains: NDArray[np.void]) -> list[PlacedHead]:
-    """The heads of the strokes `mains` (rows of one tick, both voices, without grace strokes), in their order."""
-    kinds = zip(*(mains[name].tolist() for name in ("piece", "zone", "articulation")), strict=True)
+def placed_heads(mains: NDArray[np.void], is_small: NDArray[np.bool_]) -> list[PlacedHead]:
+    """The heads of the strokes `mains` (rows of one tick, both voices, without grace strokes), in their order.
+
+    `is_small`, shape (n,): those beyond the player.
+    """
+    kinds = zip(*(mains[name].tolist() for name in ("piece", "zone", "articulation")), is_small.tolist(), strict=True)
     return list(_placed(tuple(kinds), tuple(map(is_ghost, mains))))
 
 
 def heads_x(score: Score) -> NDArray[np.float64]:
-    """Where the head of each stroke stands beside its time, shape (n,); grace strokes at 0."""
-    found = np.zeros(len(score))
-    mains = np.flatnonzero(~score.is_grace)
-    _, firsts = np.unique(score.notes["tick"][mains], return_index=True)
+    """Where the head of each of the player's strokes stands beside its time, shape (n,); grace strokes at 0."""
+    whole, is_small = score.whole
+    found = np.zeros(len(whole))
+    mains = np.flatnonzero(~whole.is_grace)
+    _, firsts = np.unique(whole.notes["tick"][mains], return_index=True)
     for rows in np.split(mains, firsts[1:]):
-        found[rows] = [head.x for head in placed_heads(score.notes[rows])]
-    return found
+        found[rows] = [head.x for head in placed_heads(whole.notes[rows], is_small[rows])]
+    return found[~is_small]
 
 
 @lru_cache(maxsize=4096)
-def _placed(kinds: tuple[tuple[int, int, int], ...], ghosts: tuple[bool, ...]) -> tuple[PlacedHead, ...]:
+def _placed(kinds: tuple[tuple[int, int, int, bool], ...], ghosts: tuple[bool, ...]) -> tuple[PlacedHead, ...]:
     found = [_head_alone(*kind) for kind in kinds]
     placed: list[PlacedHead] = []
     for i in sorted(range(len(found)), key=lambda i: _order(found[i])):
@@ -123,13 +130,14 @@ def _cover(a: PlacedHead, b: PlacedHead) -> bool:
     return apart <= _SECOND or (apart == _SECOND + 1 and {a.head, b.head} == {NoteHead.SLASHED, NoteHead.HEAVY_CROSS})
 
 
-def _head_alone(of: int, where: int, how: int) -> PlacedHead:
+def _head_alone(of: int, where: int, how: int, is_small: bool) -> PlacedHead:
     """The head of a piece, a zone and an articulation where it stands alone."""
+    scale = SMALL if is_small else 1.0
     piece = Piece(of)
     head = head_of(piece, Zone(where), Articulation(how))
     is_foot = piece in FOOT_PIECES
-    beside = EDGE_X - _stem_half(head)
-    return PlacedHead(step_of(piece), head, -beside if is_foot else beside, is_foot)
+    beside = EDGE_X - _stem_half(head) * scale
+    return PlacedHead(step_of(piece), head, -beside if is_foot else beside, is_foot, scale=scale)
 
 
 def _order(head: PlacedHead) -> tuple[bool, int, int]:
@@ -144,7 +152,7 @@ def _is_displaced(head: PlacedHead) -> bool:
 def _displaced_x(head: PlacedHead, near: Sequence[PlacedHead]) -> float:
     """On the far side of the stem, and of what reaches beyond it."""
     edges = [-other.left if head.is_foot else other.right for other in near]
-    beyond = max(EDGE_X, *edges) + half_width(head.head)
+    beyond = max(EDGE_X, *edges) + half_width(head.head) * head.scale
     return -beyond if head.is_foot else beyond
 
 

@@ -17,6 +17,7 @@ from station.core.units import PPQ
 from station.music.score import Score
 from station.render.notation.rests import rest_edge
 from station.render.notation.staff import FOOT_PIECES, height, step_of
+from station.render.notation.whole_score import whole_score
 from station.render.text.sign_outlines import BEAM, BEAM_STEP, sign_box
 
 _UP_BEAM_Y, _DOWN_BEAM_Y = -5.5, 5.0
@@ -156,7 +157,8 @@ def staff_rows(score: Score, limbs: NDArray[np.int8] | None = None, bars: range 
 
     `limbs` (n,) write its sticking, None those of the score itself.
     """
-    shown = shown_limbs(score, score.notes["limb"] if limbs is None else limbs)
+    score, known, _ = whole_score(score, limbs)
+    shown = shown_limbs(score, known)
     is_foot = np.isin(score.notes["piece"], [int(piece) for piece in FOOT_PIECES])
     places = list(_bar_rows(score, bars if bars is not None else range(score.bar_count)))
     rows = np.concatenate([np.arange(first, last) for first, last in places] or [np.arange(0)])

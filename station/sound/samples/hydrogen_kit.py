@@ -14,9 +14,9 @@ import numpy as np
 from station.core.errors import BadInput
 from station.core.sound_names import HIHAT_STEPS, SoundName
 from station.core.sound_naming import FAMILIES, are_chosen, sound_named, sound_of_instrument
+from station.music.formats.safe_xml import MOST_XML_BYTES
 from station.sound.drum_kit import MAX_VELOCITY, DrumKit, Frames, Layer, Sound
 from station.sound.samples.hydrogen_xml import (
-    MAX_XML_BYTES,
     HydrogenComponent,
     HydrogenInstrument,
     HydrogenKit,
@@ -41,7 +41,7 @@ def hydrogen_folder(folder: Path, rate_hz: int) -> DrumKit:
     source = folder / KIT_FILE
     try:
         with source.open("rb") as file:
-            data = file.read(MAX_XML_BYTES + 1)
+            data = file.read(MOST_XML_BYTES + 1)
     except OSError as fault:
         raise BadInput(source, "", fault.strerror or str(fault)) from fault
     return built(parse_kit(data, str(source)), str(source), rate_hz, audio_files(folder))

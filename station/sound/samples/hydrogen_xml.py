@@ -5,17 +5,17 @@ is a single file (before). `pan` (−1 … 1, since 1.1) was `pan_L` and `pan_R`
 http://www.hydrogen-music.org/drumkit or none. Source: Hydrogen's drumkit.xsd and Instrument.cpp, by their fields alone.
 
 A kit is refused (`BadInput`, with the instrument's name and the field) where a number is none or out of the range that
-makes sense, where it declares a document type (entities can swell without bound), or where it is not XML at all.
+makes sense, and with its line where `safe_xml` refuses it.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from math import isfinite
-from xml.etree.ElementTree import Element, ParseError, TreeBuilder, XMLParser
+from xml.etree.ElementTree import Element
 
 from station.core.errors import BadInput
+from station.music.formats.safe_xml import parse_xml, text_of
 
-MAX_XML_BYTES = 8 * 2**20
 MAX_INSTRUMENTS = 1000
 MAX_LAYERS = 4096
 """Hydrogen's own limits are 1000 instruments of 16 layers; a file beyond ours is no kit."""
@@ -74,53 +74,23 @@ class HydrogenKit:
     instruments: tuple[HydrogenInstrument, ...]
 
 
-class _PlainTree(TreeBuilder):
-    """Builds the tree, and refuses a document type before any of its entities counts."""
-
-    def doctype(self, name: str, pubid: str | None, system: str | None) -> None:
-        """Called for `<!DOCTYPE`."""
-        raise ValueError("a drum kit declares no document type")
-
-
 def parse_kit(data: bytes, source: str) -> HydrogenKit:
     """The kit that `data`, a `drumkit.xml`, describes; raises `BadInput` that names it `source`."""
-    if len(data) > MAX_XML_BYTES:
-        raise BadInput(source, "", f"larger than {MAX_XML_BYTES // 2**20} MB is no drum kit")
-    parser = XMLParser(target=_PlainTree())
-    try:
-        parser.feed(data)
-        root = parser.close()
-    except (ParseError, ValueError, LookupError) as fault:
-        raise BadInput(source, "", f"cannot be read as XML: {fault}") from fault
-    if _tag(root) != "drumkit_info":
-        raise BadInput(source, f"<{_tag(root)}>", "expected <drumkit_info>")
+    root = parse_xml(data, source, ("drumkit_info",))
     instruments = [
         _Fields(node, source, f"instrument {index + 1}").instrument()
         for index, node in enumerate(_instruments(root, source))
-        if _text(node, "isMuted") != "true"
+        if text_of(node, "isMuted") != "true"
     ]
-    return HydrogenKit(_text(root, "name") or "Hydrogen", tuple(instruments))
+    return HydrogenKit(text_of(root, "name") or "Hydrogen", tuple(instruments))
 
 
 def _instruments(root: Element, source: str) -> list[Element]:
-    nodes = [node for one in _children(root, "instrumentList") for node in _children(one, "instrument")]
-    layers = sum(1 for node in nodes for inner in node.iter() if _tag(inner) == "layer")
+    nodes = root.findall("instrumentList/instrument")
+    layers = sum(1 for node in nodes for _ in node.iter("layer"))
     if len(nodes) > MAX_INSTRUMENTS or layers > MAX_LAYERS:
         raise BadInput(source, "", f"more than {MAX_INSTRUMENTS} instruments or {MAX_LAYERS} layers is no drum kit")
     return nodes
-
-
-def _tag(node: Element) -> str:
-    return node.tag.rpartition("}")[2]
-
-
-def _children(node: Element, tag: str) -> Iterator[Element]:
-    return (child for child in node if _tag(child) == tag)
-
-
-def _text(node: Element, tag: str) -> str:
-    """The text of the first child called `tag`, empty where there is none."""
-    return next(((child.text or "").strip() for child in _children(node, tag)), "")
 
 
 class _Fields:
@@ -129,7 +99,7 @@ class _Fields:
     def __init__(self, node: Element, source: str, place: str) -> None:
         self._node = node
         self._source = source
-        name = _text(node, "name")
+        name = text_of(node, "name")
         self._place = f"{place} ({name})" if name else place
 
     def instrument(self) -> HydrogenInstrument:
@@ -138,8 +108,8 @@ class _Fields:
         left, right = self._pan()
         note = self._number(node, "midiOutNote", -1.0, -1.0, 1e6)
         return HydrogenInstrument(
-            name=_text(node, "name"),
-            kind=_text(node, "type"),
+            name=text_of(node, "name"),
+            kind=text_of(node, "type"),
             midi_note=int(note) if note >= 0.0 else None,
             gain=self._number(node, "volume", 1.0, 0.0, 100.0) * self._number(node, "gain", 1.0, 0.0, 100.0),
             left=left,
@@ -148,7 +118,7 @@ class _Fields:
             hihat_group=self._group("isHihat"),
             low_cc=int(self._number(node, "lower_cc", 0.0, 0.0, 127.0)),
             high_cc=int(self._number(node, "higher_cc", 127.0, 0.0, 127.0)),
-            follows_velocity=_text(node, "applyVelocity") != "false",
+            follows_velocity=text_of(node, "applyVelocity") != "false",
             attack=self._number(node, "Attack", 0.0, 0.0, 1e7),
             decay=self._number(node, "Decay", 0.0, 0.0, 1e7),
             sustain=self._number(node, "Sustain", 1.0, 0.0, 1.0),
@@ -156,21 +126,19 @@ class _Fields:
         )
 
     def _components(self) -> Iterator[HydrogenComponent]:
-        inner = list(_children(self._node, "instrumentComponent")) or [self._node]
+        inner = self._node.findall("instrumentComponent") or [self._node]
         for node in inner:
-            layers = tuple(
-                self._layer(layer) for layer in _children(node, "layer") if _text(layer, "isMuted") != "true"
-            )
-            if node is self._node and not layers and _text(node, "filename"):
-                layers = (HydrogenLayer(_text(node, "filename"), 0.0, 1.0, 1.0, self._pitch(node, "pitch")),)
-            if not layers or (node is not self._node and _text(node, "isMuted") == "true"):
+            layers = tuple(self._layer(layer) for layer in node.findall("layer") if text_of(layer, "isMuted") != "true")
+            if node is self._node and not layers and text_of(node, "filename"):
+                layers = (HydrogenLayer(text_of(node, "filename"), 0.0, 1.0, 1.0, self._pitch(node, "pitch")),)
+            if not layers or (node is not self._node and text_of(node, "isMuted") == "true"):
                 continue
             gain = 1.0 if node is self._node else self._number(node, "gain", 1.0, 0.0, 100.0)
-            algorithm = _text(node, "sampleSelectionAlgo") or _text(self._node, "sampleSelectionAlgo")
+            algorithm = text_of(node, "sampleSelectionAlgo") or text_of(self._node, "sampleSelectionAlgo")
             yield HydrogenComponent(gain, layers, algorithm in ("ROUND_ROBIN", "RANDOM"))
 
     def _layer(self, node: Element) -> HydrogenLayer:
-        filename = _text(node, "filename")
+        filename = text_of(node, "filename")
         if not filename:
             raise self._fault("filename", "a layer names no sound file")
         low = self._number(node, "min", 0.0, 0.0, 1.0)
@@ -186,7 +154,7 @@ class _Fields:
 
     def _pan(self) -> tuple[float, float]:
         """Factors of left and right: the far side is lowered."""
-        if _text(self._node, "pan"):
+        if text_of(self._node, "pan"):
             pan = self._number(self._node, "pan", 0.0, -1.0, 1.0)
             return min(1.0, 1.0 - pan), min(1.0, 1.0 + pan)
         left = self._number(self._node, "pan_L", 1.0, 0.0, 1.0)
@@ -199,7 +167,7 @@ class _Fields:
         return int(number) if number >= 0.0 else None
 
     def _number(self, node: Element, tag: str, default: float, least: float, most: float) -> float:
-        text = _text(node, tag)
+        text = text_of(node, tag)
         if not text:
             return default
         try:

@@ -5,7 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from station.app.actions import Begin, Measure, Show
+from station.app.actions.action import Show
+from station.app.actions.equipment_actions import Measure
+from station.app.actions.practice_actions import Begin
 from station.app.equipment.calibration import Calibration, Failed, MeasuringProcess, Message
 from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
 from station.app.equipment.latency_methods import MeasureRequest

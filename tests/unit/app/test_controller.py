@@ -8,26 +8,21 @@ from pathlib import Path
 
 import pytest
 
-from station.app.actions import (
+from station.app.actions.action import Show
+from station.app.actions.file_actions import Export, ExportKind
+from station.app.actions.practice_actions import (
     Begin,
     ChooseBars,
     Dismiss,
     EndSession,
-    Export,
-    ExportKind,
-    FinishFirstStart,
     HearBar,
     JudgeAt,
-    LearnPause,
     Leave,
-    PutUp,
     Select,
-    SetPreferences,
-    SetView,
-    Show,
     StrikeKey,
     Veto,
 )
+from station.app.actions.settings_actions import FinishFirstStart, LearnPause, PutUp, SetPreferences, SetView
 from station.app.controller import Controller
 from station.app.first_start import FirstAnswers
 from station.app.room_state import Stage

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from station.app.actions import SetCountIn, SetDemoClick
+from station.app.actions.player_actions import SetCountIn, SetDemoClick
 from station.app.sessions.demo_player import LEAD_NS, Control, DemonstratedLesson, DemoPlayer
 from station.core.named_view import NamedView
 from station.core.pieces import Piece, Zone

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from station.app.actions import HoldBack, RevertRules, SetCurve, SetMask, SetShare, SetThreshold
+from station.app.actions.equipment_actions import HoldBack, RevertRules, SetCurve, SetMask, SetShare, SetThreshold
 from station.app.equipment.mapping_editor import MappingEditor
 from station.app.equipment.mapping_view import PadStroke
 from station.core.events import DeviceFound, DeviceLost

@@ -5,7 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from station.app.actions import Begin, EndSession, GiveUp, LearnPause, LearnVelocity, Pause, SetPreferences
+from station.app.actions.equipment_actions import GiveUp, LearnVelocity
+from station.app.actions.practice_actions import Begin, EndSession, Pause
+from station.app.actions.settings_actions import LearnPause, SetPreferences
 from station.app.controller import Controller
 from station.app.room_state import Stage
 from station.app.sessions.session_control import Launch

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from station.app.actions import ChooseTriggers, OpenMotion, PlayMotion, SeekMotion
+from station.app.actions.phase_actions import ChooseTriggers, OpenMotion, PlayMotion, SeekMotion
 from station.app.phase_page import PhasePage
 from station.core.errors import BadInput
 from station.core.pieces import Piece

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from station.app.actions import (
+from station.app.actions.equipment_actions import (
     FollowPhase,
     GiveUpSticks,
     LearnAir,

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from station.app.actions import EditStyle, KeepSlot, LoadStyle, SaveStyle
+from station.app.actions.style_actions import EditStyle, KeepSlot, LoadStyle, SaveStyle
 from station.app.settings_store import SettingsStore
 from station.app.style_editor import StyleEditor
 from station.core.errors import BadInput

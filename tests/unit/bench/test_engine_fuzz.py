@@ -4,8 +4,8 @@ import random
 
 import pytest
 
-from station.bench.rigs.engine_fuzz import fuzz_captures, fuzz_engine
-from station.bench.rigs.midi_fuzz import cut_anywhere, hostile_bytes, invented, notes_in
+from station.bench.rigs.devices.engine_fuzz import fuzz_captures, fuzz_engine
+from station.bench.rigs.devices.midi_fuzz import cut_anywhere, hostile_bytes, invented, notes_in
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from station.bench.rigs.journey_music import phrase
-from station.bench.rigs.journey_takes import Journey, Player, Take, perform
-from station.bench.rigs.journey_truth import Truth
-from station.bench.rigs.journey_ways import Leg
+from station.bench.rigs.journeys.journey_music import phrase
+from station.bench.rigs.journeys.journey_takes import Journey, Player, Take, perform
+from station.bench.rigs.journeys.journey_truth import Truth
+from station.bench.rigs.journeys.journey_ways import Leg
 from station.bench.rows.journey_rows import Live, come_by, equal_hits, turns_told
 from station.core.units import PPQ
 from station.music.judgement import Label

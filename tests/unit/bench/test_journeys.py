@@ -11,11 +11,19 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
-from station.bench.rigs.journey_music import STYLES, families, gmd_takes, music, phrase, quantised, written_ticks
-from station.bench.rigs.journey_takes import Journey, Player, Take, ar_noise, perform
-from station.bench.rigs.journey_truth import Truth, alike, nearest_pairs
-from station.bench.rigs.journey_ways import Leg, Places
-from station.bench.rigs.journeys import CLICK_KINDS, KINDS, journey
+from station.bench.rigs.journeys.journey_music import (
+    STYLES,
+    families,
+    gmd_takes,
+    music,
+    phrase,
+    quantised,
+    written_ticks,
+)
+from station.bench.rigs.journeys.journey_takes import Journey, Player, Take, ar_noise, perform
+from station.bench.rigs.journeys.journey_truth import Truth, alike, nearest_pairs
+from station.bench.rigs.journeys.journey_ways import Leg, Places
+from station.bench.rigs.journeys.journeys import CLICK_KINDS, KINDS, journey
 from station.core.pieces import Piece
 from station.core.units import NS_PER_S, PPQ
 from station.drills.library import find_lesson

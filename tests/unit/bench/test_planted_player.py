@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from station.bench.rigs.planted_faults import FAULTS
-from station.bench.rigs.planted_music import Music, lesson
-from station.bench.rigs.planted_oracle import Z_FALSE_ALARM, smallest_share, timing_precision
-from station.bench.rigs.planted_player import Conditions, Sheet, play, strokes_played
-from station.bench.rigs.planted_routes import left_out_bars, repeated_bars, sounds_as_repeated, stopped
-from station.bench.rigs.planted_stage import Planted, Stage
-from station.bench.rigs.planted_strokes import Floats, Written, level_db
+from station.bench.rigs.planted.planted_faults import FAULTS
+from station.bench.rigs.planted.planted_music import Music, lesson
+from station.bench.rigs.planted.planted_oracle import Z_FALSE_ALARM, smallest_share, timing_precision
+from station.bench.rigs.planted.planted_player import Conditions, Sheet, play, strokes_played
+from station.bench.rigs.planted.planted_routes import left_out_bars, repeated_bars, sounds_as_repeated, stopped
+from station.bench.rigs.planted.planted_stage import Planted, Stage
+from station.bench.rigs.planted.planted_strokes import Floats, Written, level_db
 from station.core.pieces import Limb, Piece
 from station.core.units import NS_PER_S, PPQ
 from station.music.score import Note, Score

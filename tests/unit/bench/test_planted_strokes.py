@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 import station.bench.rigs
-from station.bench.rigs.planted_music import Music, on_grid
-from station.bench.rigs.planted_strokes import Written, level_db
+from station.bench.rigs.planted.planted_music import Music, on_grid
+from station.bench.rigs.planted.planted_strokes import Written, level_db
 from station.core.pieces import Dynamic, Limb, Ornament, Piece
 from station.core.units import PPQ
 from station.music.score import Note, Score

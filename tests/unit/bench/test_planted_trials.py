@@ -1,8 +1,8 @@
 """What counts as named, as innocent and as one explanation."""
 
-from station.bench.rigs.planted_music import lesson
-from station.bench.rigs.planted_table import missed_on, row
-from station.bench.rigs.planted_trials import Heard, Tally, accepted, exercised, pairs_on, spread_takes, stage
+from station.bench.rigs.planted.planted_music import lesson
+from station.bench.rigs.planted.planted_table import missed_on, row
+from station.bench.rigs.planted.planted_trials import Heard, Tally, accepted, exercised, pairs_on, spread_takes, stage
 
 ROCK = stage(lesson("rock-1"), 10.0, True)
 

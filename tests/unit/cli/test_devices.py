@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.cli.command_line import main
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.cli.command_line import main
 from station.cli.devices_monitor_sticks import SticksPage
 from station.core.events import SensorMounted, SensorSamples

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
 from station.devices.device_ports import DevicePorts, parse_device, ports_for

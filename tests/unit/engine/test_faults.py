@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.core.events import DeviceEvent, DeviceFound, DeviceLost, Hit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture.capture import read_capture

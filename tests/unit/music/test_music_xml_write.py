@@ -134,7 +134,7 @@ def test_nothing_is_hidden_in_the_file() -> None:
 def test_what_is_lost_is_said() -> None:
     hat = _hand(0, Piece.HIHAT, zone=Zone.BOW, openness=0.3)
     off = _hand(PPQ + 1234)
-    part = replace(_part(hat, off), beat_ticks=5 * PPQ, sections=(PartSection("", 0, 0),), author="a\x00b")
+    part = replace(_part(hat, off), said_beat_ticks=5 * PPQ, sections=(PartSection("", 0, 0),), author="a\x00b")
     lost = {loss.feature: loss.text for loss in write_music_xml(part).lost}
     assert {Feature.OPENNESS, Feature.TIMES, Feature.BEAT, Feature.SECTIONS, Feature.AUTHOR} <= set(lost)
     assert lost[Feature.TIMES].startswith("bar 1: ")

@@ -68,7 +68,7 @@ def test_features_of_the_part() -> None:
         Feature.TIMES: replace(before, score=replace(score, end_tick=8 * PPQ)),
         Feature.TEMPO: _part(_STROKE, tempo_map=TempoMap.build([TempoChange(0, 400_000)])),
         Feature.METERS: _part(_STROKE, tempo_map=TempoMap.build([], [MeterChange(0, 3, 4)])),
-        Feature.BEAT: replace(before, beat_ticks=3 * PPQ // 2),
+        Feature.BEAT: replace(before, said_beat_ticks=3 * PPQ // 2),
         Feature.SWING: replace(before, swing=Swing(1.5)),
         Feature.LOUDNESS: replace(before, score=replace(score, loudness=(LoudnessMark(0, "f"),))),
         Feature.TITLE: replace(before, score=replace(score, title="another")),

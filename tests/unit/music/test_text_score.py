@@ -9,7 +9,7 @@ from station.core.units import PPQ
 from station.motion.kit.kit import load_kit
 from station.motion.sticking.limbs import assign_limbs
 from station.music.formats.format_table import read_part
-from station.music.formats.text_score import parse_text_score, read_text_score, score_text, write_text_score
+from station.music.formats.text_score import parse_text_score, score_text, write_text_score
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from tests.unit.motion.patterns import ROCK, score_of
@@ -47,7 +47,7 @@ def test_a_limb_edited_by_hand_is_played(tmp_path: Path) -> None:
     text = path.read_text()
     assert "left_hand" in text
     path.write_text(text.replace("left_hand ", "right_hand"))
-    edited = read_text_score(path)
+    edited = read_part(path).score
     assignment = assign_limbs(edited, load_kit())
     snares = edited.notes["piece"] == Piece.SNARE
     assert set(assignment.limbs[snares].tolist()) == {Limb.RIGHT_HAND}
@@ -115,10 +115,10 @@ def test_a_meter_that_changes_in_mid_bar_reads_back() -> None:
 
 def test_a_file_that_cannot_be_read_is_bad_input(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match=r"none.txt: no such file$"):
-        read_text_score(tmp_path / "none.txt")
-    (tmp_path / "bytes.txt").write_bytes(b"a\nb\n\xff\xfe")
+        read_part(tmp_path / "none.txt")
+    (tmp_path / "bytes.txt").write_bytes(b"tempo 1:1 120\nb\n\xff\xfe")
     with pytest.raises(BadInput, match=r"bytes.txt: line 3: not UTF-8 text; expected a text score, saved as UTF-8$"):
-        read_text_score(tmp_path / "bytes.txt")
+        read_part(tmp_path / "bytes.txt")
 
 
 @pytest.mark.parametrize("text", ["hello\nworld\n", "", "My lessons of March\n- rock\n"])

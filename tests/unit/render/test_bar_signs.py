@@ -77,3 +77,12 @@ def test_no_word_leaves_the_panel(name: str) -> None:
         shapes = engraver.bar(bar)
         letters = shapes[shapes["kind"] != ShapeKind.BOX]
         assert (letters["centre"][:, 1] - letters["half"][:, 1]).min() >= engraver.rows_y.top - 0.05
+
+
+def test_the_names_of_sections_stand_over_their_first_bars_in_every_pass() -> None:
+    """Three passes of four bars, a landing after them: a Z over the third bar of each, and nowhere else."""
+    engraver = Engraver(song("ABCD" * 3 + "A"), ATLAS, numbers=BarNumbers(0, 4, 3, ((2, "Z"),)))
+    uv = np.array(ATLAS.letter("Z", Face.BOLD).uv, np.float32)
+    found = [bar for bar in range(13) if (engraver.bar(bar)["uv"] == uv).all(axis=1).any()]
+    assert found == [2, 6, 10]
+    assert BarNumbers(0, 0, None, ((0, "Z"),)).section_of(0) == "Z", "played once"

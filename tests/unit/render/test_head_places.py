@@ -17,11 +17,14 @@ NOTE_HALF, CROSS_HALF, BRACKET = 0.59, 0.58, 0.436
 def heads(*pieces: Piece, ghosts: tuple[Piece, ...] = ()) -> dict[Piece, PlacedHead]:
     notes = [Note(0, piece, dynamic=Dynamic.GHOST if piece in ghosts else Dynamic.NORMAL) for piece in pieces]
     rows = score_of(*notes).notes
-    return {Piece(int(row["piece"])): head for row, head in zip(rows, placed_heads(rows), strict=True)}
+    return {
+        Piece(int(row["piece"])): head
+        for row, head in zip(rows, placed_heads(rows, np.zeros(len(rows), np.bool_)), strict=True)
+    }
 
 
 def reach(note: Note) -> tuple[float, float]:
-    return heads_extent(score_of(note).notes)
+    return heads_extent(score_of(note).notes, np.zeros(1, np.bool_))
 
 
 def test_a_third_stands_on_one_line_and_a_second_on_both_sides_of_the_stem() -> None:

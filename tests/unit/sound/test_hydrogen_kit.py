@@ -213,12 +213,12 @@ BOMB = (
 @pytest.mark.parametrize(
     ("xml", "fault"),
     [
-        (b"", "cannot be read as XML"),
-        (b"<drumkit_info><name>", "cannot be read as XML"),
-        (b"\xff\xfe\x00rubbish", "cannot be read as XML"),
+        (b"", "line 1: not XML"),
+        (b"<drumkit_info><name>", "line 1: not XML"),
+        (b"\xff\xfe\x00rubbish", "line 1: not XML"),
         (b"<song/>", "expected <drumkit_info>"),
-        (BOMB, "no document type"),
-        (BOMB.decode().encode("utf-16"), "no document type|cannot be read"),
+        (BOMB, "line 1: a document type with rules of its own"),
+        (BOMB.decode().encode("utf-16"), "line 1: a document type with rules of its own"),
         (
             kit_xml(instrument("Kick", "<gain>x</gain>", layer("a.wav"))),
             r"instrument 1 \(Kick\), gain: 'x' is no number",

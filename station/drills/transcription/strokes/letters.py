@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from types import MappingProxyType
 
 from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece, Zone
@@ -33,19 +34,26 @@ def nearest_letter(note: Note) -> TabSymbol:
 
     What counts most comes first: articulation, a bell or a rim, ornament, openness, dynamic, edge or bow.
     """
-    openness = note.openness or 0.0
+    meaning = TabSymbol(note.zone, note.articulation, note.dynamic, note.openness, note.ornament)
+    return _nearest(family_of(note.piece), meaning)
+
+
+@lru_cache(maxsize=4096)
+def _nearest(family: TabFamily, meaning: TabSymbol) -> TabSymbol:
+    """The letter of the family that differs least from what is meant."""
+    openness = meaning.openness or 0.0
 
     def distance(letter: TabSymbol) -> tuple[bool, bool, bool, float, int, bool]:
         return (
-            letter.articulation is not note.articulation,
-            _SOUND_OF.get(letter.zone, letter.zone) is not _SOUND_OF.get(note.zone, note.zone),
-            letter.ornament is not note.ornament,
+            letter.articulation is not meaning.articulation,
+            _SOUND_OF.get(letter.zone, letter.zone) is not _SOUND_OF.get(meaning.zone, meaning.zone),
+            letter.ornament is not meaning.ornament,
             abs((letter.openness or 0.0) - openness),
-            abs(letter.dynamic - note.dynamic),
-            letter.zone is not note.zone,
+            abs(letter.dynamic - meaning.dynamic),
+            letter.zone is not meaning.zone,
         )
 
-    return min(SYMBOLS[family_of(note.piece)].values(), key=distance)
+    return min(SYMBOLS[family].values(), key=distance)
 
 
 _SOUND_OF = MappingProxyType({Zone.EDGE: Zone.BOW})

@@ -4,10 +4,9 @@ Nothing is guessed here: a stroke is on a cell or it is not. A swing is one whos
 and which explains the strokes with words that cost less than straight ones (`rhythm_words`).
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.units import PPQ
 from station.drills.grid.grid_writer import PLAIN_CELLS, TUPLET_CELLS
@@ -42,10 +41,7 @@ def exact_meant(take: Take, ticks: Ints) -> Meant | None:
         if cells is not None:
             rivals.append((swing, cells))
     swing, cells = min(rivals, key=lambda rival: _cost(take, rival[0]))
-    cell = np.zeros(len(span), np.int64)
-    for i, (s, at) in enumerate(zip(span.tolist(), within.tolist(), strict=True)):
-        cell[i] = np.argmin(np.abs(_places(int(cells[s]), int(spans.lengths[s]), swing) - at))
-    return Meant(span, cell, cells, swing)
+    return Meant(span, _nearest(spans, span, within, cells, swing), cells, swing)
 
 
 def _cost(take: Take, swing: Swing) -> float:
@@ -53,32 +49,36 @@ def _cost(take: Take, swing: Swing) -> float:
     return take.read(feel).cost + prior_cost(feel)
 
 
-def _places(cells: int, length: int, swing: Swing) -> Floats:
-    places: Floats = cell_places(cells, length, swing) * length
-    return places
-
-
 def _cells(spans: BeatSpans, span: Ints, within: Ints, swing: Swing) -> Ints | None:
     """Into how many cells each span (s,) must be cut for its strokes, 1 where none is; None if a span cannot be cut."""
     found = np.ones(len(spans), np.int64)
-    for s, group in _by_span(span):
-        length = int(spans.lengths[s])
-        fits = (n for n in _CELLS if _holds(_places(n, length, swing), within[group]))
-        if (cells := next(fits, None)) is None:
-            return None
-        found[s] = cells
+    found[span] = 0
+    lengths = spans.lengths[span]
+    for cells in _CELLS:
+        off = np.ones(len(span), np.bool_)
+        left = np.flatnonzero(found[span] == 0)
+        for length in np.unique(lengths[left]).tolist():
+            here = left[lengths[left] == length]
+            off[here] = np.min(_farness(cells, length, swing, within[here]), axis=0) > TOLERANCE_TICKS
+        fits = np.bincount(span, off, len(spans)) == 0
+        found[(found == 0) & fits] = cells
+    return None if (found[span] == 0).any() else found
+
+
+def _nearest(spans: BeatSpans, span: Ints, within: Ints, cells: Ints, swing: Swing) -> Ints:
+    """The cell of its span (n,) that each stroke is nearest to."""
+    found = np.zeros(len(span), np.int64)
+    kinds = np.stack([cells[span], spans.lengths[span]])
+    for count, length in np.unique(kinds, axis=1).T.tolist():
+        here = np.flatnonzero((kinds[0] == count) & (kinds[1] == length))
+        found[here] = np.argmin(_farness(count, length, swing, within[here]), axis=0)
     return found
 
 
-def _by_span(span: Ints) -> Iterator[tuple[int, NDArray[np.int64]]]:
-    """Each span that has strokes, and their indices."""
-    order = np.argsort(span, kind="stable")
-    known, starts, counts = np.unique(span[order], return_index=True, return_counts=True)
-    yield from ((s, order[a : a + n]) for s, a, n in zip(known.tolist(), starts, counts, strict=True))
-
-
-def _holds(places: Floats, within: Ints) -> bool:
-    return bool(np.all(np.min(np.abs(places[:, None] - within), axis=0) <= TOLERANCE_TICKS))
+def _farness(cells: int, length: int, swing: Swing, within: Ints) -> Floats:
+    """How far each stroke (n,) of spans of one length is from each of their cells (cells + 1, n), in ticks."""
+    far: Floats = np.abs(cell_places(cells, length, swing)[:, None] * length - within)
+    return far
 
 
 def _swings_heard(spans: BeatSpans, span: Ints, within: Ints) -> Sequence[Swing]:

@@ -41,15 +41,14 @@ class GridTimes:
     """A score on the grid, and how it came there.
 
     `score` has the rows that were given, their ticks on cells, whole bars alone, `swing_ticks` where swing is written
-    as a word; row `i` of it was row `origin[i]` (shape (n,)). `swing` is that of the whole piece and `beat_ticks` the
-    beat that is counted. `beats` are the beats with strokes in order. `lean_ms` is how late the take is as a whole,
-    and `spread_ms` the standard deviation about that; both 0 where the score was on the grid already.
+    as a word; row `i` of it was row `origin[i]` (shape (n,)). `swing` is that of the whole piece. `beats` are the
+    beats with strokes in order. `lean_ms` is how late the take is as a whole, and `spread_ms` the standard deviation
+    about that; both 0 where the score was on the grid already.
     """
 
     score: Score
     origin: NDArray[np.int64]
     swing: Swing
-    beat_ticks: int
     beats: tuple[BeatCells, ...]
     lean_ms: float = 0.0
     spread_ms: float = 0.0
@@ -124,7 +123,6 @@ def _written(music: _Music, meant: Meant) -> GridTimes:
         Score.from_array(moved[origin], music.tempo_map, end, score.title, score.loudness),
         origin,
         meant.swing,
-        music.tempo_map.meter_at(0).usual_beat_ticks,
         _beats(spans, meant),
         meant.lean_s * _MS_PER_S,
         meant.spread_s * _MS_PER_S,

@@ -44,12 +44,10 @@ def part_of_chart(chart: DrumChart, source: str) -> DrumPart:
     strokes = _with_chokes(chart, _with_motions(chart, _strokes(chart)))
     notes = [row for stroke in strokes for row in with_graces(stroke)]
     score = Score.from_notes(notes, tempo_map, _end(chart, tempo_map, notes), chart.title)
-    start, end = tempo_map.meters[0].pulses[0]
     return DrumPart(
         score,
         chart.author,
         chart.about,
-        end - start,
         sections=_sections(chart, score),
         lost=(*chart.lost, *_lost(chart)),
     )

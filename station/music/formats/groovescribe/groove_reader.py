@@ -50,7 +50,7 @@ def part_of_groove(groove: Groove, all_toms: bool = False) -> DrumPart:
     end = groove.bars * groove.meter.bar_ticks
     score = Score.from_notes(notes, tempo_map, end, groove.title)
     lost = (*groove.lost, *_unread(groove, silent))
-    return DrumPart(score, groove.author, groove.comments, groove.meter.usual_beat_ticks, swing, lost=lost)
+    return DrumPart(score, groove.author, groove.comments, None, swing, lost=lost)
 
 
 def swing_of(percent: int, unit_ticks: int) -> Swing:

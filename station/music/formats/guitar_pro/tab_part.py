@@ -46,7 +46,7 @@ def part_of_song(song: TabSong, source: str) -> DrumPart:
         score,
         song.author,
         song.about,
-        _beat_ticks(song.bars),
+        None,
         swing,
         _sections(song.bars, order),
         lost=(*song.lost, *_lost_graces(song.bars), *lost),
@@ -87,14 +87,6 @@ def _tempo_map(bars: Sequence[TabBar], order: Sequence[int], starts: Sequence[in
         tempos += [TempoChange(start + tick, us) for tick, us in bars[i].tempos]
         meters.append(replace(bars[i].meter, tick=start))
     return TempoMap.build(tempos, meters)
-
-
-def _beat_ticks(bars: Sequence[TabBar]) -> int:
-    """The beat that the first meter is counted in."""
-    if not bars:
-        return PPQ
-    start, end = bars[0].meter.pulses[0]
-    return end - start
 
 
 def _sections(bars: Sequence[TabBar], order: Sequence[int]) -> tuple[PartSection, ...]:

@@ -70,8 +70,7 @@ def part_of_song(song: HydrogenSong, source: str) -> DrumPart:
         song.name,
     )
     lost = (*song.lost, *_lost(notes, band, chance))
-    beat = score.tempo_map.meters[0].usual_beat_ticks
-    return DrumPart(score, song.author, song.about, beat, swing, _sections(song.tags, len(columns)), lost=lost)
+    return DrumPart(score, song.author, song.about, None, swing, _sections(song.tags, len(columns)), lost=lost)
 
 
 def kit_of_pattern(song: HydrogenSong, kit_name: str) -> HydrogenSong:

@@ -1,7 +1,7 @@
 """A drum part of a MusicXML file: its bars as they are played, with what stands beside the notes."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import zip_longest
 from xml.etree.ElementTree import Element
@@ -9,7 +9,8 @@ from xml.etree.ElementTree import Element
 from station.core.errors import BadInput
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart, PartSection
-from station.music.formats.music_xml.bar_reading import VELOCITY_OF_MARK, BarReader
+from station.music.formats.music_xml.bar_reading import BarReader
+from station.music.formats.music_xml.direction_reading import VELOCITY_OF_MARK
 from station.music.formats.music_xml.mxl_container import score_text
 from station.music.formats.music_xml.note_reading import NoteReader
 from station.music.formats.music_xml.part_choice import FilePart, drum_parts, parts_of
@@ -151,17 +152,11 @@ def _assembled(root: Element, bars: Sequence[WrittenBar], lost: tuple[str, ...])
         replace(score, loudness=_loudness(bars, line.ticks)),
         _author(root),
         _about(root),
-        _beat_ticks(bars, line.meters[0]),
+        next((bar.beat_ticks for bar in bars if bar.beat_ticks), None),
         next((swing for bar in bars for _, swing in bar.swings if swing.ratio != STRAIGHT), Swing()),
         _sections(bars),
         lost=lost,
     )
-
-
-def _beat_ticks(bars: Iterable[WrittenBar], meter: MeterChange) -> int:
-    """The beat of the first metronome mark, else a dotted quarter in a compound meter, else a quarter."""
-    usual = 3 * PPQ // 2 if meter.unit == 8 and not meter.groups and len(meter.felt_groups) < meter.beats else PPQ
-    return next((bar.beat_ticks for bar in bars if bar.beat_ticks), usual)
 
 
 def _sections(bars: Sequence[WrittenBar]) -> tuple[PartSection, ...]:

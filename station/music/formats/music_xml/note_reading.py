@@ -26,8 +26,6 @@ from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY
 
 FULL_VELOCITY = 90
 """The MIDI velocity that `dynamics` are a percentage of (MusicXML 4.0, `note` and `sound`)."""
-SHARE_OF_NORMAL: Mapping[Dynamic, float] = {Dynamic.GHOST: 0.4, Dynamic.NORMAL: 1.0, Dynamic.ACCENT: 1.45}
-"""How loud ghost strokes and accents are that have no number: HUMANS' 32 and 116 beside 80."""
 _FLAGS = {name: flags for flags, name in enumerate(("quarter", "eighth", "16th", "32nd", "64th", "128th", "256th"))}
 _STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
 _OPENNESS = {"open": OPEN, "open-string": OPEN, "harmonic": OPEN, "stopped": CLOSED, "half-muted": HALF_OPEN}

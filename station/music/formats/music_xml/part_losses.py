@@ -6,7 +6,7 @@ from functools import cache
 from station.core.pieces import CHOKEABLE, Articulation, Limb, Ornament, Piece, Zone
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import Feature, Loss
-from station.music.formats.music_xml.bar_reading import VELOCITY_OF_MARK
+from station.music.formats.music_xml.direction_reading import VELOCITY_OF_MARK
 from station.music.formats.music_xml.direction_writing import has_beat
 from station.music.formats.music_xml.element_writing import strike_of_note, xml_text
 from station.music.formats.music_xml.stroke_cells import DOUBLES, StrokeCell, is_roll, second_strokes

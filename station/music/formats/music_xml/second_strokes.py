@@ -8,7 +8,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable
 
 from station.core.pieces import HAND_PIECES, Dynamic, Piece
-from station.music.formats.music_xml.note_reading import SHARE_OF_NORMAL
+from station.music.stroke_velocities import shaded
 
 
 class SecondStrokes:
@@ -28,7 +28,7 @@ class SecondStrokes:
         if dynamic is not Dynamic.ACCENT:
             return first
         usual = self._usual.get(piece, self._of_hands)
-        return min(first, round(first / SHARE_OF_NORMAL[Dynamic.ACCENT]) if usual is None else usual)
+        return min(first, shaded(first, Dynamic.NORMAL, beside=dynamic) if usual is None else usual)
 
 
 def _commonest(counts: Counter[int]) -> int:

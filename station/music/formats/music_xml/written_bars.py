@@ -1,5 +1,6 @@
 """What a bar of a MusicXML part holds once it is read: times in ticks from the bar's start, as exact fractions."""
 
+import re
 from collections import Counter
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -10,6 +11,8 @@ from station.music.formats.playing_order import BarSigns
 from station.music.swing import Swing
 from station.music.tempo import MeterChange
 
+NUMBER = re.compile(r"\s*([+-]?\d{1,9}(?:\.\d{1,12})?)\s*")
+"""A decimal number as the file writes it, no longer than any that music needs (our choice)."""
 STOP = "stop"
 """Among loudness signs: here a hairpin ends."""
 
@@ -45,12 +48,12 @@ class WrittenBar:
 
     `length` is 0 where nothing stands in it. `tempos` (where, µs a quarter), `loudness` (where, a sign or `STOP`) and
     `swings` (where, the swing from there on) are in the order of the file. `meter` at tick 0, None where none is
-    written; `beat_ticks` the beat of its metronome mark, 0 for none; `section` the name of its rehearsal mark.
+    written; `beat_ticks` the beat of its metronome mark, 0 for none; `section` the name of its rehearsal mark;
+    `letters` (where, whose) R and L as words over the staff.
     """
 
     name: str
     length: Fraction = Fraction(0)
-    is_implicit: bool = False
     notes: list[WrittenNote] = field(default_factory=list)
     tempos: list[tuple[Fraction, int]] = field(default_factory=list)
     loudness: list[tuple[Fraction, str]] = field(default_factory=list)
@@ -58,6 +61,7 @@ class WrittenBar:
     meter: MeterChange | None = None
     beat_ticks: int = 0
     section: str = ""
+    letters: list[tuple[Fraction, Limb]] = field(default_factory=list)
     ends_section: bool = False
     signs: BarSigns = field(default_factory=BarSigns)
 

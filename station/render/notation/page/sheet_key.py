@@ -11,7 +11,7 @@ from station.core.labels import piece_name
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.music.loudness_marks import FADE, GROW
 from station.music.score import Score
-from station.render.notation.head_places import EDGE_X, HEAD_SIGNS
+from station.render.notation.head_places import EDGE_X, HEAD_SIGNS, SMALL
 from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_letters
 from station.render.notation.staff import NoteHead, head_of, height, ledger_steps, step_of
 from station.render.notation.staff_rows import OPEN_FROM, WIDE_FROM, closing_hats, shown_limbs
@@ -39,7 +39,7 @@ def draw_key(draw_list: DrawList, score: Score, bars: Collection[int], width: fl
 
     Nothing where nothing is used.
     """
-    used = list(notes_used(score))
+    used = list(notes_used(score.whole[0]))
     if not used:
         return 0.0
     rows = ceil(len(used) / max(int(width / _LEAST_SLOT), 1))
@@ -98,6 +98,7 @@ def _special(piece: Piece, zone: Zone, how: Articulation) -> str:
 
 def signs_used(score: Score, bars: Collection[int], with_sticking: bool) -> Iterator[tuple[Draw, str]]:
     """The other signs of the score, of which `bars` are written, each as what draws it and what it means."""
+    score, is_small = score.whole
     notes = score.notes
     graced = notes["ornament"][score.is_grace]
     if (notes["dynamic"] == Dynamic.ACCENT).any():
@@ -119,6 +120,8 @@ def signs_used(score: Score, bars: Collection[int], with_sticking: bool) -> Iter
         yield partial(_sign, name="buzz"), "buzz roll"
     if (notes["choke_ticks"] > 0).any():
         yield partial(_sign, name="choke"), "choke: grab it"
+    if is_small.any():
+        yield _small, "small: beyond two hands and two feet"
     if with_sticking:
         yield from _letters_used(shown_limbs(score, notes["limb"]))
 
@@ -167,6 +170,10 @@ def _signs(draw_list: DrawList, signs: list[tuple[Draw, str]], width: float, top
 def _ghost(draw_list: DrawList, at: tuple[float, float]) -> None:
     draw_head(draw_list, NoteHead.ROUND, at, 1.0)
     draw_brackets(draw_list, (at[0] - _BRACKETS_X, at[0] + _BRACKETS_X), at[1])
+
+
+def _small(draw_list: DrawList, at: tuple[float, float]) -> None:
+    draw_head(draw_list, NoteHead.ROUND, at, SMALL)
 
 
 def _splash(draw_list: DrawList, at: tuple[float, float]) -> None:

@@ -40,6 +40,27 @@ def through_midi(lesson: Lesson) -> Lesson:
     return transcribe(MIDI.read(written(part_of(lesson)).data, "x.mid"), "x").lesson
 
 
+# --- the beat that is counted -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("meter", "said", "beat"),
+    [
+        ((6, 8), None, 3 * EIGHTH),  # 6/8 is counted in two
+        ((6, 8), EIGHTH, EIGHTH),
+        ((6, 8), QUARTER, QUARTER),  # also where the file says what is usual elsewhere
+        ((3, 4), None, QUARTER),
+        ((7, 8), None, QUARTER),
+    ],
+)
+def test_the_beat_is_what_the_part_says_or_what_is_usual(meter: tuple[int, int], said: int | None, beat: int) -> None:
+    tempo_map = TempoMap.constant(120, *meter)
+    strokes = [snare(k * EIGHTH) for k in range(meter[0] * 8 // meter[1] * 2)]
+    part = DrumPart(Score.from_notes(strokes, tempo_map), said_beat_ticks=said)
+    assert part.beat_ticks == beat
+    assert transcribe(part, "x").lesson.beat_ticks == beat
+
+
 # --- our own lessons through a MIDI file ------------------------------------------------------------------------------
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.bench.rigs.journey_ways import Leg, Rng
+from station.bench.rigs.journeys.journey_ways import Leg, Rng
 from station.core.pieces import Limb, Piece
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.performance import HIT_DTYPE, Performance

@@ -1,7 +1,7 @@
 """A kit that plays by itself, in a process of its own, and knows when it played: for measuring what the engine hears.
 
-As a program: `python -m station.bench.rigs.playing_kit serial PATH BAUD` speaks on a pty at PATH, `… jack NAME` on a
-port of the JACK server. It says `ready`, then obeys lines on its standard input:
+As a program: `python -m station.bench.rigs.devices.playing_kit serial PATH BAUD` speaks on a pty at PATH, `… jack NAME`
+on a port of the JACK server. It says `ready`, then obeys lines on its standard input:
 
     play START_NS STEP_NS COUNT    strokes from monotonic START_NS on; says the JSON list of when each was sent
     flood START_NS STEP_NS COUNT   the same with messages of all kinds, of which every fourth is a stroke
@@ -22,7 +22,7 @@ from typing import Protocol, Self
 
 import mido
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.core.clock import monotonic_ns
 
 _NOTES = (36, 38, 48, 45)

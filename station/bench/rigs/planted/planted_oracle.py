@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.bench.rigs.planted_player import (
+from station.bench.rigs.planted.planted_player import (
     LAG_1,
     LEAD_MS,
     LEVEL_SD_DB,
@@ -24,7 +24,7 @@ from station.bench.rigs.planted_player import (
     Conditions,
     leans_of,
 )
-from station.bench.rigs.planted_strokes import Floats, Mask, Written
+from station.bench.rigs.planted.planted_strokes import Floats, Mask, Written
 
 Z_FALSE_ALARM = 3.48
 """One-sided normal quantile of 1 % shared by 40 words."""

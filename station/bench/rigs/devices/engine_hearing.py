@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from station.bench.rigs.jack_server import JackServer
-from station.bench.rigs.playing_kit import PlayingKit
+from station.bench.rigs.devices.jack_server import JackServer
+from station.bench.rigs.devices.playing_kit import PlayingKit
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, Hit
@@ -102,7 +102,7 @@ def stage(wire: Wire, draws: bool = True) -> Iterator[ListeningRig]:
 def read_barely(baud: int, step_ns: int, count: int) -> tuple[list[int], list[int]]:
     """When a kit on a line of `baud` sent each of `count` strokes, and when the plainest reader had each."""
     with TemporaryDirectory() as folder, PlayingKit("serial", f"{folder}/kit", str(baud)) as player, _drawing():
-        words = [sys.executable, "-m", "station.bench.rigs.bare_reader", f"{folder}/kit", str(count), "3"]
+        words = [sys.executable, "-m", "station.bench.rigs.devices.bare_reader", f"{folder}/kit", str(count), "3"]
         with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as reader:
             assert reader.stdout is not None
             reader.stdout.readline()

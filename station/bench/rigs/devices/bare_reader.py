@@ -1,7 +1,8 @@
 """A terminal line read as plainly as Python can: the best that stamps could be on this computer, beside the engine's.
 
-As a program: `python -m station.bench.rigs.bare_reader PATH MESSAGES SIZE` waits for bytes at PATH, in real time if it
-may; it says `ready`, and after so many messages of SIZE bytes the JSON list of when each was whole, in monotonic ns.
+As a program: `python -m station.bench.rigs.devices.bare_reader PATH MESSAGES SIZE` waits for bytes at PATH, in real
+time if it may; it says `ready`, and after so many messages of SIZE bytes the JSON list of when each was whole, in
+monotonic ns.
 """
 
 import json

@@ -10,9 +10,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from station.bench.rigs.journey_music import families, music
-from station.bench.rigs.journey_takes import Journey, Player, Take, perform
-from station.bench.rigs.journey_ways import TURNS, Leg, Places, Rng, beginning, on_click, resumed, way
+from station.bench.rigs.journeys.journey_music import families, music
+from station.bench.rigs.journeys.journey_takes import Journey, Player, Take, perform
+from station.bench.rigs.journeys.journey_ways import TURNS, Leg, Places, Rng, beginning, on_click, resumed, way
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson, lesson_names
 from station.music.score import Score

@@ -6,10 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from station.bench.rigs.planted_oracle import Explanations, level_precision, smallest_shift, timing_precision
-from station.bench.rigs.planted_player import Conditions, Sheet
-from station.bench.rigs.planted_shapes import level_shapes, timing_shapes
-from station.bench.rigs.planted_strokes import Floats, Mask, Written
+from station.bench.rigs.planted.planted_oracle import Explanations, level_precision, smallest_shift, timing_precision
+from station.bench.rigs.planted.planted_player import Conditions, Sheet
+from station.bench.rigs.planted.planted_shapes import level_shapes, timing_shapes
+from station.bench.rigs.planted.planted_strokes import Floats, Mask, Written
 
 MOST = 2.0
 """Where the oracle needs more than twice a teacher's size, the music does not exercise the word (our choice)."""

@@ -5,9 +5,9 @@ from functools import cache
 
 import numpy as np
 
-from station.bench.rigs.planted_music import grooves, lessons
-from station.bench.rigs.planted_stage import Stage
-from station.bench.rigs.planted_trials import (
+from station.bench.rigs.planted.planted_music import grooves, lessons
+from station.bench.rigs.planted.planted_stage import Stage
+from station.bench.rigs.planted.planted_trials import (
     NONE,
     PAIRS,
     SDS_MS,

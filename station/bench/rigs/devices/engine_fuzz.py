@@ -9,7 +9,7 @@ import time
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from station.bench.rigs.midi_fuzz import cut_anywhere, hostile_bytes, invented, notes_in
+from station.bench.rigs.devices.midi_fuzz import cut_anywhere, hostile_bytes, invented, notes_in
 from station.core.errors import BadInput
 from station.core.events import DeviceEvent, Hit, PedalMoved
 from station.core.pieces import Piece, Zone

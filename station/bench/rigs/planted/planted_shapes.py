@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.bench.rigs.planted_strokes import Floats, Mask, Written
+from station.bench.rigs.planted.planted_strokes import Floats, Mask, Written
 from station.core.pieces import Limb, Ornament, Piece, word
 
 HANDS: Mapping[str, Limb] = {"left_hand": Limb.LEFT_HAND, "right_hand": Limb.RIGHT_HAND}

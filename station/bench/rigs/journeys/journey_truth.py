@@ -17,7 +17,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from station.bench.rigs.journey_takes import Take
+from station.bench.rigs.journeys.journey_takes import Take
 from station.core.units import NS_PER_MS, PPQ
 from station.music.score import Score
 

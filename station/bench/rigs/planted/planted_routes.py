@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from station.bench.rigs.planted_player import Run, Sheet
-from station.bench.rigs.planted_strokes import Written
+from station.bench.rigs.planted.planted_player import Run, Sheet
+from station.bench.rigs.planted.planted_strokes import Written
 
 _FEWEST_BARS = 4
 _HEARD_STROKES = 12

@@ -9,14 +9,14 @@ from types import MappingProxyType
 
 import numpy as np
 
-from station.bench.rigs import planted_levels as levels
-from station.bench.rigs import planted_timing as timing
-from station.bench.rigs.planted_oracle import smallest_share
-from station.bench.rigs.planted_player import ADDED, LEFT_OUT, OPENNESS_SLIP, Sheet, astray, wrong_openness
-from station.bench.rigs.planted_routes import left_out_bars, repeated_bars, stopped
-from station.bench.rigs.planted_shapes import HANDS
-from station.bench.rigs.planted_stage import FEWEST, MOST, Maker, Planted, Stage
-from station.bench.rigs.planted_strokes import Mask, Written
+from station.bench.rigs.planted import planted_levels as levels
+from station.bench.rigs.planted import planted_timing as timing
+from station.bench.rigs.planted.planted_oracle import smallest_share
+from station.bench.rigs.planted.planted_player import ADDED, LEFT_OUT, OPENNESS_SLIP, Sheet, astray, wrong_openness
+from station.bench.rigs.planted.planted_routes import left_out_bars, repeated_bars, stopped
+from station.bench.rigs.planted.planted_shapes import HANDS
+from station.bench.rigs.planted.planted_stage import FEWEST, MOST, Maker, Planted, Stage
+from station.bench.rigs.planted.planted_strokes import Mask, Written
 from station.core.pieces import Piece, word
 
 OPENNESS_SHARE = 0.25

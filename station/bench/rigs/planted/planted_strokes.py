@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from station.bench.rigs.planted_music import Music
+from station.bench.rigs.planted.planted_music import Music
 from station.core.pieces import CYMBALS, HALF_OPEN, TOMS, Dynamic, Limb, Ornament, Piece
 from station.core.units import PPQ
 from station.music.score import Score

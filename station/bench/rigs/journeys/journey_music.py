@@ -20,7 +20,7 @@ from station.music.formats.smf.standard_midi import read_midi, score_from_midi
 from station.music.score import NOTE_DTYPE, Score
 from station.music.tempo import TempoMap
 
-GMD = Path(__file__).resolve().parents[3] / "tests/data/gmd"
+GMD = Path(__file__).resolve().parents[4] / "tests/data/gmd"
 """The takes of the Groove MIDI Dataset that lie in a checkout; elsewhere that family is left out."""
 LONG_S = 45.0
 """A piece lasts so long at its written tempo, at least: half of it still holds a start, a skip and a repeat."""

@@ -7,11 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from station.bench.rigs.planted_oracle import smallest_sd_ms
-from station.bench.rigs.planted_player import Sheet
-from station.bench.rigs.planted_shapes import HANDS
-from station.bench.rigs.planted_stage import FEWEST, MOST, Maker, Planted, Stage
-from station.bench.rigs.planted_strokes import Written
+from station.bench.rigs.planted.planted_oracle import smallest_sd_ms
+from station.bench.rigs.planted.planted_player import Sheet
+from station.bench.rigs.planted.planted_shapes import HANDS
+from station.bench.rigs.planted.planted_stage import FEWEST, MOST, Maker, Planted, Stage
+from station.bench.rigs.planted.planted_strokes import Written
 from station.core.pieces import Limb
 from station.core.units import NS_PER_S
 

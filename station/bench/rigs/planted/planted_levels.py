@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from station.bench.rigs.planted_player import Sheet
-from station.bench.rigs.planted_stage import FEWEST, MOST, Maker, Planted, Stage
-from station.bench.rigs.planted_strokes import Mask, Written, level_db
+from station.bench.rigs.planted.planted_player import Sheet
+from station.bench.rigs.planted.planted_stage import FEWEST, MOST, Maker, Planted, Stage
+from station.bench.rigs.planted.planted_strokes import Mask, Written, level_db
 
 DOUBLE_DB, HAND_DB, FADE_DB = 4.0, 3.0, 6.0
 BESIDE_DB = 1.0

@@ -14,13 +14,13 @@ from itertools import combinations
 
 import numpy as np
 
-from station.bench.rigs.planted_faults import FAULTS
-from station.bench.rigs.planted_music import Music
-from station.bench.rigs.planted_oracle import SAME_STROKES
-from station.bench.rigs.planted_player import Conditions, Sheet, play
-from station.bench.rigs.planted_routes import sounds_as_repeated
-from station.bench.rigs.planted_stage import Planted, Stage
-from station.bench.rigs.planted_strokes import Mask, Written
+from station.bench.rigs.planted.planted_faults import FAULTS
+from station.bench.rigs.planted.planted_music import Music
+from station.bench.rigs.planted.planted_oracle import SAME_STROKES
+from station.bench.rigs.planted.planted_player import Conditions, Sheet, play
+from station.bench.rigs.planted.planted_routes import sounds_as_repeated
+from station.bench.rigs.planted.planted_stage import Planted, Stage
+from station.bench.rigs.planted.planted_strokes import Mask, Written
 from station.core.pieces import Limb, Piece, word
 from station.music.performance import Performance
 from station.scoring.align import align

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.bench.rigs.planted_strokes import Floats, Mask, Written, level_db
+from station.bench.rigs.planted.planted_strokes import Floats, Mask, Written, level_db
 from station.core.pieces import CLOSED, Piece
 from station.core.units import NS_PER_S
 from station.music.performance import HIT_DTYPE, Performance

@@ -1,8 +1,8 @@
 """Motion sensors that send without end: packets of each protocol, and a process that sends them down a serial line.
 
-As a program: `python -m station.bench.rigs.imu_line PATH BAUD SECONDS` plugs a pty in at PATH and waits for a line of
-input; then it sends x-IMU3 packets as fast as a wire of BAUD bits a second carries them, prints how many, and unplugs
-when its input ends.
+As a program: `python -m station.bench.rigs.devices.imu_line PATH BAUD SECONDS` plugs a pty in at PATH and waits for a
+line of input; then it sends x-IMU3 packets as fast as a wire of BAUD bits a second carries them, prints how many, and
+unplugs when its input ends.
 """
 
 import struct
@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from station.bench.rigs.serial_kit import SerialKit
+from station.bench.rigs.devices.serial_kit import SerialKit
 from station.core.imu import Vector
 from station.devices.driver_clocks import BITS_A_BYTE
 
