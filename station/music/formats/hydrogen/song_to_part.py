@@ -81,7 +81,31 @@ def kit_of_pattern(song: HydrogenSong, kit_name: str) -> HydrogenSong:
     more = [Instrument(_FIRST_OTHER + i, kind, kind) for i, kind in enumerate(others)]
     is_guess = kit_name not in _KNOWN_KITS and any(not note.kind for note in notes)
     guess = f"the instruments of {kit_name[:40]!r} are not in a pattern; they are taken for those of {ROCK_KIT}"
-    return replace(song, instruments=(*kit, *more), lost=(*song.lost, *([guess] if is_guess else ())))
+    bars = _bars_of(song.patterns[0])
+    return replace(
+        song,
+        patterns=bars,
+        columns=tuple((bar.name,) for bar in bars),
+        instruments=(*kit, *more),
+        lost=(*song.lost, *([guess] if is_guess else ())),
+    )
+
+
+def _bars_of(pattern: Pattern) -> tuple[Pattern, ...]:
+    """A pattern of several whole notes as a pattern for each: nobody counts to sixteen, and a file of one says no bars.
+
+    Any other is a bar.
+    """
+    if pattern.size % WHOLE_NOTE or pattern.size == WHOLE_NOTE:
+        return (pattern,)
+    notes: dict[int, list[PatternNote]] = {}
+    for note in pattern.notes:
+        bar, position = divmod(note.position, WHOLE_NOTE)
+        notes.setdefault(bar, []).append(replace(note, position=position))
+    return tuple(
+        Pattern(f"{bar}", WHOLE_NOTE, pattern.denominator, tuple(notes.get(bar, ())))
+        for bar in range(pattern.size // WHOLE_NOTE)
+    )
 
 
 # --- columns ----------------------------------------------------------------------------------------------------------
