@@ -41,6 +41,9 @@ from station.music.tempo import MeterChange, TempoChange, TempoMap
 _MOST_STROKES = 40_000
 """Our choice: an hour of 11 a second; a small file may ask for any number by its columns."""
 _UNITS = (4, 8, 16, 32)
+_THREE_QUARTERS = WHOLE_NOTE * 3 // 4
+_LONGEST_BAR = WHOLE_NOTE * 3 // 2
+"""Ticks of 6/4, the longest bar that people count (our choice)."""
 _KNOWN_KITS = (ROCK_KIT, "GMkit", "")
 """Kits whose instruments are in General MIDI's order."""
 _FIRST_OTHER = 1 << 20
@@ -92,20 +95,18 @@ def kit_of_pattern(song: HydrogenSong, kit_name: str) -> HydrogenSong:
 
 
 def _bars_of(pattern: Pattern) -> tuple[Pattern, ...]:
-    """A pattern of several whole notes as a pattern for each: nobody counts to sixteen, and a file of one says no bars.
+    """A pattern longer than 6/4 as one for each bar of 4/4 or 3/4 in it: it is the usual way to write several bars.
 
-    Any other is a bar.
+    Any other is one bar.
     """
-    if pattern.size % WHOLE_NOTE or pattern.size == WHOLE_NOTE:
-        return (pattern,)
+    lengths = (WHOLE_NOTE, _THREE_QUARTERS) if pattern.size > _LONGEST_BAR else ()
+    length = next((each for each in lengths if pattern.size % each == 0), pattern.size)
     notes: dict[int, list[PatternNote]] = {}
     for note in pattern.notes:
-        bar, position = divmod(note.position, WHOLE_NOTE)
+        bar, position = divmod(note.position, length)
         notes.setdefault(bar, []).append(replace(note, position=position))
-    return tuple(
-        Pattern(f"{bar}", WHOLE_NOTE, pattern.denominator, tuple(notes.get(bar, ())))
-        for bar in range(pattern.size // WHOLE_NOTE)
-    )
+    count = pattern.size // length
+    return tuple(Pattern(f"{i}", length, pattern.denominator, tuple(notes.get(i, ()))) for i in range(count))
 
 
 # --- columns ----------------------------------------------------------------------------------------------------------
