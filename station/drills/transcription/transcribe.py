@@ -129,6 +129,7 @@ def _from_its_first_bar(score: Score, ornaments: FoundOrnaments) -> tuple[Score,
     A program that writes a flam on the first beat needs a bar before it.
     """
     mains = Score.from_notes(ornaments.mains, score.tempo_map, score.end_tick, score.title)
+    mains = replace(mains, loudness=score.loudness)
     first = int(mains.bar[0]) if score.bar[0] < mains.bar[0] else 0
     return (mains.bars(first, mains.bar_count - 1), first) if first else (mains, 0)
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from station.core.pieces import OPEN, TOMS, Articulation, Limb, Ornament, Piece
 from station.core.units import PPQ
-from station.music.drum_part import DrumPart, PartSection
+from station.music.drum_part import DrumPart
 from station.music.formats.clone_hero.drum_chart import (
     ChartNote,
     DrumChart,
@@ -24,6 +24,7 @@ from station.music.formats.clone_hero.drum_chart import (
     merged,
 )
 from station.music.formats.clone_hero.drum_lanes import MOTIONS_OF, STRIKE_OF, meaning_of
+from station.music.formats.section_marks import sections_from_marks
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.stroke_velocities import usual_velocity
@@ -48,7 +49,7 @@ def part_of_chart(chart: DrumChart, source: str) -> DrumPart:
         score,
         chart.author,
         chart.about,
-        sections=_sections(chart, score),
+        sections=sections_from_marks(((_ticks(chart, tick), name) for tick, name in chart.sections), score),
         lost=(*chart.lost, *_lost(chart)),
     )
 
@@ -68,23 +69,6 @@ def _end(chart: DrumChart, tempo_map: TempoMap, notes: Sequence[Note]) -> int:
     last = max((n.tick for n in notes), default=0)
     end = max(_ticks(chart, chart.end) - 1, last)
     return tempo_map.bar_start(int(tempo_map.bars_at(end)) + 1)
-
-
-def _sections(chart: DrumChart, score: Score) -> tuple[PartSection, ...]:
-    """Each from the bar nearest to its mark to the next one; of several at a bar the nearest counts."""
-    marks = [(*_nearest_bar(score.tempo_map, _ticks(chart, tick)), name) for tick, name in chart.sections]
-    names: dict[int, str] = {}
-    for bar, _, name in sorted(marks, key=lambda mark: mark[1]):
-        names.setdefault(bar, name)
-    firsts = sorted(bar for bar in names if bar < score.bar_count)
-    ends = [*firsts[1:], score.bar_count]
-    return tuple(PartSection(names[a], a, b - 1) for a, b in zip(firsts, ends, strict=False) if names[a])
-
-
-def _nearest_bar(tempo_map: TempoMap, tick: int) -> tuple[int, int]:
-    """The bar that begins nearest to `tick`, and how far away."""
-    bar = int(tempo_map.bars_at(tick))
-    return min((abs(tick - tempo_map.bar_start(near)), near) for near in (bar, bar + 1))[::-1]
 
 
 # --- strokes ---------------------------------------------------------------------------------------------------------
