@@ -15,7 +15,6 @@ from station.drills.transcription.strokes.reach import Reach
 from station.drills.transcription.timing.grid_times import GridTimes
 from station.music.score import Score
 from station.music.swing import Swing
-from station.music.tempo import TempoMap
 
 _BARS_NAMED = 8
 """Bars that a remark names (our choice: what fits a line)."""
@@ -73,16 +72,12 @@ def _on_tempo(before: Score, after: Score) -> Iterator[str]:
     """A lesson's tempo changes at bar lines, and not for what only wanders."""
     old, new = before.tempo_map, after.tempo_map
     within = any(change.tick != old.bar_start(int(old.bars_at(change.tick))) for change in old.tempos)
-    if len(old.tempos) == len(new.tempos) == 1 and abs(_bpm(old) - _bpm(new)) > _TIDIED_BPM:
-        yield f"no tempo in it: played at {_bpm(new):.4g}"
+    if len(old.tempos) == len(new.tempos) == 1 and abs(old.tempos[0].tempo_bpm - new.tempos[0].tempo_bpm) > _TIDIED_BPM:
+        yield f"no tempo in it: played at {new.tempos[0].tempo_bpm:.4g}"
     if within or len(new.tempos) < len(old.tempos):
         changes = len(new.tempos) - 1
-        said = f"{changes} at bar lines" if changes else f"one tempo, {_bpm(new):.4g}"
+        said = f"{changes} at bar lines" if changes else f"one tempo, {new.tempos[0].tempo_bpm:.4g}"
         yield f"{_counted(len(old.tempos) - 1, 'change')} of tempo written as {said}"
-
-
-def _bpm(tempo_map: TempoMap) -> float:
-    return 60e6 / tempo_map.tempos[0].us_per_quarter
 
 
 def _on_times(times: GridTimes, mains: Score) -> Iterator[str]:

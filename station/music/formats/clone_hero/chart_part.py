@@ -10,7 +10,7 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from station.core.pieces import OPEN, TOMS, Articulation, Limb, Ornament, Piece
+from station.core.pieces import DRUMS, OPEN, Articulation, Limb, Ornament, Piece
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
 from station.music.formats.clone_hero.drum_chart import (
@@ -30,7 +30,6 @@ from station.music.score import Note, Score
 from station.music.stroke_velocities import usual_velocity
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 
-_DRUMS = frozenset({Piece.SNARE, *TOMS})
 _FLIPPED = {Lane.RED: Lane.YELLOW, Lane.YELLOW: Lane.RED}
 _SAME_TIME_QUARTERS = 1 / 16
 _MOST_MOTIONS = 32
@@ -98,10 +97,10 @@ def _stroke(chart: DrumChart, note: ChartNote, length: int) -> Note:
         Limb.LEFT_FOOT if note.is_second_kick else Limb.UNKNOWN,
         meaning.openness,
     )
-    if length and meaning.piece in _DRUMS:
+    if length and meaning.piece in DRUMS:
         buzz = _ticks(chart, note.tick + length) - stroke.tick
         return replace(stroke, articulation=Articulation.BUZZ, ornament=Ornament.ROLL, duration_ticks=buzz)
-    return replace(stroke, ornament=Ornament.FLAM) if note.is_flam and meaning.piece in _DRUMS else stroke
+    return replace(stroke, ornament=Ornament.FLAM) if note.is_flam and meaning.piece in DRUMS else stroke
 
 
 def _flipped(note: ChartNote, flips: Sequence[Span]) -> ChartNote:
@@ -189,5 +188,5 @@ def _lost(chart: DrumChart) -> Iterator[str]:
     left = len(merged(chart.rolls)) - len(_buzzes(chart))
     if left:
         yield f"{left} roll lanes over several notes: the notes stand as charted"
-    if any(n.length and meaning_of(n, chart.has_five_lanes).piece not in _DRUMS for n in chart.notes):
+    if any(n.length and meaning_of(n, chart.has_five_lanes).piece not in DRUMS for n in chart.notes):
         yield "rolls on cymbals and the kick: one stroke stands for each"
