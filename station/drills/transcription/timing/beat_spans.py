@@ -1,4 +1,4 @@
-"""The beats of a piece as stretches of time that are cut into cells, whatever its meters.
+"""The beats of a piece as spans of time that are cut into cells, whatever its meters.
 
 A span is what a foot taps (`MeterChange.pulses`): a quarter in 4/4, a dotted quarter in 6/8, a group of eighths in
 2+2+3/8. Longer pulses are cut into quarters, so that one table of divisions serves all.
