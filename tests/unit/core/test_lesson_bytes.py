@@ -2,7 +2,7 @@
 
 import codecs
 
-from station.core.toml_source import source_of
+from station.core.toml.toml_source import source_of
 
 
 def test_a_byte_that_is_no_text_behind_a_mark_and_other_letters() -> None:
