@@ -21,10 +21,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import mido
-from station.core.schema import reading
 
 from benchmarks.hostile_bytes import ways_for
 from station.core.errors import BadInput
+from station.core.toml.schema import reading
 from station.core.toml.toml_source import source_of
 from station.drills.library import shipped_lessons
 from station.drills.reading.lesson_file import lesson_reader
