@@ -17,30 +17,41 @@ import time
 import zipfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import mido
 
 from benchmarks.hostile_bytes import ways_for
 from station.core.errors import BadInput
+from station.core.toml.schema import reading
+from station.core.toml.toml_source import source_of
 from station.drills.library import shipped_lessons
+from station.drills.reading.lesson_file import lesson_reader
 from station.drills.transcription.transcribe import transcribe
 from station.drills.writing.lesson_part import part_of
-from station.drills.writing.lesson_writer import write_lesson
 from station.music.drum_part import DrumPart
 from station.music.formats.clone_hero.clone_hero_format import NOTES_MIDI
 from station.music.formats.format_table import FORMATS
 from station.music.formats.groovescribe.groove_formats import GROOVE_TEXT, GROOVESCRIBE
 from station.music.formats.music_format import MusicFormat
+from station.music.formats.text_score import score_text
 
 LIMIT_S, LIMIT_MB = 2.0, 500
 _LESSONS = 12
 _MOST_BYTES = 2_000_000
 """Of an input (our choice: what grows, grows no further)."""
+_USUAL_BYTES, _LONG = 40_000, 0.02
+"""All but so many are no longer than that: most faults need no length, and a million inputs must end (our choice)."""
+_EXCERPT_BARS = 2
 _NAME = "input"
+_STRANGERS_BYTES = 20_000
+"""Of a stranger's file that is a seed."""
 _STRANGERS = 0.03
 """So many inputs are files of another format (our choice)."""
+_TOLD_EVERY = 10_000
+_BOMB, _BOMBS = bytes(60_000_000), 0.005
+"""What some zips are given for a file: it packs to a thousandth."""
 _OUR_FAULT = ("became", "internal")
 """Words of refusals that blame the file for what a writer of ours did."""
 
@@ -65,15 +76,28 @@ def seeds_of(known: MusicFormat, folders: Sequence[Path]) -> list[bytes]:
     if known.write is not None:
         for lesson in shipped_lessons()[:: max(len(shipped_lessons()) // _LESSONS, 1)]:
             with suppress(BadInput):
-                found.append(known.write(part_of(lesson)).data)
+                part = part_of(lesson)
+                found += [known.write(_excerpt(part)).data, known.write(_excerpt(part)).data, known.write(part).data]
     files = (path for folder in folders for path in sorted(folder.rglob("*")))
-    strangers = (p.read_bytes() for p in files if p.suffix.lower() in known.endings and p.stat().st_size < 200_000)
+    strangers = (
+        p.read_bytes() for p in files if p.suffix.lower() in known.endings and p.stat().st_size < _STRANGERS_BYTES
+    )
     found += [data for data in strangers if known.recognises(data)]
+    if known is LESSON:
+        found += [lesson.text.encode() for lesson in shipped_lessons()[::8]]
+    if known.name == "text score":
+        scores = [lesson.score for lesson in shipped_lessons()[::16]]
+        found += [score_text(score, score.notes["limb"]).encode() for score in scores]
     if known is NOTES_MIDI:
         found.append(_game_notes())
     if known is GROOVE_TEXT:
         found += seeds_of(GROOVESCRIBE, ())
     return found or [b"station", b"<score/>", bytes(range(256))]
+
+
+def _excerpt(part: DrumPart) -> DrumPart:
+    """Its first bars, which have all that its format has and are read in a tenth of the time."""
+    return replace(part, score=part.score.bars(0, min(_EXCERPT_BARS, part.score.bar_count) - 1), sections=())
 
 
 def _game_notes() -> bytes:
@@ -92,10 +116,11 @@ def _game_notes() -> bytes:
 def mutated(seeds: Sequence[bytes], rng: random.Random) -> bytes:
     """One broken file; of a zip sometimes the file within is broken, and packed again."""
     data = rng.choice(seeds)
+    most = _MOST_BYTES if rng.random() < _LONG else max(_USUAL_BYTES, len(data) + 1000)
     if data[:2] == b"PK" and rng.random() < 0.7:
         return _repacked(data, rng)
     for _ in range(rng.choice((1, 1, 1, 2, 4, 16))):
-        data = rng.choice(_WAYS if rng.random() < 0.5 else ways_for(data))(data, seeds, rng)[:_MOST_BYTES]
+        data = rng.choice(_WAYS if rng.random() < 0.5 else ways_for(data))(data, seeds, rng)[:most]
     return data
 
 
@@ -111,7 +136,8 @@ def _repacked(data: bytes, rng: random.Random) -> bytes:
         broken = rng.choice(names)
         for name in names:
             inside = old.read(name)
-            new.writestr(name, mutated([inside], rng) if name == broken else inside)
+            hostile = _BOMB if rng.random() < _BOMBS else mutated([inside], rng) if name == broken else inside
+            new.writestr(name, hostile)
     return out.getvalue()
 
 
@@ -158,7 +184,7 @@ _WAYS: tuple[Callable[[bytes, Sequence[bytes], random.Random], bytes], ...] = (
 def run(known: MusicFormat, inputs: Iterator[bytes], then: Callable[[DrumPart], None], keep: Path) -> Tally:
     """Read every input, and do with what was read as `then` does."""
     tally = Tally()
-    for data in inputs:
+    for count, data in enumerate(inputs, 1):
         before = time.process_time()
         signal.setitimer(signal.ITIMER_PROF, LIMIT_S)
         try:
@@ -175,6 +201,8 @@ def run(known: MusicFormat, inputs: Iterator[bytes], then: Callable[[DrumPart], 
         finally:
             signal.setitimer(signal.ITIMER_PROF, 0)
         tally.slowest_s = max(tally.slowest_s, time.process_time() - before)
+        if count % _TOLD_EVERY == 0:
+            print(f"  {known.name}: {count} inputs, {len(tally.failures)} failed", flush=True)
     return tally
 
 
@@ -187,8 +215,19 @@ def _kept(known: MusicFormat, data: bytes, fault: Exception, number: int, keep: 
 
 
 def _as_lesson(part: DrumPart) -> None:
-    if len(part.score):
-        write_lesson(transcribe(part, _NAME).lesson)
+    transcribe(part, _NAME)
+
+
+def _read_lesson(data: bytes, source: str) -> DrumPart:
+    """A lesson's text as its own reader has it, to be broken like any other file."""
+    found = reading(source_of(data, source), lesson_reader(source))
+    if found[0] is None:
+        raise BadInput(source, "", found[1][0].text)
+    return part_of(found[0])
+
+
+LESSON = MusicFormat("lesson", (".toml",), _read_lesson, lambda _: True, 1 << 20)
+"""No format of `FORMATS`, but what teachers send each other."""
 
 
 def _too_slow(*_: object) -> None:
@@ -213,7 +252,7 @@ def main() -> None:
     parser.add_argument("--whole", action="store_true", help="on to the lesson")
     options = parser.parse_args()
     signal.signal(signal.SIGPROF, _too_slow)
-    chosen = [known for known in FORMATS if options.format in ("", known.name)]
+    chosen = [known for known in (*FORMATS, LESSON) if options.format in ("", known.name)]
     seeds = {known.name: seeds_of(known, options.files) for known in chosen}
     _limit_memory()
     for known in chosen:
@@ -223,10 +262,11 @@ def main() -> None:
         tally = run(known, inputs, _as_lesson if options.whole else lambda _: None, options.keep)
         print(
             f"{known.name:14} {len(seeds[known.name]):3} seeds {tally.read:8} read {tally.refused:8} refused "
-            f"{len(tally.failures):4} failed, slowest {tally.slowest_s:.2f} s"
+            f"{len(tally.failures):4} failed, slowest {tally.slowest_s:.2f} s",
+            flush=True,
         )
         for line in tally.failures[:10]:
-            print(f"  {line}")
+            print(f"  {line}", flush=True)
     peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     print(f"peak memory of the whole program {peak_mb:.0f} MB")
 

@@ -4,6 +4,7 @@
 long as that line does not open a table (without it, later keys would land in the wrong one).
 """
 
+import codecs
 import re
 import sys
 import tomllib
@@ -91,10 +92,11 @@ def read_source(path: Path) -> Source:
 
 def source_of(data: bytes, name: str) -> Source:
     """What the bytes of the file called `name` say."""
+    data = data.removeprefix(codecs.BOM_UTF8)
     try:
-        text = data.decode("utf-8-sig")
+        text = data.decode("utf-8")
     except UnicodeDecodeError as fault:
-        before = data[: fault.start].decode("utf-8-sig")
+        before = data[: fault.start].decode("utf-8")
         return Source(name, {}, before, ((*_end(before), "not UTF-8 text; expected TOML, saved as UTF-8"),))
     return Source(name, *load(text))
 

@@ -20,7 +20,7 @@ from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.form_text import form_text
 from station.drills.writing.lesson_form import FormGrid, LessonForm, form_of
 from station.drills.writing.lesson_text import show
-from station.drills.writing.score_difference import in_one_order, score_difference
+from station.drills.writing.score_difference import heard, score_difference
 from station.music.grace_strokes import Graces
 from station.music.score import Score
 from station.music.swing import Swing
@@ -47,7 +47,7 @@ def as_written(lesson: Lesson, form: LessonForm | None = None) -> Lesson:
     if (read := found.lesson) is None:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {found.faults[0].text}")
     difference = score_difference(lesson.score, read.score)
-    if not difference and in_one_order(lesson.beyond).tobytes() != in_one_order(read.beyond).tobytes():
+    if not difference and heard(lesson.beyond).tobytes() != heard(read.beyond).tobytes():
         difference = "what is beyond the player differs"
     if difference:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {difference}")

@@ -8,12 +8,15 @@ from station.music.score import NOTE_DTYPE, Score
 
 _SILENT = ("midi_note", "swing_ticks")
 """Columns that no player hears: where a note came from, and how the swing that it is played with is written."""
-_ORDER = ("tick", "lead_ms", "piece", "limb", *(name for name in NOTE_DTYPE.names or () if name != "midi_note"))
+_ORDER = ("tick", "lead_ms", "piece", "limb", *(NOTE_DTYPE.names or ()))
 
 
-def in_one_order(rows: NDArray[np.void]) -> NDArray[np.void]:
-    """Rows (n,) in an order that is theirs alone: two feet on one kick at once come in any order, and sound alike."""
-    return rows[np.lexsort([rows[name] for name in reversed(_ORDER)])]
+def heard(rows: NDArray[np.void]) -> NDArray[np.void]:
+    """Rows (n,) with what is heard alone, in one order: two feet on one kick at once come in any, and sound alike."""
+    found = rows.copy()
+    for name in _SILENT:
+        found[name] = 0
+    return found[np.lexsort([found[name] for name in reversed(_ORDER)])]
 
 
 def score_difference(a: Score, b: Score) -> str:
@@ -22,10 +25,8 @@ def score_difference(a: Score, b: Score) -> str:
         return "tempo, meter or length differ"
     if len(a) != len(b):
         return f"{len(a)} strokes became {len(b)}"
-    ours, theirs = in_one_order(a.notes), in_one_order(b.notes)
+    ours, theirs = heard(a.notes), heard(b.notes)
     for name in NOTE_DTYPE.names or ():
-        if name in _SILENT:
-            continue
         left, right = ours[name], theirs[name]
         same = (left == right) | (np.isnan(left) & np.isnan(right))
         if not np.all(same):
