@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from station.cli.animate_motion import WRITERS
-from station.cli.animate_options import ENDINGS, AnimateOptions, check_meant, usual_of_loops
+from station.cli.animation.animate_motion import WRITERS
+from station.cli.animation.animate_options import ENDINGS, AnimateOptions, check_meant, usual_of_loops
 from station.cli.console import say, say_infeasible
 from station.cli.drummer_options import assigned, drums_of, led_score
 from station.cli.input.read_scores import words_of
@@ -116,7 +116,7 @@ def _looped(score: Score, style: Style, options: AnimateOptions) -> tuple[Score,
 
 def _draw(drummer: Drummer, whole: Score, words: ScoreWords, options: AnimateOptions) -> str:
     """Draw what the name asks for; returns what it is, for people."""
-    from station.cli import animate_pictures as pictures
+    from station.cli.animation import animate_pictures as pictures
 
     made = _made(options.out)
     if made == "a picture":

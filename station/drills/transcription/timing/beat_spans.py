@@ -45,6 +45,11 @@ class BeatSpans:
         """Length of each in seconds."""
         return self.ends_s - self.starts_s
 
+    def only(self, chosen: Ints) -> "BeatSpans":
+        """Those with the indices `chosen`, in order; what lies between them is a gap."""
+        columns = (self.starts, self.ends, self.starts_s, self.ends_s, self.bar, self.in_bar, self.is_ternary)
+        return BeatSpans(*(column[chosen] for column in columns))
+
     def places(self, times_s: Floats) -> tuple[Ints, Floats]:
         """Of each time the span that holds it and where in it, 0 to 1; before the first it is below 0."""
         span = np.clip(np.searchsorted(self.starts_s, times_s, side="right") - 1, 0, len(self) - 1)

@@ -14,7 +14,7 @@ from station.core.pieces import HAND_PIECES, Piece
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import WrittenFile
-from station.music.formats.music_xml.bar_spelling import SpelledBar
+from station.music.formats.music_xml.bar_writing import SpelledBar
 from station.music.formats.music_xml.direction_writing import Direction, directions_of
 from station.music.formats.music_xml.element_writing import (
     VoiceSetting,

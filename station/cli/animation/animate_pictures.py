@@ -6,7 +6,7 @@ from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from station.cli.animate_options import AnimateOptions, PictureOptions
+from station.cli.animation.animate_options import AnimateOptions, PictureOptions
 from station.cli.console import Progress
 from station.core.settings import load_settings
 from station.motion.drummer import Drummer
