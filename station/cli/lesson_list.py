@@ -67,7 +67,7 @@ def _shelf() -> _Shelf:
     settings = SettingsStore().now
     own, _ = courses_in(settings.courses_dir)
     rows = {row.name: row for row in lesson_rows()}
-    rows |= {name: row_of(lesson) for name, lesson in own_lessons(own, rows).items()}
+    rows |= {name: row_of(lesson) for name, lesson in own_lessons(own, settings.own_lessons_dir, rows).items()}
     return _Shelf(rows, (*own, *shipped_courses()), student_progress(settings.sessions_dir, settings.student))
 
 

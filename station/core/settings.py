@@ -139,6 +139,11 @@ class Settings:
         return self.sessions_dir / "courses"
 
     @property
+    def own_lessons_dir(self) -> Path:
+        """Where the user's own lessons are kept, imports too."""
+        return self.sessions_dir / "lessons"
+
+    @property
     def styles_dir(self) -> Path:
         """Where the user's own styles are kept."""
         return self.sessions_dir / "styles"
