@@ -32,14 +32,16 @@ _TOLD_MS = 0.5
 
 
 def remarks_on(
-    ornaments: FoundOrnaments, times: GridTimes, mains: Score, reach: Reach, lesson: Lesson
+    ornaments: FoundOrnaments, times: GridTimes, mains: Score, reach: Reach, lesson: Lesson, steadied: int = 0
 ) -> Iterator[str]:
-    """The remarks on a `lesson` made of the strokes `mains` of a file."""
+    """The remarks on a `lesson` made of the strokes `mains` of a file, `steadied` of which got another dynamic."""
     yield from _on_tempo(mains, lesson.score)
     yield from _on_meter(mains, lesson.score)
     if mains.loudness:
         yield f"loudness marks and hairpins left out: {_bars(mains, (mark.tick for mark in mains.loudness))}"
     yield from _on_times(times, mains)
+    if steadied:
+        yield f"{_counted(steadied, 'stroke')} made as loud as the others of their place in the groove"
     if times.spread_ms:
         yield from _on_groove(lesson.score)
     if lesson.is_swung:

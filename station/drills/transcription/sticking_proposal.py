@@ -45,15 +45,13 @@ def with_sticking(lesson: Lesson, form: LessonForm) -> Lesson:
     rows = lesson.score.notes.copy()
     if np.isin(rows["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any():
         return lesson
-    played = [_played(lesson.score, grid, grid.first_bar) for grid in form.grids]
-    known: dict[bytes, NDArray[np.int8]] = {}
-    kit = load_kit()
-    for each in played:
-        for written, hands in _sure_bars(each, kit):
+    kit, known = load_kit(), dict[bytes, NDArray[np.int8]]()
+    for grid in form.grids:
+        for written, hands in _sure_bars(_played(lesson.score, grid, grid.first_bar), kit):
             known.setdefault(written, hands)
-    limbs = [_limbs(each, known) for each in played]
-    for i, first_bar in _turns(form):
-        grid, own = form.grids[i], limbs[i]
+    limbs = [_limbs(_played(lesson.score, grid, grid.first_bar), known) for grid in form.grids]
+    for index, first_bar in _turns(form):
+        grid, own = form.grids[index], limbs[index]
         start, end = (lesson.score.tempo_map.bar_start(b) for b in (first_bar, first_bar + grid.bars))
         rows["limb"][(rows["tick"] >= start) & (rows["tick"] < end)] = own
     score = replace(lesson.score, notes=rows)
