@@ -29,7 +29,8 @@ from station.drills.grid.landing import read_landing
 from station.drills.grid.line_group import MAX_BARS, MAX_CELLS, CellCount
 from station.drills.lesson import Goals, Lesson
 from station.drills.reading.bar_cues import GridShape, read_cues
-from station.drills.reading.form import WrittenGrid, home_of, played_order, told_at_home, written_grids
+from station.drills.reading.form import WrittenGrid, home_of, told_at_home, written_grids
+from station.drills.reading.form_order import played_order
 from station.drills.reading.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
 from station.drills.reading.misplaced_keys import sent_home
 from station.drills.reading.played_grids import (

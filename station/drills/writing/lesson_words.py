@@ -34,8 +34,8 @@ WORDS: Mapping[str, str] = MappingProxyType(
         "passes": "how often the loop is played",
         "count_in_bars": "bars of click before it",
         "demonstrations": "how often the drummer plays it first",
-        "form": 'the order in which the grids are played, by their names: a list, or "intro, A, A, B"; left out, each'
-        " once, as written",
+        "form": 'the order in which the grids are played, by their names: a list, or "intro, A, A, B"; "A x3" is'
+        ' A three times, "(A, B) x2" both twice; left out, each once, as written',
         "landing": "what is struck on the first beat after the last loop: lines of one letter each",
         "hints": "what the report adds where it names a fault: the fault's word and a sentence",
         # how strokes are struck

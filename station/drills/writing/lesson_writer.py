@@ -17,6 +17,7 @@ from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines
 from station.drills.grid.stroke_settings import Velocities
 from station.drills.lesson import Lesson
 from station.drills.reading.lesson_file import parse_lesson
+from station.drills.writing.form_text import form_text
 from station.drills.writing.lesson_form import FormGrid, LessonForm, form_of
 from station.drills.writing.lesson_text import show
 from station.drills.writing.score_difference import score_difference
@@ -69,7 +70,7 @@ def _head(lesson: Lesson, form: LessonForm) -> list[str]:
     if lesson.swing.unit_ticks != Swing().unit_ticks:
         lines += [f"swing_unit = {toml_text(note_length(lesson.swing.unit_ticks))}"]
     if not form.is_as_written:
-        lines += [f"form = {toml_text(', '.join(form.grids[i].name for i in form.order))}"]
+        lines += [f"form = {toml_text(form_text([form.grids[i].name for i in form.order]))}"]
     first, last = lesson.loop
     lines += [f"loop = [{first + 1}, {last + 1}]"] if lesson.loop != (0, lesson.score.bar_count - 1) else []
     return [*lines, ""]

@@ -174,10 +174,30 @@ HAT_ON_EIGHTHS = [k * EIGHTH for k in range(8)]
         "|-x-x-x-x-x-x-x-x-| HH\n|-----o-------o---| SD\n",
         "    1   2   3   4\nHH||x-x-|x-x-|x-x-|x-x-||\nSD||----|o---|----|o---||\n",
         "HH|x-x-|x-x-|x-x-|x-x-|\nSD|----|o---|----|o---|\n",
+        "HH-x-x-x-x-x-x-x-x-|\nSD-----o-------o---|\n",
+        "HH x-x-x-x-x-x-x-x-|\nSD ----o-------o---|\n",
+        "   1e+a2e+a3e+a4e+a\nHH|x-x-x-x-x-x-x-x|\nSD|----o-------o--|\n",
+        "4/4\nHH|x-x-x-x-x-x-x-x--|\nSD|----o-------o----|\n",
+        "HH|-xxxxxxxx|\nSD|---o---o-|\n",
+        "HHc |x-x-x-x-x-x-x-x-|\nSn  |----o-------o---|\n",
     ],
-    ids=["dashes", "groups", "blanks", "no bar lines", "label behind", "beats counted", "beats"],
+    ids=[
+        "dashes",
+        "groups",
+        "blanks",
+        "no bar lines",
+        "label behind",
+        "beats counted",
+        "beats",
+        "dash for a bar line",
+        "no first bar line",
+        "a cell short",
+        "a cell long",
+        "dash before eighths",
+        "closed hats",
+    ],
 )
-def test_one_bar_as_seven_people_type_it(text: str) -> None:
+def test_one_bar_as_thirteen_people_type_it(text: str) -> None:
     assert is_tab(text.encode())
     part = read(text)
     assert (part.score.bar_count, str(part.score.tempo_map.meter_at(0))) == (1, "4/4")
@@ -206,6 +226,7 @@ def test_quarters_that_are_counted_within_a_group_stay_quarters() -> None:
         ("Verse 2\n\n", "", "Verse 2"),
         ("[Verse 1] 12/8 slow blues 60 bpm\n", "", "Verse 1"),
         ("Key:\nf - flam\n", "", ""),
+        ("Chorus (2)\n", "", "Chorus"),
     ],
 )
 def test_what_stands_above_is_the_title_or_the_name_of_a_part(head: str, title: str, section: str) -> None:
@@ -218,8 +239,35 @@ def test_a_tempo_above_twelve_eighths_counts_dotted_quarters() -> None:
     assert part.score.tempo_map.tempos[0].us_per_quarter == round(60e6 / 90)
 
 
-def test_a_line_that_says_how_often_may_stand_below() -> None:
-    assert read("HH|x-x-x-x-x-x-x-x-|\nBD|o-------o-------|\n(repeat 3x)\n").score.bar_count == 3
+@pytest.mark.parametrize("words", ["(repeat 3x)", "Play 3 times", "x3", "3 times"])
+def test_a_line_that_says_how_often_may_stand_below(words: str) -> None:
+    assert read(f"HH|x-x-x-x-x-x-x-x-|\nBD|o-------o-------|\n{words}\n").score.bar_count == 3
+
+
+@pytest.mark.parametrize(
+    ("words", "bars"), [("(Repeat 2x)", 2), ("(play 4 times):", 4), ("- x3", 3), ("twice", 2), ("x 3:", 3)]
+)
+def test_a_name_of_a_part_may_say_how_often(words: str, bars: int) -> None:
+    part = read(f"Verse {words}\nHH|x-x-x-x-x-x-x-x-|\nBD|o-------o-------|\n")
+    assert (part.score.bar_count, [s.name for s in part.sections]) == (bars, ["Verse"])
+
+
+def test_dashes_for_bar_lines_may_stand_in_every_bar() -> None:
+    part = read("HH-x-x-x-x-|-x-x-x-x-|\nBD-o---o---|-o---o---|\n")
+    assert part.score.bar_count == 2
+    assert ticks(part, Piece.KICK) == [0, 2 * PPQ, 4 * PPQ, 6 * PPQ]
+
+
+def test_a_key_with_names_between_bar_lines_is_no_music() -> None:
+    """As the article on drum tablature of Wikipedia shows the labels."""
+    key = "HH|-Hi-hat----------|\nSN|-Snare drum------|\nHf/FH|-Hi-hat w/foot|\n\n|-o-| Strike\n|-s-| Splash\n\n"
+    part = read(f"{key} HH|x-x-x-x-x-x-x-x-||\n  S|----o-------o---||\n")
+    assert part.score.bar_count == 1
+    assert (ticks(part, Piece.HIHAT), ticks(part, Piece.SNARE)) == (HAT_ON_EIGHTHS, [PPQ, 3 * PPQ])
+
+
+def test_numbers_of_bars_name_no_part() -> None:
+    assert not read("Bar 1            Bar 2\nHH|x-x-x-x-|x-x-x-x-|\nBD|o---o---|o---o---|\n").sections
 
 
 def test_a_tab_says_the_tempo_as_people_do() -> None:

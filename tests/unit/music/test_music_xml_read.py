@@ -121,6 +121,19 @@ def test_signs_of_a_note() -> None:
     assert part.lost == ("staccato signs: 1, the first in bar 2",)
 
 
+@pytest.mark.parametrize(("velocity", "snare"), [("", Dynamic.ACCENT), (' dynamics="90"', Dynamic.NORMAL)])
+def test_an_accent_is_a_chords_unless_each_note_says_how_loud_it_is(velocity: str, snare: Dynamic) -> None:
+    """Notation programs have articulations on chords, and write them with the first note."""
+    accent = "<notations><articulations><accent/></articulations></notations>"
+    ghost = '<notehead parentheses="yes">normal</notehead>'
+    chord = (
+        _note("hat", 12, accent) + _note("snare", 12, before="<chord/>") + _note("foot", 12, ghost, before="<chord/>")
+    )
+    part = _read(chord.replace("<note>", f"<note{velocity}>"))
+    dynamics = {note.piece: note.dynamic for note in part.score}
+    assert dynamics == {Piece.HIHAT: Dynamic.ACCENT, Piece.SNARE: snare, Piece.HIHAT_PEDAL: Dynamic.GHOST}
+
+
 def test_flams_and_drags() -> None:
     part = _read(_grace("snare") + _note("snare", 12) + _grace("snare") * 2 + _note("snare", 36))
     flam, main, first, second, drag = part.score
@@ -195,6 +208,12 @@ def test_meters() -> None:
         MeterChange(4 * PPQ, 7, 8, (2, 2, 3)),
         MeterChange(15 * PPQ // 2, 7, 8, (3, 4)),
     )
+
+
+def test_bars_without_a_meter_are_as_long_as_what_stands_in_them() -> None:
+    part = _read(_note("kick", 36) + _note("snare", 24), _note("kick", 24), time="<senza-misura/>")
+    assert [str(part.score.tempo_map.meter_at(tick)) for tick in (0, 5 * PPQ)] == ["5/4", "2/4"]
+    assert part.lost == ("music without a meter, each bar as long as what stands in it: 1, the first in bar 1",)
 
 
 def test_a_pick_up_is_a_bar_of_its_own() -> None:
@@ -272,6 +291,13 @@ def test_a_repeated_bar_sounds() -> None:
     assert _struck(part) == [(0, Piece.KICK), (4, Piece.KICK)]
 
 
+def test_a_slash_is_no_stroke_but_where_an_instrument_says_which() -> None:
+    slash = "<notehead>slash</notehead>"
+    part = _read(_note("nobody", 24, slash) + _note("kick", 24, slash))
+    assert _struck(part) == [(2, Piece.KICK)]
+    assert part.lost == ("slashes, where drummers play as they like: 1, the first in bar 1",)
+
+
 def test_title_and_author() -> None:
     head = (
         "<work><work-title>A Groove</work-title></work>"
@@ -311,6 +337,39 @@ def test_notes_without_instruments_are_known_by_their_line() -> None:
     assert _struck(part) == [(0, Piece.KICK), (2, Piece.HIHAT)]
 
 
+_HEADS_AND_PLACES = ((("G", 5), "x"), (("F", 4), "normal"), (("C", 5), "normal"), (("C", 5), "slashed"))
+_GENERAL_MIDI = ((("F", 2), "normal"), (("C", 2), "normal"), (("D", 2), "normal"), (("A", 4), "normal"))
+
+
+@pytest.mark.parametrize(
+    ("pitches", "pieces"),
+    [
+        (_HEADS_AND_PLACES, [Piece.HIHAT, Piece.KICK, Piece.SNARE, Piece.SNARE]),
+        (_GENERAL_MIDI, [Piece.FLOOR_TOM_2, Piece.KICK, Piece.SNARE, Piece.PERCUSSION]),
+    ],
+    ids=["lines of the staff", "numbers of General MIDI"],
+)
+@pytest.mark.parametrize(
+    ("name", "sign"), [("P", "percussion"), ("Drum Set", "G")], ids=["known by its clef", "known by its name"]
+)
+def test_pitched_notes_of_a_kit(
+    pitches: tuple[tuple[tuple[str, int], str], ...], pieces: list[Piece], name: str, sign: str
+) -> None:
+    """General MIDI 1 has its kick at C2, 36, its snare at D2, 38, its low floor tom at F2, 41, its cabasa at A4, 69."""
+    notes = "".join(
+        f"<note><pitch><step>{step}</step><octave>{octave}</octave></pitch><duration>1</duration>"
+        f"<notehead>{head}</notehead></note>"
+        for (step, octave), head in pitches
+    )
+    part = read_music_xml(
+        f'<score-partwise><part-list><score-part id="P"><part-name>{name}</part-name></score-part></part-list>'
+        f'<part id="P"><measure number="1"><attributes><divisions>1</divisions><clef><sign>{sign}</sign></clef>'
+        f"</attributes>{notes}</measure></part></score-partwise>".encode(),
+        "file.musicxml",
+    )
+    assert _struck(part) == list(enumerate(pieces))
+
+
 @pytest.mark.parametrize(
     ("instrument", "strike"),
     [
@@ -324,6 +383,9 @@ def test_notes_without_instruments_are_known_by_their_line() -> None:
         (XmlInstrument("open high conga", "", 63), NoteMeaning(Piece.PERCUSSION)),
         (XmlInstrument("", "metal.cymbal.splash", None), NoteMeaning(Piece.SPLASH, Zone.EDGE)),
         (XmlInstrument("Pedal Hi-Hat", "", None), NoteMeaning(Piece.HIHAT_PEDAL, Zone.PEDAL, Articulation.CHICK, 0.0)),
+        (XmlInstrument("Mid Tom", "", None), NoteMeaning(Piece.TOM_2)),
+        (XmlInstrument("Tom (medium)", "", None), NoteMeaning(Piece.TOM_2)),
+        (XmlInstrument("Low-Mid Tom", "", None), NoteMeaning(Piece.TOM_3)),
         (XmlInstrument("Drumset", "", None), None),
     ],
 )
@@ -336,7 +398,6 @@ def test_what_instruments_are(instrument: XmlInstrument, strike: NoteMeaning | N
     ("data", "place", "fault"),
     [
         (b"<html/>", "line 1", "score-partwise"),
-        (_score("<attributes><time><senza-misura/></time></attributes>" + _note("kick", 48)), "bar 1", "meter"),
         (_score(_note("kick", 48)).replace(b"<duration>48", b"<duration>1e9"), "bar 1", "duration"),
         (_score(_note("kick", 48)).replace(b"<divisions>12", b"<divisions>0"), "bar 1", "divisions"),
         (_score(_note("kick", 48)).replace(b"<beats>4", b"<beats>0"), "bar 1", "beats"),

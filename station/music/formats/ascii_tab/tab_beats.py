@@ -11,6 +11,8 @@ _CELLS_OF_A_BEAT = frozenset({3, 4, 6})
 """Sixteenths, triplets and sextuplets; whole bars have eight cells or more (usual in tabs, our choice)."""
 _BARS_AND_ONE = frozenset({17, 33})
 """Cells of a bar of sixteenths or thirty-seconds with a dash before the first or behind the last, as some type it."""
+_ONE_BEFORE_BARS = _BARS_AND_ONE | {9, 13, 25, 49}
+"""Cells of bars of eighths and triplets too: music of nine or thirteen cells strikes something at the first."""
 _USUAL_BEATS = 4
 
 
@@ -53,10 +55,9 @@ def _one(beats: Sequence[TabBar]) -> TabBar:
 def _trimmed(rows: list[TabRow]) -> list[TabRow]:
     """Without the dash that stands for the bar line in every bar of every line, before or behind it."""
     bars = [bar for row in rows for bar in row.bars]
-    if not bars or not all(len(bar.cells) in _BARS_AND_ONE for bar in bars):
-        return rows
-    if all(bar.cells[0] in RESTS for bar in bars):
+    lengths = {len(bar.cells) for bar in bars}
+    if bars and lengths <= _ONE_BEFORE_BARS and all(bar.cells[0] in RESTS for bar in bars):
         return [replace(row, bars=tuple(bar.part(1) for bar in row.bars)) for row in rows]
-    if all(bar.cells[-1] in RESTS for bar in bars):
+    if bars and lengths <= _BARS_AND_ONE and all(bar.cells[-1] in RESTS for bar in bars):
         return [replace(row, bars=tuple(bar.part(0, -1) for bar in row.bars)) for row in rows]
     return rows

@@ -39,33 +39,36 @@ def _many(names: str, meaning: LineMeaning) -> dict[str, LineMeaning]:
 
 LABELS: Mapping[str, LineMeaning] = MappingProxyType(
     {
-        **_many("bd b kd k bass bassdrum kick kickdrum", LineMeaning(Piece.KICK)),
+        **_many("bd b kd k bs ba bass bassdrum kick kickdrum", LineMeaning(Piece.KICK)),
         **_many("sd s sn snare snaredrum", LineMeaning(Piece.SNARE)),
-        **_many("ss cs rc xs sidestick crossstick rimclick", LineMeaning(Piece.SNARE, Articulation.CROSS_STICK)),
-        **_many("hh h hat hihat hc ch closedhihat", LineMeaning(Piece.HIHAT)),
-        **_many("ho oh openhihat", LineMeaning(Piece.HIHAT, openness=OPEN)),
-        **_many("hf fh hp ph pf hhf pedal foothihat hihatpedal", LineMeaning(Piece.HIHAT_PEDAL)),
-        **_many("rd r ri rc1 rcy ride ridecymbal", LineMeaning(Piece.RIDE)),
+        **_many(
+            "ss cs xs rs sr stick xstick sidestick crossstick rimclick",
+            LineMeaning(Piece.SNARE, Articulation.CROSS_STICK),
+        ),
+        **_many("hh h hat hihat hc ch hhc chh closedhihat", LineMeaning(Piece.HIHAT)),
+        **_many("ho oh hho ohh openhihat", LineMeaning(Piece.HIHAT, openness=OPEN)),
+        **_many("hf fh hp ph pf hhf hhp pedal foothihat hihatpedal", LineMeaning(Piece.HIHAT_PEDAL)),
+        **_many("rd r ri rc rc1 rcy ride ridecymbal", LineMeaning(Piece.RIDE)),
         **_many("rb bell ridebell", LineMeaning(Piece.RIDE, zone=Zone.BELL)),
         **_many("r2 ride2", LineMeaning(Piece.RIDE_2)),
-        **_many("cc c cr c1 cy crash crash1 crashcymbal lc", LineMeaning(Piece.CRASH_1)),
-        **_many("c2 crash2 rcr", LineMeaning(Piece.CRASH_2)),
-        **_many("sp spl sc splash", LineMeaning(Piece.SPLASH)),
-        **_many("cn chi chn china", LineMeaning(Piece.CHINA)),
-        **_many("t1 t ht st tom tom1 hightom hitom", LineMeaning(Piece.TOM_1)),
-        **_many("t2 mt mid tom2 midtom", LineMeaning(Piece.TOM_2)),
-        **_many("t3 lt tom3 lowtom", LineMeaning(Piece.TOM_3)),
+        **_many("cc c cr c1 cr1 cy crash crash1 crashcymbal lc", LineMeaning(Piece.CRASH_1)),
+        **_many("c2 cr2 cc2 crash2 rcr", LineMeaning(Piece.CRASH_2)),
+        **_many("sp spl sc splash splashcymbal", LineMeaning(Piece.SPLASH)),
+        **_many("cn chi chn china chinacymbal", LineMeaning(Piece.CHINA)),
+        **_many("t1 t ht st tom tom1 hightom hitom smalltom racktom racktom1", LineMeaning(Piece.TOM_1)),
+        **_many("t2 mt mid tom2 midtom middletom racktom2", LineMeaning(Piece.TOM_2)),
+        **_many("t3 lt tom3 lowtom lotom racktom3", LineMeaning(Piece.TOM_3)),
         **_many("t4 tom4", LineMeaning(Piece.TOM_4)),
-        **_many("ft f f1 floor floortom", LineMeaning(Piece.FLOOR_TOM_1)),
-        **_many("f2 ft2 floor2", LineMeaning(Piece.FLOOR_TOM_2)),
+        **_many("ft f f1 ft1 floor floortom floortom1", LineMeaning(Piece.FLOOR_TOM_1)),
+        **_many("f2 ft2 floor2 floortom2", LineMeaning(Piece.FLOOR_TOM_2)),
         **_many("cb cow cowbell", LineMeaning(Piece.COWBELL)),
         **_many("tb tam tamb tambourine", LineMeaning(Piece.TAMBOURINE)),
         **_many("cl hcl clap", LineMeaning(Piece.CLAP)),
-        **_many("pc perc", LineMeaning(Piece.PERCUSSION)),
+        **_many("pc perc sh shaker", LineMeaning(Piece.PERCUSSION)),
     }
 )
 """Meanings of labels, their letters small and all else taken out. One of `ch` is the closed hat, as machines label it;
-tabs that mean a china by it strike it with `c`."""
+tabs that mean a china by it strike it with `c`. One of `rc` is the ride cymbal, as most collections of tabs have it."""
 
 OWN_LABELS: Mapping[Piece, str] = MappingProxyType(
     {

@@ -1,7 +1,8 @@
 """One line of tablature: its label, wherever people put it, and the cells of its bars.
 
-`HH|x-x-|` and `HH: x-x-`, but also `|x-x-| HH` with the label behind, and `Hi-hat  x-x-x-x-` without a bar line. Cells
-may be parted by blanks to be read, `x-x- x-x-`; where a line has no other rest, its blanks are the rests.
+`HH|x-x-|` and `HH: x-x-`, but also `HH-x-x-|` or `HH x-x-|` without the first bar line, `|x-x-| HH` with the label
+behind, and `Hi-hat  x-x-x-x-` without a bar line. Cells may be parted by blanks to be read, `x-x- x-x-`; where a line
+has no other rest, its blanks are the rests.
 """
 
 import re
@@ -13,7 +14,10 @@ from station.music.formats.ascii_tab.tab_letters import LABELS, RESTS, TAB_CHARA
 
 _LABEL = r"[A-Za-z][A-Za-z0-9 /_.-]{0,13}?"
 _BEFORE = re.compile(rf"\s*({_LABEL})\s*[|:]{{1,3}}(.*)$")
-_BEHIND = re.compile(rf"\s*[|:]{{1,2}}(.*)\|[|:]?\s*({_LABEL})\s*$")
+_DASHED = re.compile(rf"\s*({_LABEL})-(?=[^ |:]+\|)")
+_SPACED = re.compile(rf"\s*({_LABEL})\s+(?=[-.=_xXoOgfFdDbBcshHrRzZ#@]+\|)")
+_WORD = re.compile(r"[A-Za-z]{3,}")
+_BEHIND = re.compile(rf"\s*[|:]{{1,2}}(.{{6,}})\|[|:]?\s*({_LABEL})\s*$")
 _WITHOUT_BAR_LINES = re.compile(rf"\s*({_LABEL})\s+((?=[^ ]*-)[^ |:]{{6,}})\s*$")
 _KNOWN = 0.8
 """A line of fewer known letters is words (our choice)."""
@@ -51,6 +55,11 @@ class FoundLine:
 def found_line(line: str) -> FoundLine | None:
     """The label and the cells of a line in any of the shapes, whether or not its label is known."""
     if "|" in line:
+        if (spaced := _SPACED.match(line)) and label_key(spaced[1]) in LABELS:
+            return FoundLine(spaced[1], spaced.end(), _end_of_cells(line, spaced.end()))
+        if (dashed := _DASHED.match(line)) and label_key(dashed[1]) in LABELS:
+            start = dashed.end() - _is_a_rest(line, dashed.end())
+            return FoundLine(dashed[1], start, _end_of_cells(line, start))
         if found := _BEFORE.match(line):
             return FoundLine(found[1], found.start(2), _end_of_cells(line, found.start(2)))
         behind = _BEHIND.match(line)
@@ -59,15 +68,28 @@ def found_line(line: str) -> FoundLine | None:
     return FoundLine(bare[1], bare.start(2), bare.end(2)) if bare else None
 
 
+def _is_a_rest(line: str, start: int) -> bool:
+    """Whether the dash between a label and the cells from `start` is one of them: all bars then are as long with it."""
+    first, *others = line[start:].rstrip(" |").split("|")
+    return bool(others) and all(len(bar) == len(first) + 1 for bar in others)
+
+
 def tab_line(line: str) -> FoundLine | None:
     """The line as tablature, even with a letter or two that nobody knows; None for words and unknown labels."""
     found = found_line(line)
     if not found or not found.is_known:
         return None
     cells = line[found.start : found.end]
+    if any(_is_a_word(run) for run in _WORD.findall(cells)):
+        return None
     known = sum(c in TAB_CHARACTERS or c in "|:" for c in cells)
     is_sure = "|" in line and known >= _KNOWN * len(cells) and any(c in cells for c in "-xo")
     return found if cells.strip() and (known == len(cells) or is_sure) else None
+
+
+def _is_a_word(letters: str) -> bool:
+    """Whether no drummer strikes so: the key of some tabs has names between its bar lines, `SN|-Snare drum-----|`."""
+    return sum(letter not in TAB_CHARACTERS for letter in letters) > 1
 
 
 def refuse_unknown_label(line: str, number: int, source: str) -> None:

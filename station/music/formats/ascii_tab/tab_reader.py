@@ -95,17 +95,18 @@ class _Reader:
             system, said = in_whole_bars(typed, stated)
             self.lost.update(dict.fromkeys(said))
             count = max(len(row.bars) for row in system.rows)
-            bars = [self.bar(system, k, stated) for k in range(min(count, _MOST_BARS + 1))]
+            beats = stated[0] if stated else _counted(system.count)
+            bars = [self.bar(system, k, stated, beats) for k in range(min(count, _MOST_BARS + 1))]
             if bars:
                 bars[0].tempo_bpm, bars[0].section = system.tempo_bpm, system.section
                 _mark_repeats(bars, system)
             yield from bars
 
-    def bar(self, system: TabSystem, k: int, stated: tuple[int, int] | None) -> _Bar:
-        """Bar `k` of a system; its usual number of cells is that of most lines."""
+    def bar(self, system: TabSystem, k: int, stated: tuple[int, int] | None, beats: int) -> _Bar:
+        """Bar `k` of a system; its usual number of cells is that of most lines, shared evenly by `beats`."""
         rows = [(row, row.bars[k]) for row in system.rows if k < len(row.bars)]
         lengths = [len(bar.cells) for _, bar in rows]
-        usual = max(set(lengths), key=lambda n: (lengths.count(n), n))
+        usual = _shared(max(set(lengths), key=lambda n: (lengths.count(n), n)), beats)
         if usual > _MOST_CELLS:
             raise BadInput(self.source, f"line {rows[0][0].line}", f"a bar of {usual} cells")
         strokes = [stroke for row, bar in rows for stroke in self.strokes(row, bar, usual)]
@@ -137,6 +138,12 @@ class _Reader:
         if self.loose_x and letter == "X" and row.meaning.piece is Piece.HIHAT:
             return replace(struck, dynamic=Dynamic.NORMAL, openness=HALF_OPEN)
         return struck
+
+
+def _shared(cells: int, beats: int) -> int:
+    """`cells`, or one more or less where only so `beats` share them evenly: a cell too few or too many is a slip."""
+    fitting = [n for n in (cells, cells + 1, cells - 1) if beats > 1 and n >= beats and n % beats == 0]
+    return fitting[0] if fitting and cells % 2 else cells
 
 
 def _mark_repeats(bars: list[_Bar], system: TabSystem) -> None:

@@ -13,7 +13,11 @@ from station.music.formats.ascii_tab.tab_lines import TabBar, bars_of, refuse_un
 from station.music.tempo import MAX_BPM, MIN_BPM
 
 _COUNT_LINE = re.compile(r"[\s|]*1[\s|+&aeiou.\-0-9]*$")
-_TIMES = re.compile(r"(?:[x×]\s*([0-9]{1,3})|([0-9]{1,3})\s*[x×])(?![A-Za-z0-9])", re.IGNORECASE)
+_TIMES = re.compile(
+    r"(?:\b(?:repeat(?:ed|s)?|play(?:ed|s)?)(?: (?:this|it|all))?[ :]*)?"
+    r"(?:[x×]\s*([0-9]{1,3})|([0-9]{1,3})\s*(?:[x×]|times)|(twice))(?![A-Za-z0-9])",
+    re.IGNORECASE,
+)
 _METER = re.compile(r"(?<![0-9/])([0-9]{1,2})\s*/\s*(1|2|4|8|16|32)(?![0-9/])")
 _TEMPO = re.compile(
     r"(?:tempo|bpm|♩|speed)\s*[:=]?\s*([0-9]{2,4}(?:\.[0-9]{1,9})?)|([0-9]{2,4}(?:\.[0-9]{1,9})?)\s*bpm", re.I
@@ -24,7 +28,7 @@ _NAMED = {
     "about": re.compile(r"\s*(?:notes?|comments?|about)\s*[:=]\s*(.+)", re.IGNORECASE),
 }
 _IN_BRACKETS = re.compile(r"\s*\[([^\]|]{1,40})\]")
-_SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9 '/-]{0,30}):?\s*(?:\(?[x×0-9\s]*\)?)\s*$")
+_SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9 '/-]{0,30}):?\s*(?:\([\s0-9]*\))?:?\s*$")
 _PART = re.compile(
     r"\s*(?:intro|verse|(?:pre|post)?[ -]?chorus|refrain|bridge|solo|outro|ending|break|interlude|fill|groove|beat|"
     r"part|main|middle|coda|tag|hook|riff|[a-h])\b",
@@ -33,9 +37,9 @@ _PART = re.compile(
 """What parts of songs are called."""
 _TITLE = re.compile(r"\s*([^\s|:=*#~-][^|:=]{0,59}?)\s*$")
 _BY = re.compile(r"\s*by\s+(.{1,60}?)\s*$", re.IGNORECASE)
-_KEY = re.compile(r"\s*(?:\S\s*[-–=:]\s|(?:key|legend)\b)", re.IGNORECASE)
-"""A line of the key of letters, "f - flam", or the word above it."""
-_AGAIN = re.compile(r"[\s(]*(?:repeat|play|[x×]\s*[0-9]|[0-9]+\s*[x×])", re.IGNORECASE)
+_KEY = re.compile(r"\s*(?:\S\s*[-–=:]\s|(?:key|legend)\b|(?:bar|measure)s? ?[0-9])", re.IGNORECASE)
+"""A line of the key of letters, "f - flam", or the word above it, or numbers of bars: no name of a part."""
+_AGAIN = re.compile(r"[\s(]*(?:repeat|play|[x×]\s*[0-9]|[0-9]+\s*(?:[x×]|times)|twice)", re.IGNORECASE)
 _LOOSE_X = re.compile(r"\bX\b[^A-Za-z\n]{1,6}[^\n]{0,80}\b(?:loose|open|slosh)", re.IGNORECASE)
 
 _MOST_WORDS = 300
@@ -136,7 +140,7 @@ def _row(line: str, number: int, source: str) -> TabRow | None:
 
 def _times(words: str) -> int:
     found = _TIMES.search(words)
-    return min(max(int(found[1] or found[2]), 1), 64) if found else 1
+    return min(max(int(found[1] or found[2] or 2), 1), 64) if found else 1
 
 
 # --- words ------------------------------------------------------------------------------------------------------------
@@ -190,7 +194,7 @@ def _read_words(line: str, found: TabText, waiting: TabSystem) -> None:
     if tempo := _TEMPO.search(line):
         bpm = float(tempo[1] or tempo[2])
         waiting.tempo_bpm = bpm if MIN_BPM <= bpm <= MAX_BPM else None
-    if section := _IN_BRACKETS.match(line) or (None if meter or tempo or _KEY.match(line) else _SECTION.match(line)):
-        name = section[1] if section.re is _IN_BRACKETS else _TIMES.sub("", section[1])
-        waiting.section = " ".join(name.split())
+    named = _TIMES.sub("", line)
+    if section := _IN_BRACKETS.match(line) or (None if meter or tempo or _KEY.match(line) else _SECTION.match(named)):
+        waiting.section = " ".join(section[1].split()).removesuffix(" -")
         waiting.times = _times(line)

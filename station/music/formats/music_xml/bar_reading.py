@@ -8,7 +8,7 @@ from station.core.errors import BadInput
 from station.core.pieces import HAND_PIECES, Limb
 from station.core.units import PPQ
 from station.music.formats.music_xml.direction_reading import DirectionReader
-from station.music.formats.music_xml.note_reading import NoteReader
+from station.music.formats.music_xml.note_reading import NoteReader, accent_whole_chord
 from station.music.formats.music_xml.time_reading import meter_of
 from station.music.formats.music_xml.written_bars import NUMBER, LostMarks, WrittenBar, WrittenNote
 from station.music.formats.playing_order import MOST_BARS
@@ -70,6 +70,7 @@ class _BarContent:
                 handler(self, element)
         self._bar.length = self._end
         for notes, graces in self._chords:
+            accent_whole_chord(notes)
             self._attach(notes, graces)
         free = {
             note.start: note
@@ -96,6 +97,9 @@ class _BarContent:
             return
         if note.find("cue") is not None:
             self._reader._lost.add("cue notes", self._bar.name)
+            return
+        if self._reader._notes.is_slash(note):
+            self._reader._lost.add("slashes, where drummers play as they like", self._bar.name)
             return
         self._reader._note_count += 1
         if self._reader._note_count > MOST_NOTES:
@@ -154,7 +158,9 @@ class _BarContent:
                 raise self._fault(f"{divisions[:20]!r} is no number of divisions; expected 1 to {_FINEST:,}")
             self._reader._divisions = Fraction(found[1])
         time = element.find("time")
-        if time is not None:
+        if time is not None and time.find("senza-misura") is not None:
+            self._reader._lost.add("music without a meter, each bar as long as what stands in it", self._bar.name)
+        elif time is not None:
             self._bar.meter = meter_of(time, self._reader._source, f"bar {self._bar.name}")
         for style in element.iter("measure-repeat"):
             text = (style.text or "1").strip()

@@ -57,7 +57,7 @@ def _written_bars(
     readers = []
     for part in sorted(parts, key=lambda p: not any(p is drum for drum in drums)):
         is_drums = any(part is drum for drum in drums)
-        notes = NoteReader(part.instruments, lost) if is_drums else None
+        notes = NoteReader(part, lost) if is_drums else None
         reader = BarReader(source, notes, lost if is_drums else LostMarks())
         for measure in part.measures:
             reader.read(measure)

@@ -1,7 +1,7 @@
 """One `<note>` of a percussion part: which strike it is, how loud, by which hand, and with which signs."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Sequence
 from fractions import Fraction
 from xml.etree.ElementTree import Element
 
@@ -19,15 +19,15 @@ from station.core.pieces import (
     Zone,
 )
 from station.core.units import PPQ
+from station.music.formats.music_xml.part_choice import FilePart
 from station.music.formats.music_xml.written_bars import LostMarks, WrittenNote
-from station.music.formats.music_xml.xml_instruments import XmlInstrument, placed_strike
+from station.music.formats.music_xml.xml_instruments import XmlInstrument, instrument_id, pitch_number, placed_strike
 from station.music.formats.safe_xml import text_of
 from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY
 
 FULL_VELOCITY = 90
 """The MIDI velocity that `dynamics` are a percentage of (MusicXML 4.0, `note` and `sound`)."""
 _FLAGS = {name: flags for flags, name in enumerate(("quarter", "eighth", "16th", "32nd", "64th", "128th", "256th"))}
-_STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
 _OPENNESS = {"open": OPEN, "open-string": OPEN, "harmonic": OPEN, "stopped": CLOSED, "half-muted": HALF_OPEN}
 """Over a hi-hat every small circle says that it is open; MuseScore has them as `open-string` and `harmonic`."""
 _CHOKE = re.compile("choke", re.IGNORECASE)
@@ -39,10 +39,11 @@ _MOST_SLASHES = 8
 
 
 class NoteReader:
-    """Reads the notes of one part, whose `instruments` are by their ids; what it does not read `lost` counts."""
+    """Reads the notes of one part; what it does not read `lost` counts."""
 
-    def __init__(self, instruments: Mapping[str, XmlInstrument], lost: LostMarks) -> None:
-        self._instruments, self._lost = instruments, lost
+    def __init__(self, part: FilePart, lost: LostMarks) -> None:
+        self._instruments, self._lost = part.instruments, lost
+        self._numbered = not part.pitches_are_places
         self._strikes: dict[tuple[str, ...], tuple[NoteMeaning, int]] = {}
 
     def read(self, note: Element, start: Fraction, length: Fraction, bar: str) -> WrittenNote:
@@ -59,13 +60,17 @@ class NoteReader:
         found.limb = _limb(note, found.strike.piece)
         return found
 
+    def is_slash(self, note: Element) -> bool:
+        """Whether it only says that the drummer plays as they like: a slash of no instrument that is known."""
+        return text_of(note, "notehead") == "slash" and not self._is_known(note)
+
     # --- which strike -------------------------------------------------------------------------------------------------
 
     def _strike(self, note: Element, bar: str) -> tuple[NoteMeaning, int]:
-        instrument = note.find("instrument")
+        name = instrument_id(note)
         head = text_of(note, "notehead", "normal")
         step, octave = _line(note)
-        key = ("" if instrument is None else instrument.get("id", ""), head, step, octave)
+        key = (name, head, step, octave)
         if key not in self._strikes:
             self._strikes[key] = self._looked_up(note, *key, bar)
         return self._strikes[key]
@@ -73,11 +78,7 @@ class NoteReader:
     def _looked_up(
         self, note: Element, name: str, head: str, step: str, octave: str, bar: str
     ) -> tuple[NoteMeaning, int]:
-        instrument = self._instruments.get(name)
-        if instrument is None and len(self._instruments) == 1:
-            instrument = next(iter(self._instruments.values()))
-        if (number := _pitch_number(note)) is not None and (instrument is None or instrument.midi is None):
-            instrument = XmlInstrument(midi=number)
+        instrument = self._instrument(note, name)
         strike = instrument.meaning() if instrument is not None else None
         strike = strike or placed_strike(step, octave, head)
         if strike is None:
@@ -86,6 +87,19 @@ class NoteReader:
         if strike.piece is Piece.RIDE and head == "diamond":
             strike = NoteMeaning(Piece.RIDE, Zone.BELL)
         return strike, (instrument.midi if instrument is not None else None) or 0
+
+    def _is_known(self, note: Element) -> bool:
+        instrument = self._instrument(note, instrument_id(note))
+        return instrument is not None and instrument.meaning() is not None
+
+    def _instrument(self, note: Element, name: str) -> XmlInstrument | None:
+        instrument = self._instruments.get(name)
+        if instrument is None and len(self._instruments) == 1:
+            instrument = next(iter(self._instruments.values()))
+        has_number = instrument is not None and instrument.midi is not None
+        if not has_number and self._numbered and (number := pitch_number(note)) is not None:
+            return XmlInstrument(midi=number)
+        return instrument
 
     # --- its signs ----------------------------------------------------------------------------------------------------
 
@@ -108,6 +122,15 @@ class NoteReader:
             self._lost.add(f"{sign.tag} signs", bar)
 
 
+def accent_whole_chord(chord: Sequence[WrittenNote]) -> None:
+    """An accent on a chord's first note is the whole chord's, as programs write it that give no note a velocity."""
+    first = chord[0]
+    if first.dynamic is Dynamic.ACCENT and all(note.velocity is None for note in chord):
+        for note in chord:
+            if note.dynamic is Dynamic.NORMAL:
+                note.dynamic, note.usual_velocity = first.dynamic, first.usual_velocity
+
+
 def velocity_of(dynamics: str | None) -> int | None:
     """The velocity 1–127 of a percentage of 90, None where it is no number."""
     found = re.fullmatch(r"\s*(\d{1,6}(?:\.\d{1,12})?)\s*", dynamics or "")
@@ -120,14 +143,6 @@ def _line(note: Element) -> tuple[str, str]:
     step = note.findtext("unpitched/display-step") or note.findtext("pitch/step") or ""
     octave = note.findtext("unpitched/display-octave") or note.findtext("pitch/octave") or ""
     return step.strip().upper()[:1], octave.strip()[:2]
-
-
-def _pitch_number(note: Element) -> int | None:
-    """The MIDI number of a pitched note in a part of channel 10."""
-    step, octave, alter = (text_of(note, f"pitch/{name}") for name in ("step", "octave", "alter"))
-    if step not in _STEPS or not re.fullmatch(r"[0-9]", octave):
-        return None
-    return 12 * (int(octave) + 1) + _STEPS[step] + {"1": 1, "-1": -1}.get(alter, 0)
 
 
 def _is_opened(found: WrittenNote, openness: float) -> bool:

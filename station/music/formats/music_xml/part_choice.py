@@ -1,8 +1,8 @@
 """Which parts of a MusicXML score are drums, and their bars one by one, whichever way round the file has them.
 
-A part has drums where it has unpitched notes, or where an instrument of it plays on MIDI channel 10. Of several the one
-with the most different pieces of a kit is taken; if that is a single piece, the kit is spread over several staves and
-all of them are read together.
+A part has drums where it has unpitched notes, or where an instrument of it plays on MIDI channel 10; where no part has,
+one with a percussion clef, or called drums, is taken for them. Of several the one with the most different pieces of a
+kit is taken; if that is a single piece, the kit is spread over several staves and all of them are read together.
 """
 
 import re
@@ -13,10 +13,11 @@ from xml.etree.ElementTree import Element
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece
-from station.music.formats.music_xml.xml_instruments import XmlInstrument
+from station.music.formats.music_xml.xml_instruments import LOWEST_PLACE, XmlInstrument, instrument_id, pitch_number
 from station.music.formats.safe_xml import text_of
 
 _DRUM_CHANNEL = "10"
+_DRUMS = re.compile(r"(?<!steel )\bdrum(s\b|[ -]?(set|kit))", re.IGNORECASE)
 _MOST_PARTS = 500
 """Our choice: an orchestra has a tenth of it."""
 
@@ -40,6 +41,17 @@ class FilePart:
     def has_percussion_clef(self) -> bool:
         """Whether it is a part for drums even where it rests."""
         return any((sign.text or "").strip() == "percussion" for bar in self.measures for sign in bar.iter("sign"))
+
+    @property
+    def is_called_drums(self) -> bool:
+        """Whether its name is that of a kit, and it has notes."""
+        return _DRUMS.search(self.name) is not None and any(bar.find("note/pitch") is not None for bar in self.measures)
+
+    @cached_property
+    def pitches_are_places(self) -> bool:
+        """Whether its pitches are lines of the staff, and no numbers of General MIDI's drums, which lie below it."""
+        numbers = [pitch_number(note) for measure in self.measures for note in measure.iter("note")]
+        return all(number is None or number >= LOWEST_PLACE for number in numbers)
 
     def _is_drum(self, note: Element) -> bool:
         return self.is_on_drum_channel and note.find("pitch") is not None
@@ -88,7 +100,9 @@ def _described(score_part: Element) -> FilePart:
 
 def drum_parts(parts: Sequence[FilePart], source: str) -> list[FilePart]:
     """The parts to be read as one drummer's; raises `BadInput` where no part has drums."""
-    drums = [part for part in parts if part.drum_notes] or [part for part in parts if part.has_percussion_clef]
+    drums = [part for part in parts if part.drum_notes] or [
+        part for part in parts if part.has_percussion_clef or part.is_called_drums
+    ]
     if not drums:
         raise BadInput(source, "", "has no drums: all notes are pitched, and no part plays on MIDI channel 10")
     kits = [_pieces(part) for part in drums]
@@ -98,12 +112,7 @@ def drum_parts(parts: Sequence[FilePart], source: str) -> list[FilePart]:
 
 def _pieces(part: FilePart) -> set[object]:
     """The different pieces of a kit that the part has: by instrument, else by line."""
-    used = {(_instrument_id(note), note.findtext("unpitched/display-step")) for note in part.drum_notes}
+    used = {(instrument_id(note), note.findtext("unpitched/display-step")) for note in part.drum_notes}
     strikes = {name: part.instruments[name].meaning() for name, _ in used if name in part.instruments}
     found: set[object] = {step if (strike := strikes.get(name)) is None else strike.piece for name, step in used}
     return found - {Piece.PERCUSSION}
-
-
-def _instrument_id(note: Element) -> str:
-    instrument = note.find("instrument")
-    return "" if instrument is None else instrument.get("id", "")

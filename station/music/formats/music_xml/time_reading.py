@@ -17,8 +17,6 @@ def meter_of(time: Element, source: str, place: str) -> MeterChange:
 
     Groups (3+2 over 8) and several signatures in a row (3/8 + 2/4) are the groups of one bar in the finer unit.
     """
-    if time.find("senza-misura") is not None:
-        raise BadInput(source, place, "music without a meter is not read; expected a time signature")
     beats = [(element.text or "").replace(" ", "") for element in time.findall("beats")]
     units = [(element.text or "").strip() for element in time.findall("beat-type")]
     are_sound = all(re.fullmatch(r"\d{1,3}(\+\d{1,3}){0,31}", text) for text in beats)

@@ -10,9 +10,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from types import MappingProxyType
+from xml.etree.ElementTree import Element
 
 from station.core.note_map import GENERAL_MIDI, NoteMeaning, general_midi_note
 from station.core.pieces import CLOSED, CYMBALS, HALF_OPEN, OPEN, TOMS, Articulation, Piece, Zone
+from station.music.formats.safe_xml import text_of
 
 _CYMBALS = CYMBALS | {Piece.HIHAT}
 _DRUMS = frozenset({Piece.KICK, Piece.SNARE, *TOMS})
@@ -79,6 +81,7 @@ _PIECE_WORDS: tuple[tuple[str, Piece], ...] = (
     (r"floor.*tom", Piece.FLOOR_TOM_1),
     (r"(hi(gh)?|alto)[- ]mid.*tom|tom.*\b2", Piece.TOM_2),
     (r"low[- ]mid.*tom|tom.*\b3", Piece.TOM_3),
+    (r"\bmid(dle)?[- ]?tom|\bmedium[- ]?tom|tom.*\b(mid(dle)?|medium)\b", Piece.TOM_2),
     (r"low.*tom|tom.*\b4", Piece.TOM_4),
     (r"\btoms?\b|tom-tom", Piece.TOM_1),
     (r"ride.*2", Piece.RIDE_2),
@@ -122,7 +125,13 @@ _CROSS_PLACES = {
     "D6": Piece.CHINA,
 }
 """Where drum parts that name no instrument put round and crossed heads: Weinberg's, and MuseScore's drum set."""
-_CROSSES = frozenset({"x", "cross", "circle-x", "diamond", "slash"})
+_CROSSES = frozenset({"x", "cross", "circle-x", "diamond"})
+_CROSS_STICKS = _CROSSES | {"slashed", "back slashed"}
+"""Heads on the snare's line; MuseScore 4 has slashed ones there."""
+
+LOWEST_PLACE = 60
+"""Number of the pitch on the line below the staff, C4: the feet of a drum part stand above it."""
+_STEPS = {"C": 0, "D": 2, "E": 4, "F": 5, "G": 7, "A": 9, "B": 11}
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,6 +154,20 @@ class XmlInstrument:
         return _refined(known, words)
 
 
+def instrument_id(note: Element) -> str:
+    """Of which instrument of its part a note is; "" where it does not say."""
+    instrument = note.find("instrument")
+    return "" if instrument is None else instrument.get("id", "")
+
+
+def pitch_number(note: Element) -> int | None:
+    """The MIDI number of a pitched note."""
+    step, octave, alter = (text_of(note, f"pitch/{name}") for name in ("step", "octave", "alter"))
+    if step not in _STEPS or not re.fullmatch(r"[0-9]", octave):
+        return None
+    return 12 * (int(octave) + 1) + _STEPS[step] + {"1": 1, "-1": -1}.get(alter, 0)
+
+
 def plain_strike(piece: Piece) -> NoteMeaning:
     """`piece` struck as usual: a hi-hat closed, a crash on its edge."""
     if piece is Piece.HIHAT_PEDAL:
@@ -155,12 +178,9 @@ def plain_strike(piece: Piece) -> NoteMeaning:
 def placed_strike(step: str, octave: str, head: str) -> NoteMeaning | None:
     """What a note on this line with this head is, by the usual drum maps; None where they have nothing there."""
     place = f"{step}{octave}"
-    if head in _CROSSES:
-        if place == "C5":
-            return NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK)
-        piece = _CROSS_PLACES.get(place)
-    else:
-        piece = _ROUND_PLACES.get(place)
+    if place == "C5" and head in _CROSS_STICKS:
+        return NoteMeaning(Piece.SNARE, Zone.RIM, Articulation.CROSS_STICK)
+    piece = (_CROSS_PLACES if head in _CROSSES else _ROUND_PLACES).get(place)
     if piece is None:
         return None
     strike = plain_strike(piece)
