@@ -21,8 +21,8 @@ from station.app.music_files.named_parts import load_part
 from station.app.music_files.part_export import bars_of, write_part
 from station.app.view_settings import ViewSettings
 from station.app.worker_process import StartWork, Work, WorkerProcess
+from station.core.disk.files import growing, write_whole
 from station.core.errors import DeviceError, StationError
-from station.core.files import growing, write_whole
 from station.core.settings import Settings
 from station.drills.lesson import BarCue, Lesson
 from station.drills.reading.lesson_file import parse_lesson

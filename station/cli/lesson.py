@@ -19,8 +19,8 @@ from station.cli.options.option_fields import (
     said,
     whole_number,
 )
+from station.core.disk.files import write_whole
 from station.core.errors import BadInput
-from station.core.files import write_whole
 from station.music.formats.format_table import writer_for
 
 

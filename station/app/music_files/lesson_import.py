@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from station.app.music_files.named_parts import existing, is_lesson, load_part
+from station.core.disk.files import write_whole
 from station.core.errors import BadInput
-from station.core.files import write_whole
 from station.drills.library import lesson_names, read_lesson
 from station.drills.transcription.transcribe import transcribe
 from station.music.formats.format_table import endings

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 from station.drills.lesson import Lesson
 from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart, PartSection

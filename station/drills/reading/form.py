@@ -11,10 +11,10 @@ from typing import Any
 
 from station.core.expected import either_of, expected_by, expects, list_like
 from station.core.pieces import Piece
-from station.core.schema import Field as SchemaField
-from station.core.schema import anything, list_of, no_such, optional, title, whole
-from station.core.toml_faults import Faults, Noted, wrong
-from station.core.toml_places import KeyPath
+from station.core.toml.schema import Field as SchemaField
+from station.core.toml.schema import anything, list_of, no_such, optional, title, whole
+from station.core.toml.toml_faults import Faults, Noted, wrong
+from station.core.toml.toml_places import KeyPath
 from station.drills.grid.grid_reader import MAX_TIMES
 from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES

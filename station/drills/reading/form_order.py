@@ -8,9 +8,9 @@ import re
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
-from station.core.schema import list_of, no_such, title
-from station.core.toml_faults import Faults, Noted, wrong
-from station.core.toml_places import KeyPath
+from station.core.toml.schema import list_of, no_such, title
+from station.core.toml.toml_faults import Faults, Noted, wrong
+from station.core.toml.toml_places import KeyPath
 from station.drills.reading.form import NAME, WrittenGrid
 
 MAX_FORM = 1000

@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.disk.files import read_regular
 from station.core.errors import BadInput
-from station.core.files import read_regular
 from station.core.labels import limb_name
 from station.core.pieces import Limb, word
-from station.core.schema import Reader, checked_values, read, reading, row_of, whole
-from station.core.toml_faults import Fault, Faults, Wrong, wrong
-from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
+from station.core.toml.schema import Reader, checked_values, read, reading, row_of, whole
+from station.core.toml.toml_faults import Fault, Faults, Wrong, wrong
+from station.core.toml.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ
 from station.drills.grid.cell_strokes import Origin, WrittenCell, expand, parted
 from station.drills.grid.grid_reader import read_grid

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, groupby
 
-from station.core.toml_faults import wrong
+from station.core.toml.toml_faults import wrong
 from station.drills.grid.cell_strokes import WrittenCell
 from station.drills.grid.grid_reader import GridSection
 from station.drills.grid.line_group import MAX_BARS

@@ -72,7 +72,7 @@ def found_form(lesson: Lesson, sections: Sequence[PartSection]) -> LessonForm:
 
 
 def _spans(bars: BarContents, sections: Sequence[PartSection]) -> Iterator[tuple[int, int, str]]:
-    """First bar, the bar after the last, and the file's name of each stretch that is looked at by itself."""
+    """First bar, the bar after the last, and the file's name of each run of bars that is looked at by itself."""
     name_of = {s.first_bar: s.name for s in sections if s.first_bar < bars.count}
     ends = {s.last_bar + 1 for s in sections}
     parts = set() if sections else _new_parts(bars)
@@ -100,7 +100,7 @@ def _new_parts(bars: BarContents) -> set[int]:
 
 
 def _blocks(bars: BarContents, start: int, end: int, section: str) -> list[_Block]:
-    """A stretch as patterns and how often each is played."""
+    """A run of bars as patterns and how often each is played."""
     is_whole = section and end - start <= _LONGEST
     lengths = ((end - start,) if is_whole else ()) + _PHRASES
     cuts = [*(_cut(bars, start, end, n, section) for n in lengths), _runs(bars, start, end, section)]

@@ -40,7 +40,7 @@ _LEVELS_FROM = (13.0, 18.5, 23.7, 27.9)
 """From which difficulty on a lesson is of level 2, 3, 4, 5: half way between the medians of the lessons that ship, at
 the tempo to reach, which are 10.0, 16.0, 21.0, 26.4 and 29.4."""
 _LEVEL_BARS = 2
-"""Bars of the middle lesson that ships, of every level but the first. Longer stretches have more to know."""
+"""Bars of the middle lesson that ships, of every level but the first. Longer runs of bars have more to know."""
 _MOST_MEASURED = 50
 """Pairs of bars that tell the level of a piece, spread over it (our choice; a second at most)."""
 MOST_STROKES = 12_000

@@ -15,9 +15,6 @@ _LEAST_SAVED = 4
 """Entries that a group must save (our choice)."""
 _LOOKS_COUNTED = re.compile(r".*[x×]\s?\d+|\(.*|.*\)(\s*[x×]\s?\d+)?")
 
-_Counted = tuple[str, int]
-"""A name, and how often it is played in a row."""
-
 
 def form_text(names: Sequence[str]) -> str:
     """The names in the order in which they are played, between commas; "A x3" and "(A, B) x2" where that is shorter."""

@@ -65,7 +65,7 @@ WORDS: Mapping[str, str] = MappingProxyType(
         "goals.left_hand": "what is asked of the left hand besides",
         "goals.right_foot": "what is asked of the right foot besides",
         "goals.left_foot": "what is asked of the left foot besides",
-        "goals.bars": "what is asked of some bars besides, one table for each stretch",
+        "goals.bars": "what is asked of some bars besides, one table for each run of bars",
         "goals.bars.bars": "first and last bar, as played, counted from 1",
         # grids
         "grid": "the music: one table, or several that are played one after the other",
