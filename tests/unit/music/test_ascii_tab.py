@@ -266,8 +266,16 @@ def test_a_key_with_names_between_bar_lines_is_no_music() -> None:
     assert (ticks(part, Piece.HIHAT), ticks(part, Piece.SNARE)) == (HAT_ON_EIGHTHS, [PPQ, 3 * PPQ])
 
 
-def test_numbers_of_bars_name_no_part() -> None:
-    assert not read("Bar 1            Bar 2\nHH|x-x-x-x-|x-x-x-x-|\nBD|o---o---|o---o---|\n").sections
+@pytest.mark.parametrize("numbers", ["Bar 1            Bar 2", "[1]              [2]"])
+def test_numbers_of_bars_name_no_part(numbers: str) -> None:
+    assert not read(f"{numbers}\nHH|x-x-x-x-|x-x-x-x-|\nBD|o---o---|o---o---|\n").sections
+
+
+def test_a_percent_sign_is_the_bar_before() -> None:
+    part = read("HH|x-x-x-x-|   %    |--------|\nBD|o---o---|---%----|o-------|\n")
+    assert part.score.bar_count == 3
+    assert ticks(part, Piece.KICK) == [0, 2 * PPQ, 4 * PPQ, 6 * PPQ, 8 * PPQ]
+    assert ticks(part, Piece.HIHAT) == [k * PPQ for k in range(8)]
 
 
 def test_a_tab_says_the_tempo_as_people_do() -> None:

@@ -7,7 +7,7 @@ has no other rest, its blanks are the rests.
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from station.core.errors import BadInput
 from station.music.formats.ascii_tab.tab_letters import LABELS, RESTS, TAB_CHARACTERS, label_key
@@ -22,6 +22,7 @@ _WITHOUT_BAR_LINES = re.compile(rf"\s*({_LABEL})\s+((?=[^ ]*-)[^ |:]{{6,}})\s*$"
 _KNOWN = 0.8
 """A line of fewer known letters is words (our choice)."""
 _BLANK = " "
+_AGAIN = "%"
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +83,7 @@ def tab_line(line: str) -> FoundLine | None:
     cells = line[found.start : found.end]
     if any(_is_a_word(run) for run in _WORD.findall(cells)):
         return None
-    known = sum(c in TAB_CHARACTERS or c in "|:" for c in cells)
+    known = sum(c in TAB_CHARACTERS or c in f"|:{_AGAIN}" for c in cells)
     is_sure = "|" in line and known >= _KNOWN * len(cells) and any(c in cells for c in "-xo")
     return found if cells.strip() and (known == len(cells) or is_sure) else None
 
@@ -103,15 +104,17 @@ def refuse_unknown_label(line: str, number: int, source: str) -> None:
 
 
 def bars_of(line: str, found: FoundLine) -> Iterator[TabBar]:
-    """The bars between the line's strokes."""
+    """The bars between the line's strokes; one of a single `%` is the bar before it."""
     text = line[found.start : found.end]
     are_rests = _BLANK in text.strip() and not set(text) & (set(RESTS) - {_BLANK}) and not _is_grouped(text)
-    at, opens = found.start, False
+    at, opens, last = found.start, False, TabBar("", ())
     for bar in text.split("|"):
         opens = opens or bar.lstrip().startswith(":")
         cells = _cells(bar, are_rests)
         if cells.strip(_BLANK) or (are_rests and len(cells) > 1):
-            yield TabBar(cells, _columns(bar, at, are_rests), opens, bar.rstrip().endswith(":"))
+            if not last.cells or cells.strip(RESTS) != _AGAIN:
+                last = TabBar(cells, _columns(bar, at, are_rests))
+            yield replace(last, opens=opens, closes=bar.rstrip().endswith(":"))
             opens = False
         at += len(bar) + 1
 

@@ -27,7 +27,7 @@ _NAMED = {
     "author": re.compile(r"\s*(?:artist|band|by|tabbed by|author)\s*[:=]\s*(.+)", re.IGNORECASE),
     "about": re.compile(r"\s*(?:notes?|comments?|about)\s*[:=]\s*(.+)", re.IGNORECASE),
 }
-_IN_BRACKETS = re.compile(r"\s*\[([^\]|]{1,40})\]")
+_IN_BRACKETS = re.compile(r"\s*\[(?=[^\]|]{0,39}[A-Za-z])([^\]|]{1,40})\]")
 _SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9 '/-]{0,30}):?\s*(?:\([\s0-9]*\))?:?\s*$")
 _PART = re.compile(
     r"\s*(?:intro|verse|(?:pre|post)?[ -]?chorus|refrain|bridge|solo|outro|ending|break|interlude|fill|groove|beat|"
