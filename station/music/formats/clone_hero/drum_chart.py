@@ -90,8 +90,8 @@ class DrumChart:
     """One difficulty of a drum part.
 
     `tempos` are (tick, µs a quarter), `meters` (tick, beats, unit), `sections` (tick, name). `has_five_lanes` tells
-    which kit the lanes stand for. `flips` are where red and yellow change places (disco flip), `rolls` where one lane is
-    rolled, `double_rolls` where two are in turn. `end` is where the song ends, 0 where the file does not say.
+    which kit the lanes stand for. `flips` are where red and yellow change places (disco flip), `rolls` where one lane
+    is rolled, `double_rolls` where two are in turn. `end` is where the song ends, 0 where the file does not say.
     """
 
     resolution: int
