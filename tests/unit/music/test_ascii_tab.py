@@ -176,6 +176,7 @@ HAT_ON_EIGHTHS = [k * EIGHTH for k in range(8)]
         "HH|x-x-|x-x-|x-x-|x-x-|\nSD|----|o---|----|o---|\n",
         "HH-x-x-x-x-x-x-x-x-|\nSD-----o-------o---|\n",
         "HH x-x-x-x-x-x-x-x-|\nSD ----o-------o---|\n",
+        "HH: x-x-x-x-x-x-x-x-\nSD: ----o-------o---\n",
         "   1e+a2e+a3e+a4e+a\nHH|x-x-x-x-x-x-x-x|\nSD|----o-------o--|\n",
         "4/4\nHH|x-x-x-x-x-x-x-x--|\nSD|----o-------o----|\n",
         "HH|-xxxxxxxx|\nSD|---o---o-|\n",
@@ -191,13 +192,14 @@ HAT_ON_EIGHTHS = [k * EIGHTH for k in range(8)]
         "beats",
         "dash for a bar line",
         "no first bar line",
+        "colons",
         "a cell short",
         "a cell long",
         "dash before eighths",
         "closed hats",
     ],
 )
-def test_one_bar_as_thirteen_people_type_it(text: str) -> None:
+def test_one_bar_as_fourteen_people_type_it(text: str) -> None:
     assert is_tab(text.encode())
     part = read(text)
     assert (part.score.bar_count, str(part.score.tempo_map.meter_at(0))) == (1, "4/4")
@@ -269,6 +271,17 @@ def test_a_key_with_names_between_bar_lines_is_no_music() -> None:
 @pytest.mark.parametrize("numbers", ["Bar 1            Bar 2", "[1]              [2]"])
 def test_numbers_of_bars_name_no_part(numbers: str) -> None:
     assert not read(f"{numbers}\nHH|x-x-x-x-|x-x-x-x-|\nBD|o---o---|o---o---|\n").sections
+
+
+def test_words_by_themselves_below_say_how_often() -> None:
+    tab = "HH|x-x-x-x-|\nBD|o---o---|\n"
+    assert read(f"{tab}\nRepeat x3\n\n{tab}").score.bar_count == 4
+
+
+def test_the_last_bar_line_may_be_missing() -> None:
+    part = read("HH|x-x-x-x-|x-x-x-x-\nBD|o---o---|o---o---\n")
+    assert part.score.bar_count == 2
+    assert ticks(part, Piece.KICK) == [k * 2 * PPQ for k in range(4)]
 
 
 def test_a_percent_sign_is_the_bar_before() -> None:

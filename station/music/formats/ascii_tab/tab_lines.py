@@ -18,9 +18,11 @@ _DASHED = re.compile(rf"\s*({_LABEL})-(?=[^ |:]+\|)")
 _SPACED = re.compile(rf"\s*({_LABEL})\s+(?=[-.=_xXoOgfFdDbBcshHrRzZ#@]+\|)")
 _WORD = re.compile(r"[A-Za-z]{3,}")
 _BEHIND = re.compile(rf"\s*[|:]{{1,2}}(.{{6,}})\|[|:]?\s*({_LABEL})\s*$")
-_WITHOUT_BAR_LINES = re.compile(rf"\s*({_LABEL})\s+((?=[^ ]*-)[^ |:]{{6,}})\s*$")
+_WITHOUT_BAR_LINES = re.compile(rf"\s*({_LABEL})(?::\s*|\s+)((?=[^ ]*-)[^ |:]{{6,}})\s*$")
 _KNOWN = 0.8
 """A line of fewer known letters is words (our choice)."""
+_SHORTEST_BAR = 4
+"""Cells of a bar that nobody closed: shorter ones are the typist's dashes (our choice)."""
 _BLANK = " "
 _AGAIN = "%"
 
@@ -136,5 +138,8 @@ def _columns(bar: str, at: int, are_rests: bool) -> tuple[int, ...]:
 
 
 def _end_of_cells(line: str, start: int) -> int:
-    """What follows the last bar line is words."""
-    return line.rindex("|") if line.rfind("|") >= start else len(line)
+    """What follows the last bar line is words, if it is no bar that nobody closed."""
+    last = line.rfind("|")
+    rest = line[last + 1 :].rstrip()
+    is_open = len(rest) >= _SHORTEST_BAR and "-" in rest and all(letter in TAB_CHARACTERS for letter in rest)
+    return last if last >= start and not is_open else len(line)

@@ -110,6 +110,9 @@ def tab_text(text: str, source: str) -> TabText:
             system.times = max(system.times, _times(_tidy(line)))
         else:
             close()
+            is_alone = not "".join(lines[number : number + 1]).strip()
+            if found.systems and is_alone and _AGAIN.match(line) and waiting == TabSystem():
+                found.systems[-1].times = max(found.systems[-1].times, _times(_tidy(line)))
             _read_words(_tidy(line), found, waiting)
     close()
     return found
