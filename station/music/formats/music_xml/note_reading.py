@@ -122,9 +122,7 @@ class NoteReader:
             found.dynamic = _READ_ARTICULATIONS[sign.tag]
         elif _CHOKE.search(sign.get("smufl", "")) or _CHOKE.search(sign.text or ""):
             found.is_choked = found.strike.piece in CHOKEABLE
-        elif group == "technical" and sign.tag in _OPENNESS and _is_opened(found, _OPENNESS[sign.tag]):
-            pass
-        elif sign.get("smufl") in _PICTURED and _is_opened(found, _PICTURED[sign.get("smufl", "")]):
+        elif (openness := _openness_of(group, sign)) is not None and _is_opened(found, openness):
             pass
         elif group == "ornaments" and sign.tag == "tremolo" and sign.get("type", "single") in ("single", "unmeasured"):
             _tremble(sign, note, found)
@@ -153,6 +151,12 @@ def _line(note: Element) -> tuple[str, str]:
     step = note.findtext("unpitched/display-step") or note.findtext("pitch/step") or ""
     octave = note.findtext("unpitched/display-octave") or note.findtext("pitch/octave") or ""
     return step.strip().upper()[:1], octave.strip()[:2]
+
+
+def _openness_of(group: str, sign: Element) -> float | None:
+    """How open a hi-hat is that has this sign; None where it says nothing of that."""
+    pictured = _PICTURED.get(sign.get("smufl", ""))
+    return _OPENNESS.get(sign.tag) if pictured is None and group == "technical" else pictured
 
 
 def _is_opened(found: WrittenNote, openness: float) -> bool:
