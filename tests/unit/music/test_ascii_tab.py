@@ -155,6 +155,12 @@ def test_what_comes_back_of_every_lesson_is_what_is_kept() -> None:
         assert (part.author, part.about, part.score.title) == (back.author, back.about, back.score.title)
 
 
+def test_swing_that_begins_later_is_told_too() -> None:
+    """Its first part is straight, and so is the swing that the whole part has."""
+    told = {loss.feature: loss.text for loss in write_tab(part_of(find_lesson("latin-jazz-1"))).lost}
+    assert told == dict.fromkeys((Feature.TIMES, Feature.SWING), "swing is written straight")
+
+
 def test_no_line_is_wider_than_a_mail() -> None:
     parts = (part_of(lesson) for lesson in shipped_lessons())
     wide = [row for part in parts for row in write_tab(part).data.decode().splitlines() if len(row) > 100]
