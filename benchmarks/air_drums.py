@@ -18,8 +18,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.disk.files import write_whole
 from station.core.events import PhaseEstimate
-from station.core.files import write_whole
 from station.core.pieces import Limb, Piece, Zone, word
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.simulation.sticks.stick_swing import HANDS, SimulatedSticks, StickPair, play

@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 from station.bench.rigs.mastery_trial import TrialOutcome, trial
 from station.bench.rigs.mastery_tutors import TUTORS
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 from station.simulation.learner_kinds import LEARNERS
 
 FIRST_SEED = 1000

@@ -20,7 +20,8 @@ from station.music.tempo import TempoMap
 
 REBOUND_S, REBOUND_SD_S = 0.028, 0.004
 """How far apart the rebounds of a press are: 25–40 a second (a stick pressed into a head, seen in slow motion)."""
-REBOUND_SHARE = 0.8
+REBOUND_SHARE = 0.7
+"""Rebounds are softer than the stroke that they follow, a third of whose height is lost (our choice)."""
 FLAM_SD, DRAG_SD = 0.2, 0.12
 """The spread of spacings: flams mostly 15–40 ms, drags 40–70 (HUMANS, Timing)."""
 

@@ -16,6 +16,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from zlib import crc32
 
 import numpy as np
 
@@ -79,7 +80,7 @@ def apart(every: int) -> Iterator[tuple[str, Lesson]]:
 def come_back(lesson: Lesson, passes: int, playing: Playing, seed: int) -> Outcome:
     """A take of so many passes of the lesson, written to a file, imported, and held against the lesson."""
     written = lesson.score.repeated(passes)
-    take = take_of(written, playing, np.random.default_rng([seed, len(written)]))
+    take = take_of(written, playing, np.random.default_rng([seed, crc32(lesson.name.encode())]))
     with tempfile.NamedTemporaryFile(suffix=".mid") as file:
         file.write(take.data)
         file.flush()

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from station.core.measured_latency import load_calibration
-from station.core.schema import read
 from station.core.settings import load_settings
-from station.core.toml_source import read_source
+from station.core.toml.schema import read
+from station.core.toml.toml_source import read_source
 from station.devices.mapping.device_file import read_kit
 from station.devices.mapping.stick_file import STICK
 from station.drills.course import read_course

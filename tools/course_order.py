@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 from station.drills.course import Course
 from station.drills.difficulty import goal_difficulty, standings
 from station.drills.library import lesson_prerequisites, lessons_dir, shipped_courses, shipped_lessons

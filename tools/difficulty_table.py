@@ -8,7 +8,7 @@ from pathlib import Path
 
 from scipy.stats import spearmanr
 
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 from station.drills.course import Course
 from station.drills.difficulty import PARTS, Difficulty, difficulty, standings
 from station.drills.lesson import LEVELS, Lesson

@@ -5,7 +5,7 @@ python -m tools.format_pages
 
 from pathlib import Path
 
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 from station.music.formats.format_table import FORMATS
 from station.music.formats.music_format import Feature, MusicFormat
 

@@ -21,6 +21,7 @@ from imgui_bundle import imgui
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT))
 
+from station.app.actions.file_actions import Export, Import  # noqa: E402
 from station.app.actions.phase_actions import OpenMotion, SeekMotion  # noqa: E402
 from station.app.actions.settings_actions import SetView  # noqa: E402
 from station.app.actions.style_actions import EditStyle  # noqa: E402
@@ -38,6 +39,7 @@ from station.gui.panels.calibration_part import DROP_LABEL, MEASURE_LABEL  # noq
 from station.gui.panels.devices_panel import DEVICES  # noqa: E402
 from station.gui.panels.export_panel import EXPORT  # noqa: E402
 from station.gui.panels.hits_panel import HITS  # noqa: E402
+from station.gui.panels.import_panel import IMPORT  # noqa: E402
 from station.gui.panels.lessons_panel import FREE_LABEL  # noqa: E402
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL  # noqa: E402
 from station.gui.panels.phase_panel import PHASE  # noqa: E402
@@ -58,6 +60,10 @@ from tests.gui.x_server import screen  # noqa: E402
 
 Context = imgui.test_engine.TestContext
 STUDENT = "intermediate,seed=4"
+GROOVE = (
+    "https://www.mikeslessons.com/groove/?TimeSig=4/4&Div=16&Title=Half-time%20shuffle&Tempo=88&Measures=1"
+    "&H=|x-x-x-x-x-x-x-x-|&S=|--g-O-g--gO-g-gg|&K=|o--o--o---o--o--|"
+)
 ENOUGH_JUDGED = 20
 STROKES = ("99 26 50", "99 24 64", "99 26 0c", "99 2e 40", "99 33 5a", "99 24 58", "99 26 09", "99 31 6e", "99 26 61")
 
@@ -222,6 +228,21 @@ def _lanes(drive: Drive, ctx: Context) -> None:
     ctx.item_click("##figure/Bars")
 
 
+def _imported(drive: Drive, ctx: Context) -> None:
+    """A groove as people send it; its title is its own."""
+    open_panel(ctx, IMPORT)
+    drive.station.dispatch(Import(GROOVE))
+    drive.wait_until(ctx, lambda state: state.imports.kept is not None)
+    ctx.yield_(8)
+
+
+def _exported(drive: Drive, ctx: Context) -> None:
+    open_panel(ctx, EXPORT)
+    drive.station.dispatch(Export(".chart"))
+    drive.wait_until(ctx, lambda state: state.export.written is not None)
+    ctx.yield_(8)
+
+
 def _tool(name: str) -> Callable[[Drive, Context], None]:
     return lambda drive, ctx: open_panel(ctx, name)
 
@@ -242,7 +263,8 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "figure": _tool(FIGURE),
     "graph": _tool("Graph"),
     "practice": _tool(PRACTICE),
-    "take-along": _tool(EXPORT),
+    "take-along": _exported,
+    "import": _imported,
     "devices": _devices,
     "touch": _touch,
     "which-pad": _which_pad,

@@ -17,7 +17,7 @@ from station.scoring.matching.hit_windows import Level
 
 
 class Catalog:
-    """The lessons that ship, those of the user's own courses, and `first`, which the window was opened on.
+    """The lessons that ship, the user's own with those of their courses, and `first`, which the window was opened on.
 
     The settings of `store` say whose progress it is, `notify` hears what is wrong with a course that is left out.
     """
@@ -35,15 +35,26 @@ class Catalog:
         return card(row_of(self._first))
 
     def cards(self) -> Sequence[LessonCard]:
-        """Every lesson that can be chosen, in the order in which they are shown; the first call takes a moment."""
+        """Every lesson that can be chosen, in the order in which they are shown, own ones first.
+
+        The first call takes a moment.
+        """
         if self._cards is None:
             rows = {row.name: row for row in lesson_rows()}
-            self._own = own_lessons(self.courses(), rows)
-            rows |= {name: row_of(lesson) for name, lesson in self._own.items()}
+            self._own = own_lessons(self.courses(), self._store.now.own_lessons_dir, rows)
+            rows = {name: row_of(lesson) for name, lesson in self._own.items()} | rows
             kind = rows[self._first.name].folder if self._first.name in rows else ""
             rows[self._first.name] = row_of(self._first, kind)
             self._cards = [card(row) for row in rows.values()]
         return self._cards
+
+    def add(self, lesson: Lesson) -> LessonCard:
+        """One more lesson of the user's own, in the place of one of its name; returns its card."""
+        added, others = card(row_of(lesson)), [each for each in self.cards() if each.name != lesson.name]
+        self._own[lesson.name] = lesson
+        self._first = lesson if lesson.name == self._first.name else self._first
+        self._cards = [added, *others]
+        return added
 
     def courses(self) -> Sequence[Course]:
         """The user's own courses, then those that ship; a file that cannot be read is left out."""

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from concurrent.futures import Executor, Future
 from dataclasses import replace
+from pathlib import Path
 from typing import assert_never
 
 from station.app.actions.practice_actions import ChoiceAction, ChooseBars, JudgeAt, Select, TapBeat
@@ -11,6 +12,7 @@ from station.app.room_state import LessonCard, Stage
 from station.app.selection import Selection
 from station.app.sessions.session_control import Launch, SessionControl
 from station.app.settings_store import SettingsStore
+from station.drills.reading.lesson_file import read_lesson
 from station.practice.control.tap_tempo import TapTempo as Taps
 
 
@@ -28,6 +30,7 @@ class Chooser:
         self.selection = Selection.of([sessions.catalog.first_card()], first)
         self._shown: tuple[str, tuple[int, int] | None] | None = (first.lesson, first.bars)
         self._has_catalog = False
+        self._to_open: Path | None = None
         sessions.player.repeat(first.bars)
 
     @property
@@ -68,6 +71,21 @@ class Chooser:
             courses, course = self._sessions.catalog.courses(), self._store.now.course
             self.selection = self.selection.offer(reading.result(), courses, course)
 
+    def open(self, path: Path) -> None:
+        """Choose the lesson of the user's own in that file, as soon as all are listed and nobody plays."""
+        self._to_open = path
+
+    def _choose_opened(self) -> None:
+        """Raises `BadInput` where the file has gone bad meanwhile."""
+        if self._to_open is None or not self._has_catalog or self._sessions.practice.stage is not Stage.IDLE:
+            return
+        path, self._to_open = self._to_open, None
+        catalog = self._sessions.catalog
+        added = catalog.add(read_lesson(path))
+        listed = replace(self.selection.offer(catalog.cards(), catalog.courses()), search="")
+        self.selection = listed.choose(added)
+        self._shown = None  # a lesson of that name may have been shown
+
     def close(self) -> None:
         """End the reader; what it reads is dropped."""
         self._reader.shutdown(wait=False, cancel_futures=True)
@@ -78,6 +96,7 @@ class Chooser:
         A result is shown until it is left. Raises `StationError`.
         """
         self._take_catalog()
+        self._choose_opened()
         if self._has_catalog:
             progress, levels = self._sessions.catalog.progress(), self._sessions.catalog.levels()
             if progress is not self.selection.progress or levels is not self.selection.levels:

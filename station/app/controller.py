@@ -22,7 +22,7 @@ from station.app.actions.equipment_actions import (
     Measure,
     StickAction,
 )
-from station.app.actions.file_actions import FileAction
+from station.app.actions.file_actions import FileAction, ImportAction
 from station.app.actions.phase_actions import PhaseAction
 from station.app.actions.player_actions import PlayerAction
 from station.app.actions.practice_actions import Begin, ChoiceAction, Drill, Leave, Pause, PracticeAction, StrikeKey
@@ -48,6 +48,7 @@ from station.app.equipment.sticks_editor import SticksEditor
 from station.app.equipment.sticks_view import SticksView
 from station.app.export import Exporter
 from station.app.first_start import answered, student_level
+from station.app.importer import Importer, told
 from station.app.phase_page import PhasePage, PhaseView
 from station.app.preferences import Preferences
 from station.app.room_state import Stage
@@ -90,7 +91,8 @@ class Controller:
         self._tried(self.sticks.begin)
         self.preferences = Preferences(store)
         self._pads = PadControl(store, self.preferences, launch.plan.score)
-        self.export = Exporter(processes.animate)
+        self.export = Exporter(processes.animate, processes.work)
+        self.imports = Importer(store, processes.work)
         self.phase = PhasePage(
             self.sessions.listen_to, self.sessions.is_listening_to, self.sessions.quiet, ThreadPoolExecutor(1, "motion")
         )
@@ -112,15 +114,21 @@ class Controller:
         self._tried(lambda: self.sticks.advance(now_ns))
         self.sessions.advance(now_ns)
         self._tried(lambda: self.phase.advance(now_ns))
-        message = self.export.news()
-        if message is not None:
-            self._toasts.notify(message)
+        self._tried(lambda: self._toasts.notify(self.export.news() or self.export.written() or ""))
+        self._tried(self._import)
         for action in asked:
             self.dispatch(action)
         if not self.sessions.practice.is_playing:
             self._keep()
         self._toasts.update(now_ns)
         return bool(events)
+
+    def _import(self) -> None:
+        """Choose what was imported; raises `StationError`."""
+        kept = self.imports.advance()
+        if kept is not None:
+            self._toasts.notify(told(kept))
+            self._chooser.open(kept.path)
 
     def _heard(self) -> list[EngineEvent]:
         try:
@@ -179,7 +187,9 @@ class Controller:
             phase=self.phase.view() if shown.phase else PhaseView(),
             learns_pause=self.preferences.learns,
             export_bars=self._chooser.bars,
-            is_filming=self.export.path is not None,
+            export=self.export.view(),
+            played=sessions.played,
+            imports=self.imports.view(),
             toast=self._toasts.text,
             is_lively=sessions.is_lively(self._now_ns) or (shown.sticks and self.sticks.is_lively),
         )
@@ -214,6 +224,8 @@ class Controller:
         elif isinstance(action, FileAction):
             lesson, bars = self.sessions.player.lesson, self._chooser.bars
             self._toasts.notify(self.export.act(action, lesson, bars, self._store.now, self._view_settings))
+        elif isinstance(action, ImportAction):
+            self._toasts.notify(self.imports.act(action))
         elif isinstance(action, PhaseAction):
             self.phase.act(action)
         elif isinstance(action, Show):
@@ -361,7 +373,8 @@ class Controller:
         """Keep what runs and what was set, end a measurement and a video; returns what nobody can be shown any more."""
         self._view, fault = None, None
         self.calibration.close()
-        self.export.cancel()
+        self.export.close()
+        self.imports.close()
         self.phase.close()
         self._chooser.close()
         if self.sessions.practice.is_playing:

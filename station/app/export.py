@@ -1,7 +1,8 @@
-"""Exports some bars of a lesson: MIDI, a lesson file for the teacher, a sheet to print, a video or a GIF.
+"""Exports some bars of a lesson: any format of music, a lesson file for the teacher, a sheet, a video or a GIF.
 
 Files lie in the student's own folder, `take-along`. A video takes its time: another process films it (`station
-animate`) in a folder that goes with it, so that the window goes on and a cancelled video leaves nothing.
+animate`) in a folder that goes with it, so that the window goes on and a cancelled video leaves nothing. Sheets
+and music files are written by another process too.
 """
 
 import os
@@ -9,41 +10,64 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import assert_never
 
-from station.app.actions.file_actions import CancelFilm, Export, ExportKind, FileAction, FilmTake
+from station.app.actions.file_actions import CancelFilm, Export, ExportTake, FileAction, FilmTake
+from station.app.music_files.named_parts import load_part
+from station.app.music_files.part_export import bars_of, write_part
 from station.app.view_settings import ViewSettings
+from station.app.worker_process import BACKGROUND, StartWork, Work, WorkerProcess
+from station.core.disk.files import growing, write_whole
 from station.core.errors import DeviceError, StationError
-from station.core.files import growing, write_whole
 from station.core.settings import Settings
 from station.drills.lesson import BarCue, Lesson
+from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_text import show, with_value
 from station.drills.writing.lesson_writer import write_lesson
 from station.practice.records.session_files import folder_name
-from station.scenes.sheets import lesson_labels, pdf_of
 
 FOLDER = "take-along"
 _PAPER = "a4"
-FILM, LOOP = ".mp4", ".gif"
+FILM, LOOP, LESSON, SHEET, _TAKE = ".mp4", ".gif", ".toml", ".pdf", ".mid"
 ANIMATE = (sys.executable, "-m", "station.cli.command_line", "animate")
 _SAID = "said"
 """What the film's process says, in the folder that goes with it."""
-_BACKGROUND = 10
-"""How nice the film is to a drummer who plays meanwhile (our choice: it gets what is left)."""
 
 Bars = tuple[int, int]
 """First and last bar of the lesson, from 0."""
 
 
-class Exporter:
-    """Writes the files; one video at a time, which `animate` (the first words of a command line) films."""
+@dataclass(frozen=True, slots=True)
+class ExportedFile:
+    """A music file or a sheet that was written, and what the music has that the file has not, a line each."""
 
-    def __init__(self, animate: Sequence[str] = ANIMATE) -> None:
-        self._animate = animate
+    path: Path
+    lost: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ExportView:
+    """What the page shows: whether a file `is_written` now, and a film; and the file that was written last."""
+
+    is_writing: bool = False
+    is_filming: bool = False
+    written: ExportedFile | None = None
+
+
+class Exporter:
+    """Writes the files; one video at a time, which `animate` (the first words of a command line) films.
+
+    `start` begins the writing of music and sheets, one at a time too.
+    """
+
+    def __init__(self, animate: Sequence[str] = ANIMATE, start: StartWork = WorkerProcess) -> None:
+        self._animate, self._start = animate, start
+        self._work: Work[ExportedFile] | None = None
+        self._written: ExportedFile | None = None
         self._scratch: tempfile.TemporaryDirectory[str] | None = None
         self.process: subprocess.Popen[bytes] | None = None
         self._made = Path()
@@ -55,15 +79,11 @@ class Exporter:
     ) -> str:
         """Write the bars of a lesson, or film; returns what to show, empty for nothing. Raises `StationError`."""
         match action:
-            case Export(ExportKind.FILM):
-                self.film(lesson, bars, settings, film_words(view_settings, settings, lesson.cues), FILM)
+            case Export(ending):
+                return self._export(ending, lesson, bars, settings, view_settings)
+            case ExportTake(capture):
+                self._write(write_take, str(capture), capture.with_suffix(_TAKE))
                 return ""
-            case Export(ExportKind.LOOP):
-                self.film(lesson, bars, settings, film_words(view_settings, settings, lesson.cues), LOOP)
-                return ""
-            case Export(kind):
-                write = {ExportKind.MIDI: self.midi, ExportKind.LESSON: self.lesson, ExportKind.SHEET: self.sheet}[kind]
-                return f"kept in {write(lesson, bars, settings)}"
             case FilmTake(capture):
                 self.film_take(capture, film_words(view_settings, settings))
                 return "the video is being filmed; you may go on (Export cancels it)"
@@ -73,25 +93,33 @@ class Exporter:
             case _:
                 assert_never(action)
 
-    def midi(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
-        """The bars as a MIDI file; raises `DeviceError`."""
-        from station.music.formats.smf.track_writer import write_score  # with mido: the window would open later
+    def _export(self, ending: str, lesson: Lesson, bars: Bars, settings: Settings, view_settings: ViewSettings) -> str:
+        if ending in (FILM, LOOP):
+            self.film(lesson, bars, settings, film_words(view_settings, settings, lesson.cues), ending)
+        elif ending == LESSON:
+            return f"kept in {self.lesson(lesson, bars, settings)}"
+        else:
+            self.music(lesson, bars, settings, ending)
+        return ""
 
-        path = _place(lesson, bars, settings, ".mid")
-        write_score(lesson.score.bars(*bars), path)
-        return path
+    def music(self, lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> None:
+        """Begin to write the bars as a music file or, where it ends in .pdf, as notes on paper.
+
+        Raises `BadInput` for a lesson that no file can say, `DeviceError`.
+        """
+        path = _place(lesson, bars, settings, ending)
+        self._write(write_bars, lesson.name, lesson.text or write_lesson(lesson), bars, path)
+
+    def _write(self, do: Callable[..., ExportedFile], *words: object) -> None:
+        """Raises `DeviceError` while something is being written."""
+        if self._work is not None:
+            raise DeviceError("one file at a time: this one is written in a moment")
+        self._work = self._start(do, *words)
 
     def lesson(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
         """The lesson as a file that repeats the bars; raises `BadInput` for what no file can say, `DeviceError`."""
-        path = _place(lesson, bars, settings, ".toml")
+        path = _place(lesson, bars, settings, LESSON)
         write_whole(path, lesson_file_of(lesson, bars).encode())
-        return path
-
-    def sheet(self, lesson: Lesson, bars: Bars, settings: Settings) -> Path:
-        """The bars as notation on paper, repeated; raises `DeviceError`."""
-        path = _place(lesson, bars, settings, ".pdf")
-        words = lesson_labels(replace(lesson, loop=bars), bars)
-        write_whole(path, pdf_of(lesson.played_once, bars, words, _PAPER))
         return path
 
     def film(
@@ -143,7 +171,36 @@ class Exporter:
                 self._end()
         self.path = path
         with suppress(OSError, AttributeError):  # there is no such thing on every system
-            os.setpriority(os.PRIO_PROCESS, self.process.pid, _BACKGROUND)
+            os.setpriority(os.PRIO_PROCESS, self.process.pid, BACKGROUND)
+
+    def view(self) -> ExportView:
+        """What is shown."""
+        return ExportView(self._work is not None, self.path is not None, self._written)
+
+    def written(self) -> str | None:
+        """Where the file is that was written since it was last asked, None for none; raises `StationError`."""
+        if self._work is None:
+            return None
+        try:
+            found = self._work.result()
+        except StationError:
+            self._end_writing()
+            raise
+        if found is None:
+            return None
+        self._end_writing()
+        self._written = found
+        return f"kept in {found.path}{f'; {len(found.lost)} lost: see Export' if found.lost else ''}"
+
+    def _end_writing(self) -> None:
+        if self._work is not None:
+            self._work.end()
+        self._work = None
+
+    def close(self) -> None:
+        """Give up what is being filmed and written."""
+        self.cancel()
+        self._end_writing()
 
     def news(self) -> str | None:
         """What has come of the video since it was last asked: where it is, or why there is none; None meanwhile."""
@@ -177,6 +234,24 @@ class Exporter:
         if self._scratch is not None:
             self._scratch.cleanup()
             self._scratch = None
+
+
+def write_bars(name: str, text: str, bars: Bars, out: Path) -> ExportedFile:
+    """Write bars of the lesson that `text` is, as `out` ends; raises `StationError`."""
+    lesson = parse_lesson(text, name, name).lesson
+    assert lesson is not None, "it was read before"
+    if out.suffix != SHEET:
+        return ExportedFile(out, write_part(bars_of(lesson, bars), out))
+    from station.scenes.sheets import lesson_labels, pdf_of
+
+    words = lesson_labels(replace(lesson, loop=bars), bars)
+    write_whole(out, pdf_of(lesson.played_once, bars, words, _PAPER))
+    return ExportedFile(out)
+
+
+def write_take(capture: str, out: Path) -> ExportedFile:
+    """Write what was played as a music file; raises `StationError`."""
+    return ExportedFile(out, write_part(load_part(capture), out))
 
 
 def lesson_file_of(lesson: Lesson, bars: Bars) -> str:

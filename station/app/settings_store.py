@@ -13,7 +13,7 @@ from types import MappingProxyType
 
 from station.core.errors import StationError
 from station.core.settings import Settings, load_settings, read_settings, save_settings, settings_path, with_said
-from station.core.toml_faults import refused
+from station.core.toml.toml_faults import refused
 
 _NOTHING: Mapping[str, object] = MappingProxyType({})
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 from station.core import measured_latency, settings
 from station.core.errors import BadInput
-from station.core.schema import Reader, reading
-from station.core.toml_faults import Fault, Noted, placed
-from station.core.toml_source import Source
+from station.core.toml.schema import Reader, reading
+from station.core.toml.toml_faults import Fault, Noted, placed
+from station.core.toml.toml_source import Source
 from station.devices.mapping import device_file, stick_file
 from station.drills import course
 from station.drills.lesson import Lesson

@@ -1,10 +1,13 @@
 """What the window shows in one frame: everything that the panels and the picture need, in one frozen value."""
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from station.app.equipment.calibration import CalibrationView
 from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_view import SticksView
+from station.app.export import ExportView
+from station.app.importer import ImportView
 from station.app.phase_page import PhaseView
 from station.app.preferences import PracticePreferences
 from station.app.room_state import RoomState, ShownResult, Stage
@@ -27,7 +30,8 @@ class State:
     graph's; `mapping`, `calibration` and `sticks` are empty then. `report` is the result of the session that ended
     last, once the question before it was answered. `score` is the lesson that is shown, at its own tempo, `hands` who
     leads. `phase` is the motion whose phase sounds, empty while its panel is closed. `export_bars` (from 0) are what
-    files are made of, `is_filming` whether one is. `toast` is shown in passing; `is_lively` whether something moves or
+    files are made of, `export` what was made, `played` the capture of the last take or session, `imports` what comes
+    in. `toast` is shown in passing; `is_lively` whether something moves or
     may at any moment, so that no frame is to be spared.
     """
 
@@ -49,7 +53,9 @@ class State:
     phase: PhaseView = field(default_factory=PhaseView)
     learns_pause: bool = False
     export_bars: tuple[int, int] = (0, 0)
-    is_filming: bool = False
+    export: ExportView = field(default_factory=ExportView)
+    played: Path | None = None
+    imports: ImportView = field(default_factory=ImportView)
     toast: str = ""
     is_lively: bool = True
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from station.cli.animate_motion import WRITERS
-from station.cli.animate_options import ENDINGS, AnimateOptions, check_meant, usual_of_loops
+from station.cli.animation.animate_motion import WRITERS
+from station.cli.animation.animate_options import ENDINGS, AnimateOptions, check_meant, usual_of_loops
 from station.cli.console import say, say_infeasible
 from station.cli.drummer_options import assigned, drums_of, led_score
 from station.cli.input.read_scores import words_of
@@ -55,7 +55,7 @@ def run(options: AnimateOptions) -> int:
     plan = _planned(score, style, options)
     drummer = Drummer(score, plan.kit, plan.figure, style, plan)
     if ending in WRITERS:
-        start_s, length_s = _stretch(drummer.score, options, 0.0)
+        start_s, length_s = _span(drummer.score, options, 0.0)
         times_s = start_s + np.arange(round(length_s * options.fps) + 1) / options.fps
         WRITERS[ending]()(drummer, out, times_s)
         kind = "motion "
@@ -116,7 +116,7 @@ def _looped(score: Score, style: Style, options: AnimateOptions) -> tuple[Score,
 
 def _draw(drummer: Drummer, whole: Score, words: ScoreWords, options: AnimateOptions) -> str:
     """Draw what the name asks for; returns what it is, for people."""
-    from station.cli import animate_pictures as pictures
+    from station.cli.animation import animate_pictures as pictures
 
     made = _made(options.out)
     if made == "a picture":
@@ -125,11 +125,11 @@ def _draw(drummer: Drummer, whole: Score, words: ScoreWords, options: AnimateOpt
     if made == "a GIF":
         pictures.draw_loop(drummer, whole, _bars(whole, options)[0], words, options)
         return "loop   "
-    stretch = _stretch(drummer.score, options, RING_S)
+    span = _span(drummer.score, options, RING_S)
     if made == "numbered pictures":
-        pictures.draw_sequence(drummer, stretch, words, options)
+        pictures.draw_sequence(drummer, span, words, options)
         return "pictures"
-    pictures.draw_film(drummer, stretch, words, options)
+    pictures.draw_film(drummer, span, words, options)
     return "video  "
 
 
@@ -157,7 +157,7 @@ def _moment_s(score: Score, options: AnimateOptions) -> float:
     return float(score.tempo_map.seconds_at(start + round((options.picture.beat - 1) * meter.beat_ticks)))
 
 
-def _stretch(score: Score, options: AnimateOptions, ring_s: float) -> tuple[float, float]:
+def _span(score: Score, options: AnimateOptions, ring_s: float) -> tuple[float, float]:
     """Where it begins, a little before the first bar, and how long it lasts: to the last bar's end, in seconds.
 
     Where that is the score's end, `ring_s` more.

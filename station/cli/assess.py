@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from station.app.music_files.named_parts import is_lesson
+from station.app.music_files.read_captures import is_capture
 from station.cli.console import print_json, say, write
-from station.cli.input.read_captures import is_capture
-from station.cli.input.read_scores import bars_of_gap, is_lesson, is_midi, load_score_and_performance
+from station.cli.input.read_scores import bars_of_gap, is_midi, load_score_and_performance
 from station.cli.options.option_fields import Command, argument, choice, flag, option
 from station.core.errors import BadInput
 from station.core.settings import load_settings
@@ -44,7 +45,7 @@ class AssessOptions:
 
 def run(options: AssessOptions) -> int:
     """Align, sum up, print."""
-    from station.cli.input.find_own_lesson import find_any_lesson
+    from station.app.music_files.find_own_lesson import find_any_lesson
     from station.practice.records.session_report import assessment_text, feel_of, kit_facts, session_view
     from station.practice.session.click_pattern import silences
     from station.scoring.align import align
@@ -91,7 +92,7 @@ def run(options: AssessOptions) -> int:
 
 def _session(options: AssessOptions) -> SessionResult | None:
     """The session of this lesson that the capture holds; None of anything else."""
-    from station.cli.input.find_own_lesson import find_any_lesson
+    from station.app.music_files.find_own_lesson import find_any_lesson
     from station.practice.records.recovery import session_of
 
     if not is_lesson(options.score) or not is_capture(options.performance):

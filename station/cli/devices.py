@@ -6,11 +6,11 @@ from enum import IntEnum
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from station.cli import devices_calibrate, devices_setup_stick
 from station.cli.console import print_json, say, write
-from station.cli.devices_learn_pad import LearnOptions, learn_kit_or_pad
-from station.cli.devices_monitor import monitor
-from station.cli.devices_monitor_sticks import sensors_now
+from station.cli.device_pages import devices_calibrate, devices_setup_stick
+from station.cli.device_pages.devices_learn_pad import LearnOptions, learn_kit_or_pad
+from station.cli.device_pages.devices_monitor import monitor
+from station.cli.device_pages.devices_monitor_sticks import sensors_now
 from station.cli.input.device_listening import HearOptions, event_line, listening, listening_to_sticks, polls
 from station.cli.options.device_option import sticks_option
 from station.cli.options.option_fields import Command, Verbs, argument, flag

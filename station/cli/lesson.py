@@ -1,11 +1,11 @@
 """`station lesson`: list, show, check, write, import and export lessons."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
+from station.app.music_files.named_parts import load_part
 from station.cli import lesson_list
 from station.cli.console import print_json, say, write
-from station.cli.input.read_scores import existing, is_lesson, load_part
 from station.cli.options.option_fields import (
     Command,
     NoOptions,
@@ -19,11 +19,9 @@ from station.cli.options.option_fields import (
     said,
     whole_number,
 )
+from station.core.disk.files import write_whole
 from station.core.errors import BadInput
-from station.core.files import write_whole
-from station.music.formats.format_table import endings, writer_for
-from station.music.formats.groovescribe.groove_formats import is_groove_url
-from station.music.formats.part_features import without_a_word
+from station.music.formats.format_table import writer_for
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +55,7 @@ class NewOptions:
 class ImportOptions:
     """Of what a lesson is made, and where it is written."""
 
-    source: str = argument("SOURCE", "a music file, a take, or the link of a GrooveScribe groove", str)
+    source: str = argument("SOURCE", "a music file, a take, a song's folder, or a GrooveScribe link", str)
     out: Path = required("FILE", "the file to write", Path)
     overwrite: bool = flag("write FILE even if there is one already")
 
@@ -72,7 +70,7 @@ class ExportOptions:
 
 
 def _show(options: LessonOptions) -> int:
-    from station.cli.input.find_own_lesson import find_any_lesson
+    from station.app.music_files.find_own_lesson import find_any_lesson
     from station.drills.writing.lesson_text import show
 
     write(show(find_any_lesson(options.lesson).text), end="")
@@ -138,36 +136,26 @@ def _check_free(out: Path, overwrite: bool) -> None:
 
 
 def _import(options: ImportOptions) -> int:
-    from station.drills.transcription.transcribe import transcribe
+    from station.app.music_files.lesson_import import import_lesson
 
-    if is_lesson(options.source):
-        raise BadInput(options.source, "", f"expected a music file ({endings()}), a take (.capture) or a groove's link")
-    out = options.out
-    _check_lesson_name(out, options.overwrite)
-    stem = out.stem if is_groove_url(options.source) else existing(options.source).stem
-    part = load_part(options.source)
-    titled = replace(part, score=replace(part.score, title=part.score.title or stem))
-    found = transcribe(titled, out.stem, options.source)
-    write_whole(out, found.lesson.text.encode())
-    for remark in found.remarks:
+    _check_lesson_name(options.out, options.overwrite)
+    made = import_lesson(options.source, options.out.stem)
+    write_whole(options.out, made.text.encode())
+    for remark in made.remarks:
         say(remark)
-    for line in part.lost:
+    for line in made.lost:
         say(f"lost     {line}")
-    say(f"lesson   {out}")
+    say(f"lesson   {options.out}")
     return 0
 
 
 def _export(options: ExportOptions) -> int:
+    from station.app.music_files.part_export import write_part
+
     known = writer_for(options.out)
     _check_free(options.out, options.overwrite)
-    assert known.write is not None, "writer_for finds those that write"
-    part = load_part(options.score)
-    written = known.write(part)
-    write_whole(options.out, written.data)
-    for line in dict.fromkeys(loss.text for loss in written.lost):
+    for line in write_part(load_part(options.score), options.out):
         say(f"lost     {line}")
-    if wordless := without_a_word(known, part, written):
-        say(f"lost     {known.name} has no word for: {', '.join(wordless)}")
     say(f"{known.name:8} {options.out}")
     return 0
 

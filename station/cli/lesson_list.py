@@ -32,7 +32,7 @@ class LessonsOptions:
 
 
 @dataclass(frozen=True, slots=True)
-class _Shelf:
+class _Catalog:
     """What there is: the lessons by name in the list's order, the courses, and the student's progress."""
 
     rows: dict[str, LessonRow]
@@ -58,7 +58,7 @@ class _Shelf:
         return sum(is_finished(course, row.name, self.progress, row.levels) for row in rows)
 
 
-def _shelf() -> _Shelf:
+def _catalog() -> _Catalog:
     from station.app.settings_store import SettingsStore
     from station.drills.lesson_row import row_of
     from station.drills.library import courses_in, lesson_rows, own_lessons, shipped_courses
@@ -67,31 +67,31 @@ def _shelf() -> _Shelf:
     settings = SettingsStore().now
     own, _ = courses_in(settings.courses_dir)
     rows = {row.name: row for row in lesson_rows()}
-    rows |= {name: row_of(lesson) for name, lesson in own_lessons(own, rows).items()}
-    return _Shelf(rows, (*own, *shipped_courses()), student_progress(settings.sessions_dir, settings.student))
+    rows |= {name: row_of(lesson) for name, lesson in own_lessons(own, settings.own_lessons_dir, rows).items()}
+    return _Catalog(rows, (*own, *shipped_courses()), student_progress(settings.sessions_dir, settings.student))
 
 
 def run(options: LessonsOptions) -> int:
     """List them."""
-    shelf = _shelf()
-    course = None if options.course is None else _named_course(options.course, shelf.courses)
-    rows = _of_kind(options.kind, shelf) if course is None else shelf.named(course.lesson_names)
+    catalog = _catalog()
+    course = None if options.course is None else _named_course(options.course, catalog.courses)
+    rows = _of_kind(options.kind, catalog) if course is None else catalog.named(course.lesson_names)
     if options.json:
-        every = shelf.courses if options.kind is None else ()
-        _print_json(shelf, rows, every if course is None else [course])
+        every = catalog.courses if options.kind is None else ()
+        _print_json(catalog, rows, every if course is None else [course])
     elif course is not None:
-        _write_course(shelf, course)
+        _write_course(catalog, course)
     else:
-        _write_kinds(shelf, rows, with_courses=options.kind is None)
+        _write_kinds(catalog, rows, with_courses=options.kind is None)
     return 0
 
 
-def _of_kind(kind: str | None, shelf: _Shelf) -> list[LessonRow]:
+def _of_kind(kind: str | None, catalog: _Catalog) -> list[LessonRow]:
     """The lessons of a kind, all of them where it is None."""
-    kinds = list(dict.fromkeys(row.folder for row in shelf.rows.values() if row.folder))
+    kinds = list(dict.fromkeys(row.folder for row in catalog.rows.values() if row.folder))
     if kind is not None and kind not in kinds:
         raise BadInput("--kind", kind, f"no such kind of lessons{did_you_mean(kind, kinds)}")
-    return [row for row in shelf.rows.values() if kind in (None, row.folder)]
+    return [row for row in catalog.rows.values() if kind in (None, row.folder)]
 
 
 def _named_course(name: str, courses: Sequence[Course]) -> Course:
@@ -104,16 +104,16 @@ def _named_course(name: str, courses: Sequence[Course]) -> Course:
 # --- text -------------------------------------------------------------------------------------------------------------
 
 
-def _write_kinds(shelf: _Shelf, rows: Sequence[LessonRow], with_courses: bool) -> None:
+def _write_kinds(catalog: _Catalog, rows: Sequence[LessonRow], with_courses: bool) -> None:
     for index, (folder, some) in enumerate(groupby(rows, key=lambda row: row.folder or "your own")):
         kind = list(some)
         write(f"{chr(10) if index else ''}{folder} ({len(kind)})")
-        _write_rows(shelf, kind, rows)
+        _write_rows(catalog, kind, rows)
     if with_courses:
-        _write_courses(shelf)
+        _write_courses(catalog)
 
 
-def _write_rows(shelf: _Shelf, some: Iterable[LessonRow], aligned: Sequence[LessonRow], first: int = 0) -> None:
+def _write_rows(catalog: _Catalog, some: Iterable[LessonRow], aligned: Sequence[LessonRow], first: int = 0) -> None:
     """A line for each of `some`, in the columns of all that are `aligned`; with numbers from `first` on, if any."""
     from station.drills.lesson import LEVELS
 
@@ -122,57 +122,57 @@ def _write_rows(shelf: _Shelf, some: Iterable[LessonRow], aligned: Sequence[Less
         for words in (
             [row.name for row in aligned],
             [row.meter for row in aligned],
-            [shelf.held(row.name) for row in aligned],
+            [catalog.held(row.name) for row in aligned],
         )
     )
     for number, row in enumerate(some, first):
         bars = f"{row.bars:3} bar{' ' if row.bars == 1 else 's'}"
         facts = f"{row.meter:{meter}}  {row.beats_a_minute:5g} bpm  {bars}  {LEVELS[row.level]:12}"
         count = f"{number:3} " if first else ""
-        write(f"  {count}{row.name:{name}}  {facts}  {shelf.held(row.name):{held}}  {row.title}")
+        write(f"  {count}{row.name:{name}}  {facts}  {catalog.held(row.name):{held}}  {row.title}")
 
 
-def _write_courses(shelf: _Shelf) -> None:
+def _write_courses(catalog: _Catalog) -> None:
     from station.drills.lesson import LEVELS
 
-    write(f"\ncourses ({len(shelf.courses)}); `station lesson list --course NAME` has the lessons of one")
-    width = max((len(course.name) for course in shelf.courses), default=0)
-    for course in shelf.courses:
-        done = f"{shelf.finished(course):3} of {len(course.lessons):3} finished"
+    write(f"\ncourses ({len(catalog.courses)}); `station lesson list --course NAME` has the lessons of one")
+    width = max((len(course.name) for course in catalog.courses), default=0)
+    for course in catalog.courses:
+        done = f"{catalog.finished(course):3} of {len(course.lessons):3} finished"
         after = f"; after {', '.join(course.prerequisites)}" if course.prerequisites else ""
         write(f"  {course.name:{width}}  {LEVELS[course.level]:12}  {done}  {course.title}{after}")
 
 
-def _write_course(shelf: _Shelf, course: Course) -> None:
+def _write_course(catalog: _Catalog, course: Course) -> None:
     """Its lessons in their order, part by part."""
-    rows = shelf.named(course.lesson_names)
+    rows = catalog.named(course.lesson_names)
     asked = f"; a lesson is finished when you hold it at {course.mastery}" if course.mastery else ""
-    write(f"{course.title}: {shelf.finished(course)} of {len(course.lessons)} finished{asked}")
+    write(f"{course.title}: {catalog.finished(course)} of {len(course.lessons)} finished{asked}")
     if course.prerequisites:
         write(f"First: {', '.join(course.prerequisites)}")
     first = 1
     for part in course.parts:
         if part.title:
             write(f"\n{part.title}")
-        _write_rows(shelf, shelf.named(part.lesson_names), rows, first)
+        _write_rows(catalog, catalog.named(part.lesson_names), rows, first)
         first += len(part.lessons)
 
 
 # --- JSON -------------------------------------------------------------------------------------------------------------
 
 
-def _print_json(shelf: _Shelf, rows: Iterable[LessonRow], courses: Iterable[Course]) -> None:
+def _print_json(catalog: _Catalog, rows: Iterable[LessonRow], courses: Iterable[Course]) -> None:
     print_json(
         {
             "schema": SCHEMA,
-            "lessons": [_lesson(shelf, row) for row in rows],
-            "courses": [_course(shelf, course) for course in courses],
+            "lessons": [_lesson(catalog, row) for row in rows],
+            "courses": [_course(catalog, course) for course in courses],
         }
     )
 
 
-def _lesson(shelf: _Shelf, row: LessonRow) -> dict[str, object]:
-    progress = shelf.progress.get(row.name)
+def _lesson(catalog: _Catalog, row: LessonRow) -> dict[str, object]:
+    progress = catalog.progress.get(row.name)
     return {
         "name": row.name,
         "title": row.title,
@@ -187,7 +187,7 @@ def _lesson(shelf: _Shelf, row: LessonRow) -> dict[str, object]:
     }
 
 
-def _course(shelf: _Shelf, course: Course) -> dict[str, object]:
+def _course(catalog: _Catalog, course: Course) -> dict[str, object]:
     return {
         "name": course.name,
         "title": course.title,
@@ -196,7 +196,7 @@ def _course(shelf: _Shelf, course: Course) -> dict[str, object]:
         "parts": [{"title": part.title, "lessons": list(part.lessons)} for part in course.parts],
         "prerequisites": list(course.prerequisites),
         "mastery": course.mastery,
-        "finished": shelf.finished(course),
+        "finished": catalog.finished(course),
     }
 
 

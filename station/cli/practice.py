@@ -262,7 +262,7 @@ def _draw(folder: SessionFolder, saved: SessionRecord, settings: Settings, telli
 
 
 def _lesson(name: str | None) -> Lesson:
-    from station.cli.input.find_own_lesson import find_any_lesson
+    from station.app.music_files.find_own_lesson import find_any_lesson
     from station.drills.library import FIRST_LESSON
 
     return find_any_lesson(FIRST_LESSON if name is None else name)

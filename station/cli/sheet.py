@@ -4,12 +4,12 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from station.app.music_files.find_own_lesson import find_any_lesson
+from station.app.music_files.named_parts import is_lesson, load_part
 from station.cli.console import say
-from station.cli.input.find_own_lesson import find_any_lesson
-from station.cli.input.read_scores import is_lesson, load_part
 from station.cli.options.option_fields import Command, argument, choice, flag, option, required, whole_number
+from station.core.disk.files import write_whole
 from station.core.errors import BadInput
-from station.core.files import write_whole
 
 ENDING = ".pdf"
 PAPERS = ("a4", "letter")

@@ -12,9 +12,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from station.core.files import NoSuchFile, write_whole
+from station.core.disk.files import NoSuchFile, write_whole
 from station.core.pieces import Piece, word
-from station.core.schema import (
+from station.core.settings import settings_path
+from station.core.toml.schema import (
     Field,
     Fields,
     Reader,
@@ -28,9 +29,8 @@ from station.core.schema import (
     table_of,
     text,
 )
-from station.core.settings import settings_path
-from station.core.toml_source import read_source
-from station.core.toml_write import toml_text, toml_value
+from station.core.toml.toml_source import read_source
+from station.core.toml.toml_write import toml_text, toml_value
 
 FILE_NAME = "calibration.toml"
 REPORT, LOOPBACK, STRIKE, TAP = "report", "loopback", "strike", "tap"

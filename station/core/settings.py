@@ -11,10 +11,10 @@ from types import MappingProxyType
 
 from platformdirs import user_config_path, user_documents_path
 
+from station.core.disk.files import NoSuchFile, write_whole
 from station.core.errors import BadInput
-from station.core.files import NoSuchFile, write_whole
 from station.core.pieces import Piece
-from station.core.schema import (
+from station.core.toml.schema import (
     Field,
     Fields,
     Reader,
@@ -27,9 +27,9 @@ from station.core.schema import (
     text,
     whole,
 )
-from station.core.toml_faults import Fault, Wrong, placed, refused, wrong
-from station.core.toml_source import read_source
-from station.core.toml_write import toml_value
+from station.core.toml.toml_faults import Fault, Wrong, placed, refused, wrong
+from station.core.toml.toml_source import read_source
+from station.core.toml.toml_write import toml_value
 
 APP_NAME = "drum-station"
 
@@ -137,6 +137,11 @@ class Settings:
     def courses_dir(self) -> Path:
         """Where the user's own courses are."""
         return self.sessions_dir / "courses"
+
+    @property
+    def own_lessons_dir(self) -> Path:
+        """Where the user's own lessons are kept, imports too."""
+        return self.sessions_dir / "lessons"
 
     @property
     def styles_dir(self) -> Path:

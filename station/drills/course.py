@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from station.core.schema import (
+from station.core.toml.schema import (
     Field,
     Fields,
     Reader,
@@ -24,9 +24,9 @@ from station.core.schema import (
     title,
     whole,
 )
-from station.core.toml_faults import Faults, Noted
-from station.core.toml_places import KeyPath
-from station.core.toml_source import read_source
+from station.core.toml.toml_faults import Faults, Noted
+from station.core.toml.toml_places import KeyPath
+from station.core.toml.toml_source import read_source
 from station.drills.lesson import LEVELS
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 

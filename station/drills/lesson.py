@@ -83,7 +83,7 @@ class Goals:
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """A stretch as it is played, such as "groove" or "fill": bars `first_bar` to `last_bar` inclusive, from 0.
+    """A run of bars as it is played, such as "groove" or "fill": bars `first_bar` to `last_bar` inclusive, from 0.
 
     A section that the form plays twice stands here twice; `name` may be empty.
     """

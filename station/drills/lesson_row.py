@@ -11,9 +11,9 @@ from dataclasses import dataclass, fields
 from hashlib import sha256
 from pathlib import Path
 
+from station.core.disk.files import write_whole
 from station.core.disk_cache import cache_folder, forget_oldest
 from station.core.errors import BadInput, DeviceError
-from station.core.files import write_whole
 from station.core.units import PPQ
 from station.drills.difficulty import goal_difficulty
 from station.drills.lesson import Lesson

@@ -119,11 +119,15 @@ def courses_in(folder: Path) -> tuple[list[Course], list[BadInput]]:
     return sorted(courses, key=lambda course: (course.level, course.name)), faults
 
 
-def own_lessons(courses: Iterable[Course], shipped: Collection[str]) -> dict[str, Lesson]:
-    """The lessons that `courses` bring with them, none of them `shipped`, by name; what cannot be read is left out."""
+def own_lessons(courses: Iterable[Course], folder: Path, shipped: Collection[str]) -> dict[str, Lesson]:
+    """The lessons that `courses` bring with them, then those in `folder`, none of them `shipped`, by name.
+
+    What cannot be read is left out.
+    """
+    brought = [lesson for course in courses for lesson in course.lessons]
     own: dict[str, Lesson] = {}
-    for found_by in dict.fromkeys(lesson for course in courses for lesson in course.lessons):
-        if lesson_name(found_by) not in shipped:
+    for found_by in dict.fromkeys([*brought, *map(str, _files(folder).values())]):
+        if lesson_name(found_by) not in {*shipped, *own}:
             with suppress(BadInput):  # `station lesson check` tells what is wrong with it
                 own[lesson_name(found_by)] = read_lesson(Path(found_by))
     return own

@@ -52,12 +52,17 @@ class GlfwScreen:
 def glfw_screen() -> GlfwScreen | None:
     """The screen, None where windows cannot be placed or GLFW is another's."""
     window = hello_imgui.get_glfw_window_address()  # type: ignore[attr-defined] # its types do not know it
+    glfw = glfw_library()
+    if not window or glfw is None or glfw.glfwGetPlatform() == _PLATFORM_WAYLAND:
+        return None
+    return GlfwScreen(glfw, window)
+
+
+def glfw_library() -> CDLL | None:
+    """The library that the window is of; None where it is not known, or older than 3.4."""
     path = os.environ.get(_LIBRARY, "")
-    if not window or not path:
-        return None
     try:
-        glfw = CDLL(path)
-        is_placed = glfw.glfwGetPlatform() != _PLATFORM_WAYLAND
-    except (OSError, AttributeError):
+        glfw = CDLL(path) if path else None
+    except OSError:
         return None
-    return GlfwScreen(glfw, window) if is_placed else None
+    return glfw if hasattr(glfw, "glfwGetPlatform") else None

@@ -21,6 +21,7 @@ from station.gui.panels import (
     export_panel,
     graph_panel,
     hits_panel,
+    import_panel,
     phase_panel,
     practice_panel,
     sticks_panel,
@@ -44,7 +45,7 @@ class Pages:
     def __init__(self, dispatch: Callable[[Action], None], viewport: Viewport) -> None:
         self._dispatch = dispatch
         self.view_keys = ViewKeys(viewport, dispatch)
-        self._lessons = LessonsPanel(dispatch)
+        self._lessons = LessonsPanel(dispatch, self.open_import)
         self._playback = PlaybackRow(dispatch)
         self.hits = hits_panel.HitsPanel(self._playback)
         self.figure = style_panel.StylePanel(dispatch)
@@ -52,6 +53,7 @@ class Pages:
         self._devices = devices_panel.DevicesPanel(dispatch)
         self._sticks = sticks_panel.SticksPanel(dispatch)
         self._export = export_panel.ExportPanel(dispatch)
+        self.imports = import_panel.ImportPanel(dispatch)
         self.graph = graph_panel.GraphPanel(lambda to_s: dispatch(Seek(ns_from_s(to_s))))
         self._phase = phase_panel.PhasePanel(dispatch)
         viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go)
@@ -72,6 +74,7 @@ class Pages:
             Panel(practice_panel.PRACTICE, right, self._practice.gui, practice_panel.ABOUT, help=practice_panel.HELP),
             Panel(devices_panel.DEVICES, right, self._devices.gui, devices_panel.ABOUT, help=devices_panel.HELP),
             Panel(sticks_panel.STICKS, right, self._sticks.gui, sticks_panel.ABOUT, help=sticks_panel.HELP),
+            Panel(import_panel.IMPORT, right, self._import_gui, import_panel.ABOUT, help=import_panel.HELP),
             Panel(export_panel.EXPORT, right, self._export.gui, export_panel.ABOUT, help=export_panel.HELP),
             Panel(GRAPH, strip, self._graph_gui, graph_panel.ABOUT, help=graph_panel.HELP),
             Panel(phase_panel.PHASE, strip, self._phase_gui, phase_panel.ABOUT, help=phase_panel.HELP),
@@ -92,6 +95,10 @@ class Pages:
     def _docked(self, name: str) -> hello_imgui.DockableWindow:
         assert self.docking is not None, "the window has been made"
         return self.docking.dockable_window_of_name(name)
+
+    def open_import(self) -> None:
+        """Show the panel that brings music in."""
+        self._docked(import_panel.IMPORT).is_visible = True
 
     def show(self, state: State, is_welcomed: bool) -> None:
         """Show what belongs to `state`, nothing before the first questions were answered."""
@@ -119,6 +126,9 @@ class Pages:
     def _open_tools(self) -> None:
         assert self.docking is not None, "the window has been made"
         panels_popup(self.tools, self.docking)
+
+    def _import_gui(self, state: State) -> None:
+        self.imports.gui(state.imports)
 
     def _bars_gui(self, state: State) -> None:
         self._playback.is_listening = state.room.listening

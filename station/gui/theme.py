@@ -180,6 +180,13 @@ def soft(text: str) -> None:
     imgui.pop_style_color()
 
 
+def warning(text: str) -> None:
+    """A line that says what went wrong, broken where the panel ends."""
+    imgui.push_style_color(imgui.Col_.text, _vec(themed(palette.BRAND)))
+    imgui.text_wrapped(text)
+    imgui.pop_style_color()
+
+
 def part(title: str) -> None:
     """A line with a title, where a part of a panel begins; one that has no room for it is broken."""
     room = imgui.get_content_region_avail().x - 4 * imgui.get_style().item_spacing.x - points(20)

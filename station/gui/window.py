@@ -8,6 +8,7 @@ judgement.
 from imgui_bundle import hello_imgui, imgui, implot
 
 from station.app.actions.action import Notify, Show
+from station.app.actions.file_actions import Import
 from station.app.actions.practice_actions import Begin, Leave, Pause, StrikeKey
 from station.app.actions.settings_actions import FinishFirstStart
 from station.app.controller import Controller
@@ -20,6 +21,7 @@ from station.core.errors import DeviceError
 from station.gui import theme
 from station.gui.display import MonitorWatch
 from station.gui.draw_toasts import ABOVE_RESULT, draw_toast
+from station.gui.file_drop import FileDrop, file_drop
 from station.gui.keyboard_kit import pressed
 from station.gui.panel_layout import Pages
 from station.gui.panels.help_window import help_window
@@ -57,6 +59,7 @@ class Window:
         self.picture_every = options.picture_every
         self._fault: DeviceError | None = None
         self.monitors: MonitorWatch | None = None
+        self._drop: FileDrop | None = None
         calls = Calls(self._opened, self._before_frame, self._background, self._over_all, self._swapped, self._leaving)
         windows = [page.window(lambda: self.state) for page in self.pages.table]
         self.params = runner(options, calls, windows, self.state.view_settings.scale)
@@ -85,10 +88,12 @@ class Window:
         """The window is there, and nothing drawn yet."""
         screen = self._options.screen()
         self.monitors = None if screen is None else MonitorWatch(screen)
+        self._drop = file_drop()
 
     def _before_frame(self) -> None:
         """Take in what has happened: the state that this frame shows."""
         self._show()
+        self._bring_in()
         self._controller.update(self._clock.now_ns())
         self.state = self._controller.view()
         snapshot = self.state.snapshot
@@ -100,6 +105,15 @@ class Window:
         nav = imgui.ConfigFlags_.nav_enable_keyboard
         is_playing = self.state.room.stage is Stage.PLAYING
         io.config_flags = io.config_flags & ~nav if is_playing else io.config_flags | nav
+
+    def _bring_in(self) -> None:
+        """Import what was dropped on the window, and what the system's dialog has brought."""
+        self.pages.imports.poll()
+        dropped = [] if self._drop is None else self._drop.paths()
+        for path in dropped:
+            self._controller.dispatch(Import(path))
+        if dropped:
+            self.pages.open_import()
 
     def _show(self) -> None:
         """Say what the window shows: first the panels alone, for the picture takes half a second to build."""
@@ -121,6 +135,8 @@ class Window:
             theme.apply()
 
     def _leaving(self) -> None:
+        if self._drop is not None:
+            self._drop.close()
         self.viewport.release()
 
     def _background(self) -> None:

@@ -20,7 +20,7 @@ class Label(IntEnum):
     IGNORED = 4
     """A hit that nobody counts: unwritten foot timekeeping, a chick that closes an open hat, and their like."""
     PENDING = 5
-    """Live only: a verdict on a note is taken back, and the note is still to be played or nobody's."""
+    """Live only: a verdict on a note is taken back, and the note is still to be played, or has no hit."""
     PLAYED_AGAIN = 6
     """A hit of an attempt at a passage that does not count: the student began again, or played a bar twice."""
 

@@ -1,6 +1,6 @@
 """Loudness as a part has it on paper: marks from ppp to fff, and hairpins from one to the next.
 
-They say how loud a stretch is, for whoever reads; how hard each stroke is struck its velocity says.
+They say how loud a passage is, for whoever reads; how hard each stroke is struck its velocity says.
 """
 
 from collections.abc import Iterable, Sequence

@@ -2,7 +2,7 @@
 
 A score has every bar written out. Two bars are alike if notation writes them alike: the same strokes with sticking,
 dynamics and ornaments, the same rolls held into them, the same meter, tempo and loudness. How hard each stroke is
-struck (its velocity) is written nowhere and tells no two bars apart. A fold is taken back by `played_bars`.
+struck (its velocity) is written nowhere and tells no two bars apart.
 """
 
 from bisect import bisect_left, bisect_right
@@ -59,18 +59,6 @@ class Passage:
         """The bars that stand on paper, in order: the passage, then its endings."""
         spans = [(self.first_bar, self.last_bar), *((e.first_bar, e.last_bar) for e in self.endings)]
         return tuple(bar for first, last in spans for bar in range(first, last + 1))
-
-    def of_pass(self, number: int) -> Iterator[int]:
-        """The written bars that pass `number`, from 1, plays."""
-        yield from range(self.first_bar, self.last_bar + 1)
-        for ending in self.endings:
-            if number in ending.passes:
-                yield from range(ending.first_bar, ending.last_bar + 1)
-
-
-def played_bars(passages: Sequence[Passage]) -> list[int]:
-    """For every bar as it is played, in order, the bar on paper that says it: what `folded` folded, written out."""
-    return [bar for passage in passages for number in range(passage.times) for bar in passage.of_pass(number + 1)]
 
 
 def folded(score: Score, sections: Mapping[int, str] = _NO_NAMES, apart: Collection[int] = ()) -> list[Passage]:

@@ -8,8 +8,9 @@ to the beat. A buzz roll is one row with a duration.
 Rows are ordered by tick, then grace strokes first, then piece; `Score.notes` is read-only.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
+from enum import IntEnum
 from functools import cached_property
 from math import isnan
 from operator import attrgetter
@@ -66,7 +67,7 @@ class Note:
 _FIELDS = tuple(field.name for field in fields(Note))
 _ROW = attrgetter(*(NOTE_DTYPE.names or ()))
 _OPENNESS = (NOTE_DTYPE.names or ()).index("openness")
-_WORDS = MappingProxyType(
+_WORDS: Mapping[str, Mapping[int, IntEnum]] = MappingProxyType(
     {
         "piece": {int(p): p for p in Piece},
         "zone": {int(z): z for z in Zone},

@@ -36,7 +36,7 @@ class Swing:
         """
         if self.ratio == STRAIGHT:
             return tick
-        start, end = _stretch(tick, meter)
+        start, end = _group_around(tick, meter)
         pair = 2 * self.unit_ticks
         start += (tick - start) // pair * pair
         inside = tick - start
@@ -82,7 +82,7 @@ def _long_share(ratio: float) -> Fraction:
     return exact / (exact + 1)
 
 
-def _stretch(tick: int, meter: MeterChange) -> tuple[int, int]:
+def _group_around(tick: int, meter: MeterChange) -> tuple[int, int]:
     """Where the pairs around `tick` begin and must end: its group in a meter with groups, else the bar."""
     start = 0
     for beats in meter.groups:

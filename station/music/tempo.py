@@ -22,6 +22,9 @@ DEFAULT_US_PER_QUARTER = 500_000
 MIN_BPM, MAX_BPM = 10.0, 1000.0
 """Our choice: below a quarter note lasts six seconds, above no drummer follows; files outside still read."""
 
+MOST_PICKUP = 3 / 4
+"""Of a bar: three beats before a bar of four; seven eighths before it are a meter of their own (our choice)."""
+
 _US_PER_MINUTE = 60_000_000
 _MOST_DECIMALS = 10
 """They tell any two tempos to `MAX_BPM` apart."""
@@ -251,6 +254,17 @@ class TempoMap:
     def meter_at(self, tick: int) -> MeterChange:
         """The meter in force at `tick`."""
         return self.meters[max(bisect_right(self.meters, tick, key=_tick) - 1, 0)]
+
+    def pickup_ticks(self, end_tick: int) -> int:
+        """How long the pick-up is with which music up to `end_tick` begins; 0 where it begins with a whole bar.
+
+        A pick-up is a first bar of at most `MOST_PICKUP` of the second that no bar after it is as short as, but the
+        last, which may make up for it.
+        """
+        first, second = self.bar_start(1), self.bar_start(2) - self.bar_start(1)
+        is_first_of_many = first < end_tick and first <= MOST_PICKUP * second
+        again = (m for m in self.meters if m.tick > 0 and m.bar_ticks == first and m.tick + first < end_tick)
+        return first if is_first_of_many and not self.meters[0].groups and not any(again) else 0
 
     def bar_start(self, bar: int) -> int:
         """First tick of bar `bar` (from 0)."""

@@ -87,10 +87,10 @@ class RenderPool:
         self._slots = crew * _AHEAD
         memory = _memory(self._slots, shot)
         self._planes = _planes(memory, shot)
-        self._drawers: list[_Worker] = []
+        self._workers: list[_Worker] = []
         try:
             for _ in range(crew):
-                self._drawers.append(_Worker(memory, shot, _cores() // crew))
+                self._workers.append(_Worker(memory, shot, _cores() // crew))
         except BaseException:
             self.close()
             raise
@@ -117,7 +117,7 @@ class RenderPool:
             drawer.wait()
             return place
 
-        for drawer, (snapshot, place) in zip(cycle(self._drawers), wanted, strict=False):
+        for drawer, (snapshot, place) in zip(cycle(self._workers), wanted, strict=False):
             if len(asked) == self._slots:
                 yield first()
             drawer.ask(snapshot, place)
@@ -127,9 +127,9 @@ class RenderPool:
 
     def close(self) -> None:
         """End the processes; none is left when this returns."""
-        for drawer in self._drawers:
+        for drawer in self._workers:
             drawer.dismiss()
-        for drawer in self._drawers:
+        for drawer in self._workers:
             drawer.close()
 
 
@@ -216,14 +216,14 @@ def _draw(
 ) -> None:
     """Draw what is asked for until nobody asks any more."""
     os.environ["LP_NUM_THREADS"] = str(threads if threads > 1 else 0)  # Mesa's documentation, "Environment variables"
-    easel = _Easel(memory, shot)
+    renderer = _ShotRenderer(memory, shot)
     with suppress(EOFError, ConnectionError):
         while True:
             said, place = line.recv()
-            line.send(easel.draw(said, place))
+            line.send(renderer.draw(said, place))
 
 
-class _Easel:
+class _ShotRenderer:
     """Keeps what consecutive pictures share."""
 
     def __init__(self, memory: "ctypes.Array[ctypes.c_uint8]", shot: Shot) -> None:

@@ -28,8 +28,8 @@ ShowProgress = Callable[[int], None]
 
 
 @dataclass(frozen=True, slots=True)
-class FilmStretch:
-    """Which stretch is filmed: `pictures` of them, `fps` a second, the first at `start_s` of the score.
+class FilmSpan:
+    """What is filmed: `pictures` of them, `fps` a second, the first at `start_s` of the score.
 
     The `words` stand by its notes; their cues are followed, what they say and their views.
     """
@@ -54,29 +54,25 @@ def encoder() -> str:
     return encoder_name()
 
 
-def write_film(
-    drummer: Drummer, stretch: FilmStretch, shot: Shot, sounds: Sounds, path: Path, show: ShowProgress
-) -> None:
+def write_film(drummer: Drummer, span: FilmSpan, shot: Shot, sounds: Sounds, path: Path, show: ShowProgress) -> None:
     """A video at `path`, whole or not at all; raises `DeviceError` without OpenGL, disk or encoder."""
     encoder()
     from station.render.files.video_file import EFFORTS, VideoFormat, video_file
 
-    soundtrack = Soundtrack.of_score(drummer.score, stretch.start_s, sounds)
+    soundtrack = Soundtrack.of_score(drummer.score, span.start_s, sounds)
     effort = EFFORTS[QUALITIES.index(shot.quality)]
-    video = VideoFormat(shot.size, stretch.fps, soundtrack.rate_hz, effort)
-    with artist(shot, stretch.pictures) as drawer, video_file(path, video) as sink:
-        for done, planes in enumerate(drawer.film(_snapshots(drummer, stretch)), 1):
+    video = VideoFormat(shot.size, span.fps, soundtrack.rate_hz, effort)
+    with artist(shot, span.pictures) as drawer, video_file(path, video) as sink:
+        for done, planes in enumerate(drawer.film(_snapshots(drummer, span)), 1):
             sink.add_picture(planes)
-            sink.add_sound(soundtrack.until(float(done / stretch.fps)))
+            sink.add_sound(soundtrack.until(float(done / span.fps)))
             show(done)
 
 
-def write_pictures(
-    drummer: Drummer, stretch: FilmStretch, shot: Shot, paths: Iterable[Path], show: ShowProgress
-) -> None:
+def write_pictures(drummer: Drummer, span: FilmSpan, shot: Shot, paths: Iterable[Path], show: ShowProgress) -> None:
     """A PNG a picture, each whole or not at all; raises `DeviceError` without OpenGL or disk."""
-    with artist(shot, stretch.pictures) as drawer:
-        for done, _ in enumerate(drawer.pngs(_snapshots(drummer, stretch), paths), 1):
+    with artist(shot, span.pictures) as drawer:
+        for done, _ in enumerate(drawer.pngs(_snapshots(drummer, span), paths), 1):
             show(done)
 
 
@@ -138,6 +134,6 @@ def _in_loop(snapshot: Snapshot, loop: FilmLoop) -> Snapshot:
     return directed(replace(snapshot, hud=hud, bar_numbers=numbers), loop.words.cues)
 
 
-def _snapshots(drummer: Drummer, stretch: FilmStretch) -> Iterator[Snapshot]:
-    words = stretch.words
-    return (directed(picture_of(drummer, float(at_s), words), words.cues) for at_s in stretch.times_s)
+def _snapshots(drummer: Drummer, span: FilmSpan) -> Iterator[Snapshot]:
+    words = span.words
+    return (directed(picture_of(drummer, float(at_s), words), words.cues) for at_s in span.times_s)

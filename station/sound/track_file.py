@@ -16,9 +16,9 @@ from pathlib import Path
 
 import numpy as np
 
+from station.core.disk.files import write_whole
 from station.core.disk_cache import cache_folder, forget_oldest
 from station.core.errors import BadInput, DeviceError
-from station.core.files import write_whole
 from station.sound.drum_kit import Frames
 from station.sound.samples.audio_file import opened, read_audio
 from station.sound.track import Pcm, PreparedTrack

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 from station.sound.drum_kit import Frames
 
 _FULL, _BYTES = 32767, 2

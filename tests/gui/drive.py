@@ -42,8 +42,10 @@ from station.gui.glfw_screen import glfw_screen
 from station.gui.keyboard_kit import VIEW_KEYS
 from station.gui.panels.calibration_part import ANYWAY_LABEL, MEASURE_LABEL
 from station.gui.panels.devices_panel import DEVICES
-from station.gui.panels.export_panel import EXPORT, MIDI_LABEL, SHEET_LABEL
+from station.gui.panels.export_panel import EXPORT, SHEET_LABEL, music_label
+from station.gui.panels.import_panel import IMPORT, IMPORT_LABEL, PASTE_LABEL, SOURCE_LABEL
 from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LEVEL_LABEL, LISTEN_LABEL
+from station.gui.panels.lessons_panel import IMPORT_LABEL as OPEN_IMPORT_LABEL
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL
 from station.gui.panels.pads_part import UNDO_LABEL
 from station.gui.panels.panel import PANELS_LABEL
@@ -57,6 +59,7 @@ from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.panels.velocity_part import LEARN_LABEL as TOUCH_LABEL
 from station.gui.window import Window
 from station.gui.window_frame import WindowOptions
+from station.music.formats.smf.midi_part import MIDI
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.self_estimate import SelfEstimate
 from station.render.camera import VIEW_NAMES
@@ -66,6 +69,7 @@ from station.render.snapshot import Snapshot
 from station.simulation.student_spec import parse_spec
 from tests.fakes.stick_physics import FINE_HZ, Sensor, Stroke, measured, strokes_by_angle
 from tests.fakes.walker_files import write_walker
+from tests.gui.dropped_files import drop_files
 from tests.gui.figure import figure
 from tests.gui.legible import present_faults
 from tests.gui.room import KIT, station
@@ -238,6 +242,25 @@ class Drive:
         while len(self.state.selection.lessons) == 1:
             assert time.monotonic() < deadline, "the lessons are not read"
             ctx.yield_()
+
+    def wait_until(self, ctx: imgui.test_engine.TestContext, holds: Callable[[State], bool]) -> None:
+        """Let frames pass until what other processes do is done."""
+        deadline = time.monotonic() + TIMEOUT_S
+        while not holds(self.state):
+            assert time.monotonic() < deadline, "nothing has come of it"
+            ctx.yield_()
+
+    def imported(self, ctx: imgui.test_engine.TestContext, title: str) -> list[object]:
+        """Wait for an import: what is chosen, what is on the player, and how long the longest frame took meanwhile."""
+        longest, before = 0.0, time.monotonic()
+        deadline = before + TIMEOUT_S
+        while self.state.player.lesson.title != title:
+            ctx.yield_()
+            now = time.monotonic()
+            assert now < deadline, f"{title} is not imported: {self.state.imports}"
+            longest, before = max(longest, now - before), now
+        assert self.state.selection.card is not None
+        return [self.state.selection.card.title, self.state.selection.card.kind, longest]
 
     def choose(self, ctx: imgui.test_engine.TestContext, passes: int) -> None:
         """Take `LESSON` from the list and set its passes."""
@@ -570,13 +593,36 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["learns unseen"] = drive.state.learns_pause
     open_panel(ctx, EXPORT)
     ctx.set_ref(f"//{EXPORT}")
-    ctx.item_click(MIDI_LABEL)
-    ctx.yield_(2)
+    ctx.item_click(music_label(MIDI))
+    drive.wait_until(ctx, lambda state: state.export.written is not None)
     drive.seen["taken"] = drive.state.toast
     ctx.item_click(SHEET_LABEL)
-    ctx.yield_(2)
+    drive.wait_until(ctx, lambda state: not state.export.is_writing)
     drive.seen["printed"] = drive.state.toast
     open_panel(ctx, EXPORT)
+
+
+def imports(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """Music comes in by a typed path, by what is dropped, as GLFW hands it over, and by what was copied."""
+    folder = Path.cwd()
+    tab = "Title: {}\nTempo: 90\nHH|x-x-x-x-x-x-x-x-|\nSD|----o-------o---|\n"
+    for name in ("typed", "dropped", "copied"):
+        (folder / f"{name}.tab").write_text(tab.format(name.title()))
+    ctx.set_ref("//Lessons")
+    ctx.item_click(OPEN_IMPORT_LABEL)
+    ctx.yield_(3)
+    ctx.set_ref(f"//{IMPORT}")
+    ctx.item_input_value(SOURCE_LABEL, str(folder / "typed.tab"))
+    ctx.item_click(IMPORT_LABEL)
+    drive.seen["typed"] = drive.imported(ctx, "Typed")
+    drop_files([folder / "dropped.tab", folder / "none.mid"])
+    drive.seen["dropped"] = drive.imported(ctx, "Dropped")
+    drive.wait_until(ctx, lambda state: bool(state.imports.fault))
+    drive.seen["fault"] = drive.state.imports.fault
+    imgui.set_clipboard_text((folder / "copied.tab").as_uri())
+    ctx.item_click(f"//{IMPORT}/{PASTE_LABEL}")
+    drive.seen["copied"] = drive.imported(ctx, "Copied")
+    open_panel(ctx, IMPORT)  # and close it again
 
 
 def calibration(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -975,6 +1021,7 @@ SCENARIOS = {
     "unplugged": unplugged,
     "sticks": sticks,
     "habits": habits,
+    "imports": imports,
     "player": player,
     "graph": graph,
     "fault": fault,

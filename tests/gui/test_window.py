@@ -81,9 +81,12 @@ def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_p
 
 def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run_in_turn(
-        ["devices", "calibration", "sticks", "habits", "search", "fault", "keys", "just_play"], environment, tmp_path
+        ["devices", "calibration", "sticks", "habits", "imports", "search", "fault", "keys", "just_play"],
+        environment,
+        tmp_path,
     )
     how_sessions_go_is_ticked_and_learnt(seen["habits"])
+    music_comes_in_and_is_chosen(seen["imports"])
     the_kit_is_seen_and_set_by_looking(seen["devices"])
     a_stick_is_seen_and_put_in_a_hand(seen["sticks"])
     latency_is_measured_and_kept_when_asked(seen["calibration"])
@@ -240,6 +243,13 @@ def how_sessions_go_is_ticked_and_learnt(seen: dict[str, Any]) -> None:
     assert (seen["learns"], seen["learns unseen"]) == (True, False)
     assert seen["taken"].endswith("take-along/rock-1_1-2.mid")
     assert seen["printed"].endswith("take-along/rock-1_1-2.pdf")
+
+
+def music_comes_in_and_is_chosen(seen: dict[str, Any]) -> None:
+    for way in ("typed", "dropped", "copied"):
+        title, kind, _ = seen[way]
+        assert (title, kind) == (way.title(), ""), "a lesson of one's own, and on the player"
+    assert seen["fault"].endswith("none.mid: no such file")
 
 
 def latency_is_measured_and_kept_when_asked(seen: dict[str, Any]) -> None:

@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from station.core.units import NS_PER_S
-from station.scoring.following import offline
 from station.scoring.following.anchors import Hits
+from station.scoring.following.beat_blocks import Blocks
 from station.scoring.following.beat_offsets import forward, offsets_of
 from station.scoring.following.online import Online
 from station.scoring.following.written import written_of
@@ -46,7 +46,7 @@ def test_hit_by_hit_the_totals_are_those_of_the_whole(
         stepwise.append(live.totals)
 
     offsets, end = offsets_of(written, slips=False), len(stepwise)
-    blocks = offline._Blocks.of(written, hits, written.beats.beat(hits.at_s), 0, end, offsets)
+    blocks = Blocks.of(written, hits, written.beats.beat(hits.at_s), 0, end, offsets)
     total = -offsets.price
     for block in range(len(blocks.starts)):
         np.testing.assert_allclose(stepwise[int(blocks.starts[block])], total - total.max(), atol=1e-3)

@@ -6,7 +6,7 @@ from fractions import Fraction
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from station.core.toml_faults import Faults, Wrong
+from station.core.toml.toml_faults import Faults, Wrong
 from station.core.units import PPQ
 from station.drills.grid.cell_strokes import expand
 from station.drills.grid.grid import GridFrame, parse_line

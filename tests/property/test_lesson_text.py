@@ -4,7 +4,7 @@ import tomllib
 
 from hypothesis import given, settings
 
-from station.core.toml_write import toml_value
+from station.core.toml.toml_write import toml_value
 from station.drills.grid.cell_strokes import expand
 from station.drills.writing.lesson_text import show
 from tests.property.test_grids import grids, section_of

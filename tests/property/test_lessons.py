@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from station.core.errors import BadInput
 from station.core.pieces import Piece, word
-from station.core.toml_places import Places
+from station.core.toml.toml_places import Places
 from station.core.units import PPQ
 from station.drills.grid.grid import GridFrame, parse_line
 from station.drills.grid.tab_symbols import LINE_PIECES, SYMBOLS, family_of

@@ -6,9 +6,10 @@ from hypothesis import strategies as st
 from station.core.pieces import Dynamic, Limb, Piece
 from station.core.units import PPQ
 from station.music.loudness_marks import LoudnessMark
-from station.music.repeats import folded, played_bars
+from station.music.repeats import folded
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
+from tests.played_passages import played_bars
 
 _BARS: tuple[list[tuple[int, Limb, Dynamic]], ...] = (
     [(0, Limb.RIGHT_HAND, Dynamic.NORMAL), (2, Limb.LEFT_HAND, Dynamic.NORMAL)],

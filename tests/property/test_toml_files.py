@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from station.app.toml_files import KINDS
 from station.core.errors import BadInput
-from station.core.schema import reading
-from station.core.toml_faults import Fault
-from station.core.toml_source import Source, source_of
+from station.core.toml.schema import reading
+from station.core.toml.toml_faults import Fault
+from station.core.toml.toml_source import Source, source_of
 from tests.toml_kinds import GOOD, read_as
 
 READERS = {kind.name: kind.reader(Path("mine.toml")) for kind in KINDS}

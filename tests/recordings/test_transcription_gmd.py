@@ -34,14 +34,12 @@ def test_a_groove_in_sixteenths_is_cut_into_sixteenths(path: Path) -> None:
     assert 5 < found.spread_ms < 28  # HUMANS, Timing: 10–20 ms of professionals, 26–28 of this dataset at large
 
 
-def test_no_more_than_two_bars_of_a_hundred_are_cut_finer_than_thirty_seconds() -> None:
-    fine, bars = set[tuple[Path, int]](), set[tuple[Path, int]]()
-    for case in GROOVES:
-        (path,) = case.values
-        assert isinstance(path, Path)
-        found = times_of(path)
-        for beat in found.beats:
-            bar = path, int(found.score.tempo_map.bars_at(beat.tick))
-            bars.add(bar)
-            fine |= {bar} if beat.length_ticks < FINEST_TICKS * beat.cells else set()
-    assert len(fine) <= 0.02 * len(bars)
+@pytest.mark.parametrize("path", real_files("gmd/*/*/*.mid"))
+def test_no_more_than_two_bars_of_a_hundred_are_cut_finer_than_thirty_seconds(path: Path) -> None:
+    found = times_of(path)
+    fine = {
+        int(found.score.tempo_map.bars_at(beat.tick))
+        for beat in found.beats
+        if beat.length_ticks < FINEST_TICKS * beat.cells
+    }
+    assert len(fine) <= 0.02 * found.score.bar_count

@@ -17,7 +17,7 @@ from station.motion.kit.kit import load_kit
 from station.render.framing import named
 from station.render.picture import PictureMaker, Shot
 from station.render.quality import QUALITIES
-from station.scenes.film import FilmStretch, write_film, write_pictures
+from station.scenes.film import FilmSpan, write_film, write_pictures
 from station.scenes.pictures import picture_of
 from station.scenes.soundtrack import Sounds
 from tests.fakes.impulse_kit import impulse_mixer
@@ -29,7 +29,7 @@ pytestmark = pytest.mark.gl
 SIZE = (162, 90)  # neither a multiple of four
 FPS = Fraction(25)
 DRUMMER = Drummer(rock(1), load_kit(), figure_of())
-TAKE = FilmStretch(-0.2, 20, FPS)
+TAKE = FilmSpan(-0.2, 20, FPS)
 SHOT = Shot(SIZE, QUALITIES[0], named(NamedView.FRONT))
 TIMES_S = (0.0, 0.3, 0.4, 0.75, 1.0)
 
@@ -103,7 +103,7 @@ def test_a_film_shows_and_sounds_what_the_drummer_plays(maker: PictureMaker, tmp
 
 def test_numbered_pictures_are_those_of_their_times(maker: PictureMaker, tmp_path: Path) -> None:
     paths = [tmp_path / "frames" / f"{k}.png" for k in range(3)]
-    write_pictures(DRUMMER, FilmStretch(0.25, 3, Fraction(8)), SHOT, paths, lambda _: None)
+    write_pictures(DRUMMER, FilmSpan(0.25, 3, Fraction(8)), SHOT, paths, lambda _: None)
     for k, path in enumerate(paths):
         drawn = maker.draw(picture_of(DRUMMER, 0.25 + k / 8), SHOT.camera)
         assert np.array_equal(decode(path.read_bytes()), drawn)

@@ -6,7 +6,7 @@
 from dataclasses import dataclass
 
 from station.app.actions.equipment_actions import EquipmentAction
-from station.app.actions.file_actions import FileAction
+from station.app.actions.file_actions import FileAction, ImportAction
 from station.app.actions.phase_actions import PhaseAction
 from station.app.actions.player_actions import PlayerAction
 from station.app.actions.practice_actions import ChoiceAction, PracticeAction
@@ -47,5 +47,6 @@ Action = (
     | SettingsAction
     | EquipmentAction
     | FileAction
+    | ImportAction
     | PhaseAction
 )

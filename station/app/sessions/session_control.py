@@ -5,6 +5,7 @@ Only one thing sounds at a time: whoever begins something ends what runs before.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
 
 from station.app.actions.practice_actions import Answer, Dismiss, EndSession, HearBar, Listen, SessionAction, Veto
@@ -23,6 +24,7 @@ from station.core.measured_latency import StoredCalibration
 from station.core.units import NS_PER_S
 from station.engine.messages import EngineEvent, Started
 from station.motion.sticking.hand_notes import Hands
+from station.practice.records.session_files import CAPTURE_NAME
 from station.practice.session.device_latency import Latency, latency_of
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.listening import Listening
@@ -90,6 +92,15 @@ class SessionControl:
         if not practice.is_free and practice.stage is Stage.IDLE and self.player.is_shown:
             return self.player.snapshot()
         return practice.snapshot(now_ns, self._heard_ns, self._playback.hears)
+
+    @property
+    def played(self) -> Path | None:
+        """The capture of the result that is shown, else of the last free take; None where there is none."""
+        report = self.practice.last_result.report
+        if self.practice.stage is Stage.RESULT and report is not None and report.folder:
+            capture = Path(report.folder) / CAPTURE_NAME
+            return capture if capture.is_file() else None
+        return self.practice.free.take
 
     def curves(self) -> ScoreCurves | None:
         """What the graph shows: the demonstration, the session, or its whole result once it may be seen."""

@@ -5,13 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from station.cli.input.read_captures import begins_as_capture, is_capture, performance_of_capture
+from station.app.music_files.named_parts import existing, is_lesson, load_part
+from station.app.music_files.read_captures import begins_as_capture, performance_of_capture
 from station.cli.options.option_fields import unread
 from station.core.counts import is_count
 from station.core.errors import BadInput
-from station.music.drum_part import DrumPart
-from station.music.formats.format_table import is_music_file, read_part
-from station.music.formats.groovescribe.groove_formats import is_groove_url, read_url
 from station.music.formats.smf.midi_part import MIDI
 from station.music.performance import Performance
 from station.music.score import Score
@@ -30,40 +28,11 @@ def is_midi(name: str) -> bool:
     return Path(name).suffix.lower() in MIDI_ENDINGS
 
 
-def is_lesson(name: str) -> bool:
-    """Whether `name` means a lesson, and not music in another file or in a link."""
-    return not is_music_file(name) and not is_capture(name) and not is_groove_url(name)
-
-
-def existing(name: str) -> Path:
-    """The path `name`; raises `BadInput` when there is no such file."""
-    path = Path(name)
-    if not path.is_file():
-        raise BadInput(name, "", "is a folder, not a file" if path.is_dir() else "no such file")
-    return path
-
-
-def load_part(name: str) -> DrumPart:
-    """The part that `name` means: a groove's link, a music file or a take by its ending, else a lesson."""
-    if is_groove_url(name):
-        return read_url(name)
-    if is_capture(name):
-        from station.cli.input.read_takes import take_as_score
-
-        return DrumPart(take_as_score(existing(name)), is_played=True)
-    if is_music_file(name):
-        return read_part(existing(name))
-    from station.cli.input.find_own_lesson import find_any_lesson
-    from station.drills.writing.lesson_part import part_of
-
-    return part_of(find_any_lesson(name))
-
-
 def load_score(name: str) -> Score:
     """The score that `name` means; of a lesson without its landing."""
     if not is_lesson(name):
         return load_part(name).score
-    from station.cli.input.find_own_lesson import find_any_lesson
+    from station.app.music_files.find_own_lesson import find_any_lesson
 
     return find_any_lesson(name).score
 
@@ -75,7 +44,7 @@ def load_led_score(name: str, kit: Kit, hands: Hands | None = None, as_written: 
     """
     if not is_lesson(name):
         return load_score(name)
-    from station.cli.input.find_own_lesson import find_any_lesson
+    from station.app.music_files.find_own_lesson import find_any_lesson
     from station.motion.sticking.limbs import as_led
 
     score = find_any_lesson(name).played_once
@@ -86,7 +55,7 @@ def kit_of_lesson(name: str) -> str:
     """The drummer's kit that the lesson `name` asks for; empty where it asks for none or `name` is a music file."""
     if not is_lesson(name):
         return ""
-    from station.cli.input.find_own_lesson import find_any_lesson
+    from station.app.music_files.find_own_lesson import find_any_lesson
 
     return find_any_lesson(name).kit
 
@@ -98,7 +67,7 @@ def words_of(name: str) -> ScoreWords:
     if not is_lesson(name):
         part = load_part(name)
         return ScoreWords(part.sections, part.beat_ticks)
-    from station.cli.input.find_own_lesson import find_any_lesson
+    from station.app.music_files.find_own_lesson import find_any_lesson
 
     lesson = find_any_lesson(name)
     return ScoreWords(lesson.sections, lesson.beat_ticks, lesson.cues)

@@ -31,9 +31,9 @@ from enum import IntEnum
 from pathlib import Path
 from typing import NamedTuple
 
+from station.core.disk.files import read_regular
 from station.core.errors import BadInput
 from station.core.events import Hit
-from station.core.files import read_regular
 from station.core.pieces import Articulation, Limb, Piece, Zone
 
 MOST_BYTES = 256 << 20

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from station.core.errors import BadInput
-from station.core.schema import either
+from station.core.toml.schema import either
 from station.devices.imu.witmotion import ACCELERATION, FIRST_TYPE, QUATERNION, RATE, TIME
 
 _COMMAND = struct.Struct("<2sBH")

@@ -25,11 +25,12 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from station.core.disk.files import write_whole
 from station.core.errors import BadInput
-from station.core.files import write_whole
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Piece, Zone
-from station.core.schema import (
+from station.core.settings import settings_path
+from station.core.toml.schema import (
     Field,
     Fields,
     Reader,
@@ -48,9 +49,8 @@ from station.core.schema import (
     whole,
     whole_key,
 )
-from station.core.settings import settings_path
-from station.core.toml_faults import Faults, wrong
-from station.core.toml_source import read_source, text_source
+from station.core.toml.toml_faults import Faults, wrong
+from station.core.toml.toml_source import read_source, text_source
 from station.core.units import ns_from_ms
 from station.devices.mapping.device_map import (
     CROSSTALK_BEFORE_NS,

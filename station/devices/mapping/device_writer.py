@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Articulation, Zone, word
-from station.core.toml_write import toml_text
+from station.core.toml.toml_write import toml_text
 from station.core.units import ms_from_ns
 from station.devices.mapping.device_map import PLAIN_PAD, Crosstalk, DeviceMap, Foot, Pad, PedalRange
 from station.devices.mapping.presets import GENERAL_MIDI_PRESET, KNOWN_KITS

@@ -13,14 +13,14 @@ import math
 import zlib
 from pathlib import Path
 
+from station.core.disk.files import write_whole
 from station.core.errors import BadInput
-from station.core.files import write_whole
 from station.core.imu import Mounting, Quaternion
 from station.core.pieces import Limb, word
-from station.core.schema import Field, Fields, Reader, choice, flag, number, read, record, row_of
 from station.core.settings import settings_path
-from station.core.toml_faults import wrong
-from station.core.toml_source import read_source, text_source
+from station.core.toml.schema import Field, Fields, Reader, choice, flag, number, read, record, row_of
+from station.core.toml.toml_faults import wrong
+from station.core.toml.toml_source import read_source, text_source
 from station.devices.mapping.device_file import own_kit_path
 
 _LONGEST_M = 1.0

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import CYMBALS, Articulation, Dynamic, Limb, Ornament, Piece
-from station.core.toml_places import KeyPath
+from station.core.toml.toml_places import KeyPath
 from station.drills.grid.grid import Bar
 from station.drills.grid.stroke_settings import StrokeSettings
 from station.drills.grid.tab_symbols import (

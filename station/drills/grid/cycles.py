@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from station.core.pieces import Ornament
-from station.core.schema import Fields, checked_values, needed
-from station.core.toml_faults import Faults
-from station.core.toml_places import KeyPath
+from station.core.toml.schema import Fields, checked_values, needed
+from station.core.toml.toml_faults import Faults
+from station.core.toml.toml_places import KeyPath
 from station.drills.grid.cell_strokes import BarClock, CellPlace, WrittenCell
 from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, lines_of_table, plain_line

@@ -6,9 +6,9 @@ from typing import Any
 
 from station.core.expected import LINE, expects, later
 from station.core.pieces import Limb, Piece, word
-from station.core.schema import Fields, Reader, checked_values, optional, table_like
-from station.core.toml_faults import Faults, wrong
-from station.core.toml_places import KeyPath
+from station.core.toml.schema import Fields, Reader, checked_values, optional, table_like
+from station.core.toml.toml_faults import Faults, wrong
+from station.core.toml.toml_places import KeyPath
 from station.drills.grid.cell_strokes import GridLine
 from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.tab_symbols import FOOT_OF, LIMB_TABLES, LINE_PIECES

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from station.core.expected import either_of, later, list_like
-from station.core.schema import Field, Fields, anything, checked_values, number, optional, table_like, title, whole
-from station.core.toml_faults import Faults
-from station.core.toml_places import KeyPath
+from station.core.toml.schema import Field, Fields, anything, checked_values, number, optional, table_like, title, whole
+from station.core.toml.toml_faults import Faults
+from station.core.toml.toml_places import KeyPath
 from station.drills.grid.cell_strokes import BarClock, WrittenCell
 from station.drills.grid.cycles import CYCLE, Cycle, by_repetition, cycle_strokes, read_cycles
 from station.drills.grid.grid import GridFrame

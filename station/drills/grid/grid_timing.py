@@ -9,9 +9,9 @@ from types import MappingProxyType
 from typing import Any
 
 from station.core.expected import either_of, expected_by, expects, list_like
-from station.core.schema import Fields, list_of, number, optional, said, shown, whole
-from station.core.toml_faults import Faults, wrong
-from station.core.toml_places import KeyPath
+from station.core.toml.schema import Fields, list_of, number, optional, said, shown, whole
+from station.core.toml.toml_faults import Faults, wrong
+from station.core.toml.toml_places import KeyPath
 from station.core.units import PPQ
 from station.drills.grid.stroke_settings import StrokeSettings, Velocities
 from station.drills.grid.tab_symbols import LINE_PIECES

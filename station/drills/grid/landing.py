@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Ornament
-from station.core.schema import checked_values
-from station.core.toml_faults import Faults
-from station.core.toml_places import KeyPath
+from station.core.toml.schema import checked_values
+from station.core.toml.toml_faults import Faults
+from station.core.toml.toml_places import KeyPath
 from station.drills.grid.cell_strokes import BarClock, Origin, expand
 from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, lines_of_table, plain_line

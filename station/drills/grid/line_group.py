@@ -4,7 +4,7 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from station.core.toml_faults import Faults, wrong
+from station.core.toml.toml_faults import Faults, wrong
 from station.drills.grid.cell_strokes import BarClock, WrittenCell, line_strokes, parted
 from station.drills.grid.grid import Bar, GridFrame, Report, parse_line
 from station.drills.grid.grid_lines import RawLine

@@ -1,4 +1,4 @@
-"""The lines of the grid that a stretch of a score is written with: letters, sticking and limb tables.
+"""The lines of the grid that some bars of a score are written with: letters, sticking and limb tables.
 
 The reverse of `cell_strokes` and `sticking_line`. Strokes whose hands a sticking line can say are written with one; the
 others go to `right_hand.…` and `left_hand.…` lines. Whatever has no letter raises `BadInput` with its bar.

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import sqrt
 from types import MappingProxyType
 
-from station.core.schema import either
+from station.core.toml.schema import either
 from station.drills.grid.grid import Bar, Cell, Report
 from station.drills.grid.tab_symbols import RESTS
 from station.music.loudness_marks import FADE, GROW, USUAL, LoudnessMark

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from station.core.expected import TEXT, expects
 from station.core.named_view import NamedView
 from station.core.pieces import word
-from station.core.schema import Field, Fields, checked_values, list_of, number, one_of, optional, title, whole
-from station.core.toml_faults import Faults
+from station.core.toml.schema import Field, Fields, checked_values, list_of, number, one_of, optional, title, whole
+from station.core.toml.toml_faults import Faults
 from station.core.units import PPQ
 from station.drills.lesson import BarCue
 from station.drills.reading.tempo_marks import TempoMark

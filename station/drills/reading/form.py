@@ -1,4 +1,4 @@
-"""The grids of a file as the teacher meant them: variations (`like`), endings, and the order in which they are played.
+"""The grids of a file as the teacher meant them: variations (`like`) and endings; `form_order` has their order.
 
 All this is worked out on the raw tables, before a line is read: a variation is a table that has its own keys and those
 of the grid it is like. What is wrong in lines that it took over is told where they stand, once.
@@ -11,10 +11,10 @@ from typing import Any
 
 from station.core.expected import either_of, expected_by, expects, list_like
 from station.core.pieces import Piece
-from station.core.schema import Field as SchemaField
-from station.core.schema import anything, list_of, no_such, optional, title, whole
-from station.core.toml_faults import Faults, Noted, wrong
-from station.core.toml_places import KeyPath
+from station.core.toml.schema import Field as SchemaField
+from station.core.toml.schema import anything, list_of, no_such, optional, title, whole
+from station.core.toml.toml_faults import Faults, Noted, wrong
+from station.core.toml.toml_places import KeyPath
 from station.drills.grid.grid_reader import MAX_TIMES
 from station.drills.grid.sticking_line import STICKING
 from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
@@ -22,8 +22,6 @@ from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
 LIKE, ENDING, AT, NAME, TIMES = "like", "ending", "at", "name", "times"
 MAX_GRIDS = 500
 """One for every fourth bar of the longest lesson (our choice)."""
-MAX_FORM = 1000
-"""Entries of a form: more than one for every other bar of the longest lesson (our choice)."""
 
 
 @expects(either_of(expected_by(whole(1, MAX_TIMES)), list_like(expected_by(whole(1, MAX_TIMES)), 1)))
@@ -236,79 +234,6 @@ def _no_late_endings(grids: Sequence[WrittenGrid], faults: Faults) -> None:
         if late := [n + 1 for n in grid.repetitions if n >= times]:
             often = "once" if times == 1 else f"{times} times"
             faults.add((*grid.path, ENDING), f"the grid before is played {often}; there is no repetition {late[0]}")
-
-
-# --- the order --------------------------------------------------------------------------------------------------------
-
-
-def played_order(raw: object, grids: Sequence[WrittenGrid], faults: Faults) -> list[int]:
-    """The indices of the grids in the order of the form, endings left out; each once where the file has no form."""
-    mains = [i for i, grid in enumerate(grids) if not grid.is_ending]
-    if raw is None:
-        return mains
-    nothing: tuple[str, ...] = ()
-    entries = faults.attempt(_entries, raw, nothing, "form")
-    by_name = {grid.name: i for i, grid in reversed(list(enumerate(grids))) if grid.name}
-    order: list[int] = []
-    wrong_names: set[str] = set()
-    for place, name in enumerate(entries):
-        found = by_name.get(name)
-        if found is not None and not grids[found].is_ending:
-            order.append(found)
-        elif found is None and any(_is_doubtful(grids[i], faults) for i in mains):
-            wrong_names.add(name)  # the grid that is meant may be the one that is at fault
-        elif name not in wrong_names:  # each is told once
-            wrong_names.add(name)
-            faults.noted.append(Noted(_not_played(name, found, mains, grids), *_place_in_form(raw, place)))
-    if entries and not wrong_names:  # a name that nobody knows may be meant for what is never played
-        _all_played(order, mains, grids, faults)
-    return order or mains
-
-
-def _not_played(name: str, found: int | None, mains: Sequence[int], grids: Sequence[WrittenGrid]) -> str:
-    """Why the form cannot play `name`, which is the grid `found` or none."""
-    if found is not None:
-        return f"{name} is an ending, which is played after its grid; expected that grid's name"
-    known = [grids[i].name for i in mains if grids[i].name]
-    return no_such("grid", name, known) if known else "no grid has a name; expected name = …"
-
-
-def _place_in_form(raw: object, place: int) -> tuple[KeyPath, int | None]:
-    """Where an entry of the form stands: the path of the list's, or the index of its first letter in the text."""
-    if not isinstance(raw, str):
-        return ("form", place), None
-    entries = raw.split(",")
-    before = sum(len(entry) + 1 for entry in entries[:place])
-    return ("form",), before + len(entries[place]) - len(entries[place].lstrip())
-
-
-def _entries(value: object) -> tuple[str, ...]:
-    example = 'a list such as ["A", "A", "B"], or "A, A, B"'
-    if isinstance(value, str):
-        value = value.split(",")
-    names = list_of(title, example)(value)
-    if not 1 <= len(names) <= MAX_FORM:
-        raise wrong(f"{len(names)} entries; expected 1 to {MAX_FORM}, {example}")
-    return names
-
-
-def _is_doubtful(grid: WrittenGrid, faults: Faults) -> bool:
-    """Whether the grid has no name and a fault: that may be why it has none, or seems to be no ending."""
-    return not grid.name and any(fault.path[: len(grid.path)] == grid.path for fault in faults.noted)
-
-
-def _all_played(order: Sequence[int], mains: Sequence[int], grids: Sequence[WrittenGrid], faults: Faults) -> None:
-    """Note grids that the form never plays."""
-    played = {grids[i].name for i in order}
-    for grid in (grids[i] for i in sorted(set(mains) - set(order))):
-        if _is_doubtful(grid, faults) or grid.name in played:  # of two with one name that is told already
-            continue
-        if grid.name:
-            faults.add((*grid.path, NAME), f"never played; expected {grid.name} in form")
-        else:
-            faults.add(
-                grid.path, "never played, for it has no name; expected name = … and that name in form", at_key=True
-            )
 
 
 def repetitions(main: int, grids: Sequence[WrittenGrid], times: Sequence[int]) -> Iterator[tuple[int, int]]:

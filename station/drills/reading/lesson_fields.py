@@ -9,7 +9,7 @@ from typing import Any
 
 from station.core.expected import LINE, TEXT, either_of, expected_by, expects, later, list_like
 from station.core.pieces import Limb
-from station.core.schema import (
+from station.core.toml.schema import (
     Field,
     Fields,
     checked_values,
@@ -28,7 +28,7 @@ from station.core.schema import (
     title,
     whole,
 )
-from station.core.toml_faults import Faults, wrong
+from station.core.toml.toml_faults import Faults, wrong
 from station.core.units import PPQ
 from station.drills.grid.grid_lines import LINES
 from station.drills.grid.grid_reader import GRID

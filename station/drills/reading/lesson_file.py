@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.disk.files import read_regular
 from station.core.errors import BadInput
-from station.core.files import read_regular
 from station.core.labels import limb_name
 from station.core.pieces import Limb, word
-from station.core.schema import Reader, checked_values, read, reading, row_of, whole
-from station.core.toml_faults import Fault, Faults, Wrong, wrong
-from station.core.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
+from station.core.toml.schema import Reader, checked_values, read, reading, row_of, whole
+from station.core.toml.toml_faults import Fault, Faults, Wrong, wrong
+from station.core.toml.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ
 from station.drills.grid.cell_strokes import Origin, WrittenCell, expand, parted
 from station.drills.grid.grid_reader import read_grid
@@ -29,7 +29,8 @@ from station.drills.grid.landing import read_landing
 from station.drills.grid.line_group import MAX_BARS, MAX_CELLS, CellCount
 from station.drills.lesson import Goals, Lesson
 from station.drills.reading.bar_cues import GridShape, read_cues
-from station.drills.reading.form import WrittenGrid, home_of, played_order, told_at_home, written_grids
+from station.drills.reading.form import WrittenGrid, home_of, told_at_home, written_grids
+from station.drills.reading.form_order import played_order
 from station.drills.reading.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
 from station.drills.reading.misplaced_keys import sent_home
 from station.drills.reading.played_grids import (

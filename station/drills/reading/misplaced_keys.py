@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 
-from station.core.schema import Fields
-from station.core.toml_faults import Noted
+from station.core.toml.schema import Fields
+from station.core.toml.toml_faults import Noted
 from station.drills.grid.grid_reader import GRID
 from station.drills.grid.grid_timing import DYNAMICS, GRACES
 from station.drills.reading.bar_cues import AT

@@ -8,13 +8,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, groupby
 
-from station.core.toml_faults import wrong
+from station.core.toml.toml_faults import wrong
 from station.drills.grid.cell_strokes import WrittenCell
 from station.drills.grid.grid_reader import GridSection
 from station.drills.grid.line_group import MAX_BARS
 from station.drills.lesson import BarCue, Section
 from station.drills.reading.bar_cues import GridCue
 from station.drills.reading.form import WrittenGrid, ending_word, repetitions
+from station.drills.reading.form_order import Turn
 from station.drills.reading.tempo_marks import STEPS_A_BEAT, Ramp, TempoMark, marked_tempos
 from station.music.tempo import MeterChange, TempoChange
 
@@ -44,11 +45,15 @@ class ReadGrid:
 
 @dataclass(frozen=True, slots=True)
 class PlayedGrid:
-    """One repetition (from 0) of a grid in the given `turn`: where it begins, and the name that its section has."""
+    """One repetition (from 0) of a grid in the given `turn` of an `entry` of the form.
+
+    It says where it begins, and the name that its section has.
+    """
 
     grid: ReadGrid
     repetition: int
     turn: int
+    entry: int
     start_tick: int
     first_bar: int
     name: str
@@ -77,16 +82,17 @@ def check_size(bars: int, strokes: int, grid: WrittenGrid) -> None:
         raise wrong(f"{strokes} strokes up to here; a lesson has at most {MAX_STROKES}", *grid.path)
 
 
-def laid_out(order: Sequence[int], grids: Sequence[ReadGrid]) -> list[PlayedGrid]:
+def laid_out(order: Sequence[Turn], grids: Sequence[ReadGrid]) -> list[PlayedGrid]:
     """All that is played, turn by turn; raises `Wrong` where it is more than anyone practises."""
     played: list[PlayedGrid] = []
     tick = bars = strokes = 0
-    for turn, main in enumerate(order):
+    for number, turn in enumerate(order):
+        main = turn.grid
         name = grids[main].written.name
         for index, repetition in repetitions(main, [g.written for g in grids], [g.section.times for g in grids]):
             grid = grids[index]
             called = name if index == main else grid.written.name or (name and f"{name}, {ending_word(grid.written)}")
-            played.append(PlayedGrid(grid, repetition, turn, tick, bars, called))
+            played.append(PlayedGrid(grid, repetition, number, turn.entry, tick, bars, called))
             tick, bars = played[-1].end_tick, bars + grid.section.bar_count
             strokes += len(grid.section.parts[repetition])
             check_size(bars, strokes, grid.written)
@@ -94,8 +100,8 @@ def laid_out(order: Sequence[int], grids: Sequence[ReadGrid]) -> list[PlayedGrid
 
 
 def sections_of(played: Sequence[PlayedGrid]) -> tuple[Section, ...]:
-    """The sections that the report speaks of: repetitions of a grid that follow each other in a turn are one."""
-    runs = [list(run) for _, run in groupby(played, lambda s: (s.turn, id(s.grid)))]
+    """The sections that the report speaks of: repetitions of a grid that follow each other in an entry are one."""
+    runs = [list(run) for _, run in groupby(played, lambda s: (s.entry, id(s.grid)))]
     return tuple(
         Section(run[0].name, run[0].first_bar, run[-1].last_bar, run[0].grid.section.timing.swing) for run in runs
     )

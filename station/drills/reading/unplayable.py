@@ -11,7 +11,7 @@ from math import floor
 
 import numpy as np
 
-from station.core.toml_faults import Faults
+from station.core.toml.toml_faults import Faults
 from station.core.units import PPQ
 from station.drills.grid.cell_strokes import Origin
 from station.drills.lesson import Lesson

@@ -2,21 +2,22 @@
 
 A piece is cut where its tempo or meter changes and where the file's own sections begin; without those, where a crash
 opens a new part. What lies between is cut into phrases of the length, of 2, 4 or 8 bars, that makes the shortest
-page. A phrase that is one pattern again and again is written as the pattern with its `times`; phrases that are the same
-are one grid that the form names again; one in which few lines differ from an earlier grid is a variation of that.
+page, or into a groove and what comes between it, such as fills. A phrase that is one pattern again and again is written
+as the pattern with its `times`; phrases that are the same are one grid that the form names again; one in which few
+strokes differ from an earlier grid has that one's letter and a number, and is written as a variation of it where few
+lines differ.
 """
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
 from itertools import pairwise
-from math import gcd
+from statistics import fmean
 from string import ascii_uppercase
 
 from station.drills.grid.grid_reader import MAX_TIMES
 from station.drills.grid.grid_writer import LineText
-from station.drills.grid.lines_from_score import lines_of, strokes_by_bar
+from station.drills.grid.lines_from_score import WrittenStroke, lines_of, strokes_by_bar
 from station.drills.lesson import Lesson
 from station.drills.transcription.bar_contents import BarContents, bar_contents
 from station.drills.writing.lesson_form import FormGrid, LessonForm
@@ -32,8 +33,9 @@ _GRID, _ENTRY = 2.0, 0.3
 """What a grid's head and an entry of the form cost on the page, in bars that are written out (our choice)."""
 _WIDE = 4
 """Bars beside each other that a page has room for: four of sixteenths are 90 characters. Further ones cost twice."""
-_MOST_TURNS = 4
-"""So often the form names a grid again before a grid of its own says how often it is played (our choice)."""
+_ALIKE = 0.7
+"""Grids that share so many of their strokes are one idea and its variation: three bars of four, and a fill (our
+choice)."""
 _FILL, _PICK_UP = "fill", "pick-up"
 _LONGEST_FILL = 2
 
@@ -53,22 +55,24 @@ def found_form(lesson: Lesson, sections: Sequence[PartSection]) -> LessonForm:
     bars = bar_contents(lesson.score, lesson.beyond)
     blocks = [block for span in _spans(bars, sections) for block in _blocks(bars, *span)]
     grids, order = _shared(bars, blocks)
-    names = _names(bars, [blocks[i] for i in grids])
     times = _times(blocks, len(grids), order)
+    models = _models([blocks[i] for i in grids], lesson)
+    names = _names(bars, [blocks[i] for i in grids], models)
     written = [
-        FormGrid(name, blocks[i].first, blocks[i].bars, each) for i, name, each in zip(grids, names, times, strict=True)
+        FormGrid(name, blocks[i].first, blocks[i].bars, each, model.index if model and model.is_written else None)
+        for i, name, each, model in zip(grids, names, times, models, strict=True)
     ]
     entries = tuple(g for i, g in enumerate(order) for _ in range(blocks[i].times // times[g]))
     if len(written) == 1 and not blocks[0].section and len(entries) == 1:
         written = [replace(written[0], name="")]
-    return LessonForm(tuple(_with_models(written, lesson)), entries)
+    return LessonForm(tuple(written), entries)
 
 
 # --- where it is cut --------------------------------------------------------------------------------------------------
 
 
 def _spans(bars: BarContents, sections: Sequence[PartSection]) -> Iterator[tuple[int, int, str]]:
-    """First bar, the bar after the last, and the file's name of each stretch that is looked at by itself."""
+    """First bar, the bar after the last, and the file's name of each run of bars that is looked at by itself."""
     name_of = {s.first_bar: s.name for s in sections if s.first_bar < bars.count}
     ends = {s.last_bar + 1 for s in sections}
     parts = set() if sections else _new_parts(bars)
@@ -96,10 +100,24 @@ def _new_parts(bars: BarContents) -> set[int]:
 
 
 def _blocks(bars: BarContents, start: int, end: int, section: str) -> list[_Block]:
-    """A stretch as patterns and how often each is played."""
+    """A run of bars as patterns and how often each is played."""
     is_whole = section and end - start <= _LONGEST
     lengths = ((end - start,) if is_whole else ()) + _PHRASES
-    return min((_cut(bars, start, end, n, section) for n in lengths), key=lambda found: _cost(bars, found))
+    cuts = [*(_cut(bars, start, end, n, section) for n in lengths), _runs(bars, start, end, section)]
+    return min(cuts, key=lambda found: _cost(bars, found))
+
+
+def _runs(bars: BarContents, start: int, end: int, section: str) -> list[_Block]:
+    """A groove wherever a bar comes again at once, and what is played between."""
+    at = [b for b in range(start, end) if b == start or _turns_at(bars, b)]
+    return [_folded(bars, a, b, section) for a, b in pairwise([*at, end])]
+
+
+def _turns_at(bars: BarContents, bar: int) -> bool:
+    """Whether a bar begins what is played again and again, or what is not."""
+    before, here, after = (bars.contents[b] if b < bars.count else None for b in (bar - 1, bar, bar + 1))
+    last = bars.contents[bar - 2] if bar > 1 else None
+    return bar not in bars.bound and here != before and (here == after or before == last)
 
 
 def _cut(bars: BarContents, start: int, end: int, length: int, section: str) -> list[_Block]:
@@ -144,32 +162,31 @@ def _cost(bars: BarContents, blocks: Sequence[_Block]) -> float:
 
 def _shared(bars: BarContents, blocks: Sequence[_Block]) -> tuple[list[int], list[int]]:
     """The blocks that are written, each the first of its kind, and which of them each block is."""
-    turns: dict[object, list[int]] = {}
-    for block in blocks:
-        turns.setdefault(_pattern(bars, block), []).append(block.times)
     first: dict[object, int] = {}
     written: list[int] = []
     order: list[int] = []
     for i, block in enumerate(blocks):
         pattern = _pattern(bars, block)
-        is_one = max(turns[pattern]) // reduce(gcd, turns[pattern]) <= _MOST_TURNS
-        kind = pattern if is_one else (pattern, block.times)
-        if kind not in first:
-            first[kind] = len(written)
+        if pattern not in first:
+            first[pattern] = len(written)
             written.append(i)
-        order.append(first[kind])
+        order.append(first[pattern])
     return written, order
 
 
 def _times(blocks: Sequence[_Block], count: int, order: Sequence[int]) -> list[int]:
-    """How often each grid is played for one entry of the form: what all its blocks are multiples of."""
-    return [reduce(gcd, (b.times for b, g in zip(blocks, order, strict=True) if g == i)) for i in range(count)]
+    """How often each grid is played for one entry of the form: as often as all its blocks are, or once."""
+    found = [{b.times for b, g in zip(blocks, order, strict=True) if g == i} for i in range(count)]
+    return [times.pop() if len(times) == 1 else 1 for times in found]
 
 
-def _names(bars: BarContents, written: Sequence[_Block]) -> list[str]:
-    """A name for each grid: the file's, "pick-up", "fill", or a letter."""
+def _names(bars: BarContents, written: Sequence[_Block], models: Sequence["_Model | None"]) -> list[str]:
+    """A name for each grid: the file's, "pick-up", "fill", or a letter; a variation has its model's and a number."""
     letters = _letters()
-    wanted = [block.section or _word(bars, block) or next(letters) for block in written]
+    wanted: list[str] = []
+    for block, model in zip(written, models, strict=True):
+        own = block.section or _word(bars, block)
+        wanted.append(own or (wanted[model.index] if model else next(letters)))
     counts: Counter[str] = Counter()
     taken = set(wanted)
     names: list[str] = []
@@ -202,23 +219,44 @@ def _letters() -> Iterator[str]:
 # --- variations -------------------------------------------------------------------------------------------------------
 
 
-def _with_models(grids: Sequence[FormGrid], lesson: Lesson) -> list[FormGrid]:
-    """The grids, those that share more lines with an earlier one than they have of their own as its variations."""
+@dataclass(frozen=True, slots=True)
+class _Model:
+    """The grid that another is a variation of, and whether it is written as one."""
+
+    index: int
+    is_written: bool
+
+
+def _models(blocks: Sequence[_Block], lesson: Lesson) -> list[_Model | None]:
+    """Of each grid the earlier one that it shares most strokes with, if most are the same."""
     by_bar = strokes_by_bar(lesson.score, lesson.beyond)
-    lines = [_marks(lines_of(by_bar, g.first_bar, g.first_bar + g.bars - 1)) for g in grids]
-    meters = [str(lesson.score.tempo_map.meter_at(lesson.score.tempo_map.bar_start(g.first_bar))) for g in grids]
-    found: list[FormGrid] = []
-    for i, grid in enumerate(grids):
-        alike = [
-            k
-            for k, model in enumerate(found)
-            if model.like is None and (model.bars, meters[k]) == (grid.bars, meters[i]) and _is_near(lines[k], lines[i])
-        ]
-        found.append(replace(grid, like=max(alike, key=lambda k: _same(lines[k], lines[i])) if alike else None))
+    lines = [_marks(lines_of(by_bar, b.first, b.first + b.bars - 1)) for b in blocks]
+    strokes = [_strokes(by_bar, block) for block in blocks]
+    meters = [str(lesson.score.tempo_map.meter_at(lesson.score.tempo_map.bar_start(b.first))) for b in blocks]
+    found: list[_Model | None] = []
+    for i, block in enumerate(blocks):
+        first = [k for k in range(i) if found[k] is None and (blocks[k].bars, meters[k]) == (block.bars, meters[i])]
+        near = [k for k in first if _is_near(lines[k], lines[i])]
+        shares = {k: _share(strokes[k], strokes[i]) for k in near or first}
+        best = max(shares, key=lambda k: shares[k], default=None)
+        is_one = best is not None and (bool(near) or shares[best] >= _ALIKE)
+        found.append(_Model(best, bool(near)) if best is not None and is_one else None)
     return found
 
 
 _Marks = Mapping[str, object]
+_Strokes = tuple[frozenset[tuple[int, int]], ...]
+"""Piece, and tick in the bar, of each stroke of each bar."""
+
+
+def _strokes(by_bar: Mapping[int, Sequence[WrittenStroke]], block: _Block) -> _Strokes:
+    bars = (by_bar.get(bar, ()) for bar in range(block.first, block.first + block.bars))
+    return tuple(frozenset((int(s.note.piece), s.note.tick - s.start) for s in bar) for bar in bars)
+
+
+def _share(model: _Strokes, own: _Strokes) -> float:
+    """How many of the strokes of both are the same, bar by bar (Jaccard 1901), in the mean."""
+    return fmean(len(a & b) / len(a | b) if a | b else 1.0 for a, b in zip(model, own, strict=True))
 
 
 def _marks(lines: Sequence[LineText]) -> _Marks:

@@ -6,7 +6,7 @@ ship, whose authors wrote their stickings, 335 of the 353 bars that this names a
 bars, rudiments above all, it would be one in four.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
 
@@ -38,14 +38,20 @@ _SURE_BESIDE_TIME = "natural sticking"
 
 
 def with_sticking(lesson: Lesson, form: LessonForm) -> Lesson:
-    """`lesson`, its hands named where they are sure; as it is where its file says any hand."""
+    """`lesson`, its hands named where they are sure; as it is where its file says any hand.
+
+    Bars in which the hands play the same, loud or soft, have the same hands: those of the first that is sure.
+    """
     rows = lesson.score.notes.copy()
     if np.isin(rows["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND)).any():
         return lesson
-    kit = load_kit()
-    limbs = [_sure_limbs(_played(lesson.score, grid, grid.first_bar), kit) for grid in form.grids]
-    for i, first_bar in _turns(form):
-        grid, own = form.grids[i], limbs[i]
+    kit, known = load_kit(), dict[bytes, NDArray[np.int8]]()
+    for grid in form.grids:
+        for written, hands in _sure_bars(_played(lesson.score, grid, grid.first_bar), kit):
+            known.setdefault(written, hands)
+    limbs = [_limbs(_played(lesson.score, grid, grid.first_bar), known) for grid in form.grids]
+    for index, first_bar in _turns(form):
+        grid, own = form.grids[index], limbs[index]
         start, end = (lesson.score.tempo_map.bar_start(b) for b in (first_bar, first_bar + grid.bars))
         rows["limb"][(rows["tick"] >= start) & (rows["tick"] < end)] = own
     score = replace(lesson.score, notes=rows)
@@ -65,31 +71,39 @@ def _turns(form: LessonForm) -> Iterator[tuple[int, int]]:
             bar += form.grids[index].bars
 
 
-def _sure_limbs(score: Score, kit: Kit) -> NDArray[np.int8]:
-    """The limb of each stroke (n,), the hands' only in bars where they are sure."""
+def _limbs(score: Score, known: Mapping[bytes, NDArray[np.int8]]) -> NDArray[np.int8]:
+    """The limb of each stroke (n,), the hands' only in bars that are known."""
     found: NDArray[np.int8] = score.notes["limb"].copy()
-    if not len(score):
-        return found
-    chosen, reasons = limbs_and_reasons(score, kit)
-    hands = np.isin(score.notes["piece"], sorted(HAND_PIECES))
-    chosen = _with_their_mains(score, chosen)
-    bars = [np.flatnonzero(hands & (score.bar == bar)) for bar in np.unique(score.bar[hands])]
-    known: dict[bytes, NDArray[np.int8]] = {}
-    for rows in bars:
-        mains = [i for i in rows.tolist() if not score.is_grace[i]]
-        if _is_sure({reasons[i] for i in mains}) and _can_be_said(score, chosen, mains):
-            found[rows] = known[_as_written(score, rows)] = chosen[rows]
-    for rows in bars:
-        if (found[rows] == Limb.UNKNOWN).all():
-            found[rows] = known.get(_as_written(score, rows), found[rows])
+    for rows in _hands_by_bar(score):
+        found[rows] = known.get(_as_written(score, rows), found[rows])
     return found
 
 
+def _sure_bars(score: Score, kit: Kit) -> Iterator[tuple[bytes, NDArray[np.int8]]]:
+    """What the hands have in each bar where they are sure, and which hand has it."""
+    bars = _hands_by_bar(score)
+    if not bars:
+        return
+    chosen, reasons = limbs_and_reasons(score, kit)
+    chosen = _with_their_mains(score, chosen)
+    for rows in bars:
+        mains = [i for i in rows.tolist() if not score.is_grace[i]]
+        if _is_sure({reasons[i] for i in mains}) and _can_be_said(score, chosen, mains):
+            yield _as_written(score, rows), chosen[rows]
+
+
+def _hands_by_bar(score: Score) -> list[NDArray[np.intp]]:
+    """The rows of the hands in each bar that has any."""
+    hands = np.isin(score.notes["piece"], sorted(HAND_PIECES))
+    return [np.flatnonzero(hands & (score.bar == bar)) for bar in np.unique(score.bar[hands])]
+
+
 def _as_written(score: Score, rows: NDArray[np.intp]) -> bytes:
-    """What the hands have in a bar, whichever bar it is: where it comes again they play it alike."""
-    notes = score.notes[rows].copy()
-    notes["tick"] -= score.tempo_map.bar_start(int(score.bar[rows[0]]))
-    return notes.tobytes()
+    """What the hands have in a bar, whichever bar it is and however loud."""
+    notes = score.notes[rows]
+    start = score.tempo_map.bar_start(int(score.bar[rows[0]]))
+    columns = (notes["tick"] - start, notes["piece"], notes["ornament"], notes["lead_ms"] > 0)
+    return np.stack([column.astype(np.int64) for column in columns]).tobytes()
 
 
 def _is_sure(reasons: set[str]) -> bool:

@@ -6,6 +6,7 @@ what is beyond one player, diddles, and last the page: sections, repeats, level.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import ceil
 from statistics import median
 
 from station.core.errors import BadInput
@@ -23,11 +24,11 @@ from station.drills.transcription.strokes.loudness_levels import with_dynamics
 from station.drills.transcription.strokes.ornament_finder import FoundOrnaments, found_ornaments
 from station.drills.transcription.strokes.reach import within_reach
 from station.drills.transcription.strokes.ringing import with_lengths
+from station.drills.transcription.strokes.steady_dynamics import steady_dynamics
 from station.drills.transcription.timing.grid_times import GridTimes, quantised_times
 from station.drills.transcription.timing.meter_finder import with_heard_meter
 from station.drills.transcription.timing.stated_swing import readable, stated_times
 from station.drills.transcription.timing.tempo_steps import steady
-from station.drills.writing.lesson_form import LessonForm
 from station.drills.writing.lesson_writer import as_written
 from station.music.drum_part import DrumPart, PartSection
 from station.music.grace_strokes import with_graces
@@ -38,6 +39,10 @@ from station.music.tempo import TempoMap
 _LEVELS_FROM = (13.0, 18.5, 23.7, 27.9)
 """From which difficulty on a lesson is of level 2, 3, 4, 5: half way between the medians of the lessons that ship, at
 the tempo to reach, which are 10.0, 16.0, 21.0, 26.4 and 29.4."""
+_LEVEL_BARS = 2
+"""Bars of the middle lesson that ships, of every level but the first. Longer runs of bars have more to know."""
+_MOST_MEASURED = 50
+"""Pairs of bars that tell the level of a piece, spread over it (our choice; a second at most)."""
 MOST_STROKES = 12_000
 """Our choice: 20 minutes of ten a second, which take some seconds to read; the longest lesson that ships has 230."""
 _MOST_CHARACTERS = 2000
@@ -82,7 +87,9 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         times = times.bars(int(times.score.bar[0]), int(times.score.bar[-1]))
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
     strokes, velocities = with_dynamics([as_letter(note) for note in score])
-    strokes = unified(strokes) if times.spread_ms else strokes
+    if times.spread_ms:
+        heard = score.notes["velocity"].tolist()
+        strokes = unified(steady_dynamics(strokes, heard, velocities, score.tempo_map))
     strokes = [_written(note, velocities) for note in strokes]
     reach = within_reach(strokes, ornaments.graces, score.tempo_map, score.end_tick)
     notes = with_diddles(with_lengths(reach, _ends(score, part), times), reach.beyond, score.tempo_map, velocities)
@@ -101,7 +108,7 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         velocities=velocities,
     )
     form = found_form(lesson, part.sections)
-    lesson = with_sticking(replace(lesson, level=_level(lesson, form)), form)
+    lesson = with_sticking(replace(lesson, level=_level(lesson)), form)
     read = as_written(lesson, form)
     return Transcribed(read, tuple(remarks_on(ornaments, whole, mains, reach, read)))
 
@@ -132,10 +139,12 @@ def _earlier(sections: Sequence[PartSection], bars: int) -> tuple[PartSection, .
     return tuple(s for s in moved if s.last_bar >= 0)
 
 
-def _level(lesson: Lesson, form: LessonForm) -> int:
-    """How hard it is, 1–5: as hard as the middle one of its grids, for lessons that ship are as long as a grid."""
-    parts = [replace(lesson, loop=(grid.first_bar, grid.first_bar + grid.bars - 1)) for grid in form.grids]
-    middle = median(difficulty(each).total for each in parts if len(each.loop_score) or len(parts) == 1)
+def _level(lesson: Lesson) -> int:
+    """How hard it is, 1–5: as hard as the middle one of its pairs of bars, for lessons that ship have two bars."""
+    last = lesson.score.bar_count - 1
+    step = _LEVEL_BARS * ceil((last + 1) / (_LEVEL_BARS * _MOST_MEASURED))
+    parts = [replace(lesson, loop=(bar, min(bar + _LEVEL_BARS - 1, last))) for bar in range(0, last + 1, step)]
+    middle = median([difficulty(each).total for each in parts if len(each.loop_score)] or [0.0])
     return 1 + sum(middle >= least for least in _LEVELS_FROM)
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from station.core.expected import DRAFT, JsonSchema, list_like
-from station.core.schema import table_like
+from station.core.toml.schema import table_like
 from station.drills.grid.tab_symbols import LINE_PIECES
 from station.drills.reading.lesson_fields import FIELDS
 from station.drills.writing.lesson_words import LINES, words_of

@@ -4,7 +4,7 @@ A teacher's comments, the order of keys and the spelling of values stay. What `s
 (docs/lesson-format.md, "What show changes"): within a grid the `=` and the strings stand under each other, bars and
 beats too, with the count above them; blanks at the ends of rows go. Showing what was shown changes nothing.
 
-Texts here are those of lessons without a fault; offsets and key paths are those of `core.toml_places`.
+Texts here are those of lessons without a fault; offsets and key paths are those of `core.toml.toml_places`.
 """
 
 import re
@@ -13,9 +13,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
-from station.core.toml_places import KeyPath, Places
-from station.core.toml_source import load
-from station.core.toml_write import toml_value
+from station.core.toml.toml_places import KeyPath, Places
+from station.core.toml.toml_source import load
+from station.core.toml.toml_write import toml_value
 from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
 from station.drills.writing.line_layout import Meters, bar_count, laid_out
 from station.drills.writing.written_meters import written_meters

@@ -34,8 +34,8 @@ WORDS: Mapping[str, str] = MappingProxyType(
         "passes": "how often the loop is played",
         "count_in_bars": "bars of click before it",
         "demonstrations": "how often the drummer plays it first",
-        "form": 'the order in which the grids are played, by their names: a list, or "intro, A, A, B"; left out, each'
-        " once, as written",
+        "form": 'the order in which the grids are played, by their names: a list, or "intro, A, A, B"; "A x3" is'
+        ' A three times, "(A, B) x2" both twice; left out, each once, as written',
         "landing": "what is struck on the first beat after the last loop: lines of one letter each",
         "hints": "what the report adds where it names a fault: the fault's word and a sentence",
         # how strokes are struck
@@ -65,7 +65,7 @@ WORDS: Mapping[str, str] = MappingProxyType(
         "goals.left_hand": "what is asked of the left hand besides",
         "goals.right_foot": "what is asked of the right foot besides",
         "goals.left_foot": "what is asked of the left foot besides",
-        "goals.bars": "what is asked of some bars besides, one table for each stretch",
+        "goals.bars": "what is asked of some bars besides, one table for each run of bars",
         "goals.bars.bars": "first and last bar, as played, counted from 1",
         # grids
         "grid": "the music: one table, or several that are played one after the other",

@@ -5,11 +5,11 @@ back (all strokes but the MIDI numbers that they once came from).
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 from station.core.errors import BadInput
 from station.core.pieces import word
-from station.core.toml_write import toml_text
+from station.core.toml.toml_write import toml_text
 from station.core.units import PPQ
 from station.drills.grid.grid_writer import GridSetting, LineText, frame_of, with_repeats, write_lines
 from station.drills.grid.line_group import MAX_CELLS
@@ -17,17 +17,16 @@ from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines
 from station.drills.grid.stroke_settings import Velocities
 from station.drills.lesson import Lesson
 from station.drills.reading.lesson_file import parse_lesson
+from station.drills.writing.form_text import form_text
 from station.drills.writing.lesson_form import FormGrid, LessonForm, form_of
 from station.drills.writing.lesson_text import show
-from station.drills.writing.score_difference import score_difference
+from station.drills.writing.score_difference import in_one_order, score_difference
 from station.music.grace_strokes import Graces
 from station.music.score import Score
 from station.music.swing import Swing
 from station.music.tempo import TempoChange
 
 _DYNAMICS = ("ghost", "normal", "accent")
-_MOST_SHOWN = 2 * MAX_CELLS
-"""Characters of a text that is laid out; a longer one has more letters than any lesson and is refused as it is."""
 
 
 def write_lesson(lesson: Lesson, form: LessonForm | None = None) -> str:
@@ -44,16 +43,22 @@ def as_written(lesson: Lesson, form: LessonForm | None = None) -> Lesson:
     form = form or form_of(lesson)
     parts = [_head(lesson, form), _dynamics(lesson.velocities), _graces(lesson.score), _grids(lesson, form)]
     text = "".join(f"{line}\n" for part in parts for line in part)
-    text = show(text) if len(text) <= _MOST_SHOWN else text
     found = parse_lesson(text, lesson.name, lesson.name)
     if (read := found.lesson) is None:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {found.faults[0].text}")
     difference = score_difference(lesson.score, read.score)
-    if not difference and lesson.beyond.tobytes() != read.beyond.tobytes():
+    if not difference and in_one_order(lesson.beyond).tobytes() != in_one_order(read.beyond).tobytes():
         difference = "what is beyond the player differs"
     if difference:
         raise BadInput(lesson.name, "", f"cannot be written as a lesson: {difference}")
-    return read
+    return replace(read, text=_shown(text))
+
+
+def _shown(text: str) -> str:
+    """A text without fault laid out; as it is where its blanks would make it longer than a lesson may be."""
+    shown = show(text)
+    is_short = len(shown) <= MAX_CELLS or parse_lesson(shown, "", "").lesson
+    return shown if is_short else text
 
 
 def _head(lesson: Lesson, form: LessonForm) -> list[str]:
@@ -69,7 +74,7 @@ def _head(lesson: Lesson, form: LessonForm) -> list[str]:
     if lesson.swing.unit_ticks != Swing().unit_ticks:
         lines += [f"swing_unit = {toml_text(note_length(lesson.swing.unit_ticks))}"]
     if not form.is_as_written:
-        lines += [f"form = {toml_text(', '.join(form.grids[i].name for i in form.order))}"]
+        lines += [f"form = {toml_text(form_text([form.grids[i].name for i in form.order]))}"]
     first, last = lesson.loop
     lines += [f"loop = [{first + 1}, {last + 1}]"] if lesson.loop != (0, lesson.score.bar_count - 1) else []
     return [*lines, ""]

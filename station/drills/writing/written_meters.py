@@ -7,9 +7,9 @@ before it, is the reader's business: it is asked here.
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from station.core.schema import checked_values
-from station.core.toml_faults import Faults
-from station.core.toml_places import KeyPath
+from station.core.toml.schema import checked_values
+from station.core.toml.toml_faults import Faults
+from station.core.toml.toml_places import KeyPath
 from station.drills.grid.grid_timing import TIMING, GridTiming, meter, timing_of
 from station.drills.reading.form import written_grids
 from station.drills.reading.lesson_fields import DEFAULT_TIMING

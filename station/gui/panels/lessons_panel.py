@@ -11,7 +11,7 @@ from itertools import groupby
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
-from station.app.actions.file_actions import FilmTake
+from station.app.actions.file_actions import FilmTake, Import
 from station.app.actions.practice_actions import Begin, JudgeAt, Listen, Select, TapBeat
 from station.app.room_state import LessonCard, RoomState
 from station.app.selection import MAX_LOOPS, LessonGroup, Selection
@@ -28,6 +28,8 @@ ADAPT_LABEL = "the tempo follows me"
 FREE_LABEL = "Just play##free"
 LISTEN_LABEL, STOP_LISTENING = "Listen back##listen", "Stop listening##listen"
 FILM_LABEL = "Video of it##film"
+LESSON_LABEL = "Lesson of it##take"
+IMPORT_LABEL = "Import…##open-import"
 TAP_LABEL = "Tap##tap"
 
 
@@ -48,9 +50,10 @@ all (our choice)."""
 class LessonsPanel:
     """The list, the chosen lesson's words, its tempo and passes, and the button that starts it."""
 
-    def __init__(self, dispatch: Callable[[Action], None]) -> None:
-        self._dispatch = dispatch
+    def __init__(self, dispatch: Callable[[Action], None], open_import: Callable[[], None]) -> None:
+        self._dispatch, self._open_import = dispatch, open_import
         self._is_low = False
+        self._chosen_last, self._is_chosen_anew = "", False
         self._below = self._about = 0.0  # pixels that the part under the list, and its words, took in the last frame
 
     def gui(self, state: State) -> None:
@@ -62,12 +65,10 @@ class LessonsPanel:
             self._start_button(selection)
         elif height >= theme.points(_HIGH):
             theme.heading("Lessons")
-        imgui.set_next_item_width(-1)
-        hint = theme.one_line("Search: a word of title, level or tag", imgui.calc_item_width() - theme.points(24))
-        imgui.set_next_item_width(-1)
-        selection = replace(selection, search=imgui.input_text_with_hint("##search", hint, selection.search)[1])
-        theme.tooltip("Shows the lessons that contain every word")
+        selection = replace(selection, search=self._search(selection.search))
         selection = course_picker(selection)
+        chosen = "" if selection.card is None else selection.card.name
+        self._is_chosen_anew, self._chosen_last = chosen != self._chosen_last, chosen
         room = imgui.get_content_region_avail().y
         least = _ROWS * imgui.get_text_line_height_with_spacing()
         lines = int((room - least - (self._below - self._about)) / imgui.get_text_line_height())
@@ -84,6 +85,21 @@ class LessonsPanel:
         self._below = imgui.get_cursor_pos_y() - top + imgui.get_style().item_spacing.y
         if selection != before:
             self._dispatch(Select(selection))
+
+    def _search(self, words: str) -> str:
+        """The words that are searched for, and beside them what brings more lessons."""
+        spacing = imgui.get_style().item_spacing.x
+        beside = imgui.calc_text_size(IMPORT_LABEL, True).x + 2 * imgui.get_style().frame_padding.x + spacing
+        imgui.set_next_item_width(-beside)
+        hint = theme.one_line("Search: a word of title, level or tag", imgui.calc_item_width() - theme.points(24))
+        imgui.set_next_item_width(-beside)
+        _, words = imgui.input_text_with_hint("##search", hint, words)
+        theme.tooltip("Shows the lessons that contain every word")
+        imgui.same_line()
+        if imgui.button(IMPORT_LABEL):
+            self._open_import()
+        theme.tooltip("Make a lesson of a music file, a song's folder, a GrooveScribe link or a take; or drop it here")
+        return str(words)
 
     def _list(self, selection: Selection) -> Selection:
         pressed, _ = imgui.selectable(FREE_LABEL, selection.free)
@@ -114,12 +130,11 @@ class LessonsPanel:
         rows = [self._row(selection, card, f"{k}  {card.title}") for k, card in enumerate(group.cards, before + 1)]
         return next((card for card in rows if card is not None), None)
 
-    @staticmethod
-    def _kind(selection: Selection, group: LessonGroup) -> bool:
+    def _kind(self, selection: Selection, group: LessonGroup) -> bool:
         """The heading of a kind, which opens and closes; returns whether it is open."""
         has_chosen = selection.card is not None and any(card.name == selection.card.name for card in group.cards)
         if has_chosen:
-            imgui.set_next_item_open(True, imgui.Cond_.once)
+            imgui.set_next_item_open(True, imgui.Cond_.always if self._is_chosen_anew else imgui.Cond_.once)
         counted = f"{selection.mastered(group.cards)} of {len(group.cards)}"
         is_open = imgui.collapsing_header(f"{group.title} · {counted}###kind-{group.title}")
         theme.tooltip(f"{counted} lessons of this kind are mastered")
@@ -138,15 +153,16 @@ class LessonsPanel:
         rows = [self._row(selection, card, card.title) for card in cards]
         return next((card for card in rows if card is not None), None)
 
-    @staticmethod
-    def _row(selection: Selection, card: LessonCard, words: str) -> LessonCard | None:
+    def _row(self, selection: Selection, card: LessonCard, words: str) -> LessonCard | None:
         """One line of the list; returns its lesson where it was pressed."""
         chosen = not selection.free and selection.card is not None and selection.card.name == card.name
         progress, today = selection.progress.get(card.name), date.today()
         room = imgui.get_content_region_avail().x - (0.0 if progress is None else mark_width())
         pressed, _ = imgui.selectable(f"{theme.one_line(words, room)}###{card.name}", chosen)
+        if chosen and self._is_chosen_anew and not imgui.is_item_visible():
+            imgui.set_scroll_here_y()
         mark(progress, today)
-        facts = f"{card.bars} bars, {card.meter}, {card.beats_a_minute:g} bpm"
+        facts = f"{_bars(card)}, {card.meter}, {card.beats_a_minute:g} bpm"
         far = [] if progress is None else [progress.words(today)]
         theme.tooltip("\n".join([card.title, card.about, facts, *selection.first_words(card), *far]))
         return card if pressed else None
@@ -155,7 +171,7 @@ class LessonsPanel:
         """The lesson, so many `lines` of what it is about, and how to practise it; returns how it is chosen to be."""
         theme.heading(card.title, 20)
         author = f" · {card.author}" if card.author else ""
-        theme.soft(f"{card.bars} bars · {card.meter} · {card.beats_a_minute:g} bpm{author}")
+        theme.soft(f"{_bars(card)} · {card.meter} · {card.beats_a_minute:g} bpm{author}")
         for line in selection.first_words(card)[: _MOST_BEFORE if lines > 0 else 1]:
             theme.soft(line)
             theme.tooltip("What should come before; nothing is forbidden")
@@ -221,10 +237,15 @@ class LessonsPanel:
         imgui.end_disabled()
         theme.tooltip("The last take from its recording, through the station's own drums")
         imgui.begin_disabled(room.take is None)
-        if imgui.button(FILM_LABEL, imgui.ImVec2(-1, theme.points(38))) and room.take is not None:
+        half = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
+        if imgui.button(FILM_LABEL, imgui.ImVec2(half, theme.points(38))) and room.take is not None:
             self._dispatch(FilmTake(room.take))
-        imgui.end_disabled()
         theme.tooltip("The drummer plays your last take, as MP4 beside its recording; it is filmed while you go on")
+        imgui.same_line()
+        if imgui.button(LESSON_LABEL, imgui.ImVec2(half, theme.points(38))) and room.take is not None:
+            self._dispatch(Import(str(room.take)))
+        theme.tooltip("Your last take on the grid, as a lesson of your own; Export has it as MIDI, stroke by stroke")
+        imgui.end_disabled()
         return selection
 
     def _tempo(self, selection: Selection) -> Selection:
@@ -239,3 +260,7 @@ class LessonsPanel:
             self._dispatch(TapBeat(monotonic_ns()))
         theme.tooltip("Click on every beat, twice or more: the tempo follows")
         return selection
+
+
+def _bars(card: LessonCard) -> str:
+    return f"{card.bars} bar{'' if card.bars == 1 else 's'}"

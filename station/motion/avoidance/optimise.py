@@ -164,10 +164,10 @@ def _after(hands: Hands, side: int, on: Moments, added: Array, low: Array) -> Ar
     once, which = np.unique(on, return_inverse=True)
     whole = np.zeros(len(on))
     for arm, other in zip(hands.arms(side, on, led, low), hands.arms(1 - side, once), strict=True):
-        own, his = points_of(arm), points_of(other)
-        again = type(his)(*(getattr(his, name)[which] for name in his.__slots__))
+        own, theirs = points_of(arm), points_of(other)
+        again = type(theirs)(*(getattr(theirs, name)[which] for name in theirs.__slots__))
         each = np.maximum(near(stage, own, again), 0.0) + hands.alone(arm, own, on) + stick_cost(stage, own, on)
-        whole = np.maximum(whole, each + (hands.alone(other, his, once) + stick_cost(stage, his, once))[which])
+        whole = np.maximum(whole, each + (hands.alone(other, theirs, once) + stick_cost(stage, theirs, once))[which])
     return whole
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 from station.motion.drummer import Drummer
 from station.motion.export.joint_tree import BONES, STICKS, JointTree, local, skeleton
 

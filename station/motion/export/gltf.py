@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 from station.core.pieces import Piece, word
 from station.motion.drummer import Drummer
 from station.motion.export import plain_solids

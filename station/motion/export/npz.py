@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 from station.core.pieces import Limb, Piece, Zone, word
 from station.motion.drummer import Drummer
 from station.motion.kinematics import frame

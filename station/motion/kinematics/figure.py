@@ -12,9 +12,9 @@ from enum import IntEnum
 from math import radians
 from pathlib import Path
 
-from station.core.schema import Field, Fields, Reader, needed, number, optional, read, record, said, text
-from station.core.shipped import find_shipped, shipped
-from station.core.toml_source import read_source
+from station.core.disk.shipped import find_shipped, shipped
+from station.core.toml.schema import Field, Fields, Reader, needed, number, optional, read, record, said, text
+from station.core.toml.toml_source import read_source
 from station.motion.kinematics.joint_limits import Limits
 from station.motion.kinematics.look import LOOK, Look
 

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from types import MappingProxyType
 
-from station.core.schema import Field, Fields, Reader, list_of, number, one_of, optional, said, text
-from station.core.toml_faults import wrong
+from station.core.toml.schema import Field, Fields, Reader, list_of, number, one_of, optional, said, text
+from station.core.toml.toml_faults import wrong
 
 Colour = tuple[float, float, float]
 """sRGB, 0–1."""

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import word
-from station.core.toml_faults import wrong
+from station.core.toml.toml_faults import wrong
 from station.motion.kit.piece import KitPiece
 
 Place = tuple[float, float, float]

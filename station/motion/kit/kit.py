@@ -16,8 +16,9 @@ from typing import Any
 
 import numpy as np
 
+from station.core.disk.shipped import find_shipped, shipped
 from station.core.pieces import Limb, Piece, Zone
-from station.core.schema import (
+from station.core.toml.schema import (
     Field,
     Fields,
     Reader,
@@ -35,9 +36,8 @@ from station.core.schema import (
     table_of,
     text,
 )
-from station.core.shipped import find_shipped, shipped
-from station.core.toml_faults import wrong
-from station.core.toml_source import read_source
+from station.core.toml.toml_faults import wrong
+from station.core.toml.toml_source import read_source
 from station.motion.kit.fits import check_apart, check_boards, check_off_the_player
 from station.motion.kit.piece import SPOTS, KitPiece, Target, Vector, ZoneSpot
 

@@ -10,9 +10,10 @@ from itertools import pairwise
 from pathlib import Path
 from types import MappingProxyType
 
-from station.core.files import NoSuchFile, write_whole
+from station.core.disk.files import NoSuchFile, write_whole
+from station.core.disk.shipped import find_shipped, shipped
 from station.core.pieces import Piece, word
-from station.core.schema import (
+from station.core.toml.schema import (
     Fields,
     Reader,
     key_of,
@@ -29,10 +30,9 @@ from station.core.schema import (
     text,
     whole,
 )
-from station.core.shipped import find_shipped, shipped
-from station.core.toml_faults import wrong
-from station.core.toml_source import read_source
-from station.core.toml_write import toml_text
+from station.core.toml.toml_faults import wrong
+from station.core.toml.toml_source import read_source
+from station.core.toml.toml_write import toml_text
 from station.motion.style.style import NUMBERS, WORDS, Automation, Style, range_of
 
 STYLES = Path(__file__).parents[1] / "data" / "styles"

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
+from station.core.disk.files import read_regular
 from station.core.errors import BadInput
-from station.core.files import read_regular
 from station.music.drum_part import DrumPart
 from station.music.formats.ascii_tab.tab_writer import ASCII_TAB
 from station.music.formats.clone_hero.clone_hero_format import CHART, NOTES_MIDI

@@ -21,10 +21,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.disk.files import write_whole
+from station.core.disk.utf8 import utf8_text
 from station.core.errors import BadInput
-from station.core.files import write_whole
 from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Ornament, Piece, Zone, word
-from station.core.utf8 import utf8_text
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import MusicFormat
 from station.music.score import Note, Score

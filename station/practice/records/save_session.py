@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 
+from station.core.disk.files import write_whole
 from station.core.errors import BadInput, StationError
-from station.core.files import write_whole
 from station.core.settings import Settings
 from station.music.formats.smf.track_writer import write_performance
 from station.practice.records.mastery_report import with_mastery

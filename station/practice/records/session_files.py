@@ -9,8 +9,8 @@ import re
 from datetime import datetime
 from pathlib import Path
 
+from station.core.disk.files import write_whole
 from station.core.errors import DeviceError
-from station.core.files import write_whole
 
 CAPTURE_NAME = "session.capture"
 DOCUMENT_NAME = "report.json"

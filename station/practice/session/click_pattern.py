@@ -222,11 +222,3 @@ def count_in(section: TempoMap, bars: int, pickup_ticks: int = 0) -> tuple[Tempo
     meter = section.meter_at(pickup_ticks)
     before = TempoMap.build([section.tempos[0]], [replace(meter, tick=0)])
     return before, bars * meter.bar_ticks - pickup_ticks
-
-
-def pickup_of(section: TempoMap, end_tick: int) -> int:
-    """The ticks of the pickup that the section begins with, a first bar shorter than the second; 0 for none."""
-    first = section.bar_start(1)
-    if first >= end_tick:
-        return 0
-    return first if first < section.bar_start(2) - first else 0

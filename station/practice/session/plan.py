@@ -23,7 +23,6 @@ from station.practice.session.click_pattern import (
     click_cues,
     count_in,
     counting,
-    pickup_of,
     silences,
 )
 from station.practice.session.leading_hand import drummers_kit, led_to_landing
@@ -279,7 +278,7 @@ class _Timeline:
 
 def _count_in(section: Score, bars: int) -> Score:
     """Empty bars at the section's first tempo and meter, up to its pickup if it has one."""
-    tempo_map, end_tick = count_in(section.tempo_map, bars, pickup_of(section.tempo_map, section.end_tick))
+    tempo_map, end_tick = count_in(section.tempo_map, bars, section.tempo_map.pickup_ticks(section.end_tick))
     return Score.from_notes([], tempo_map, end_tick)
 
 

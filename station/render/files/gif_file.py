@@ -17,7 +17,7 @@ from av.filter.context import FilterContext
 from av.video.reformatter import Colorspace
 from numpy.typing import NDArray
 
-from station.core.files import growing
+from station.core.disk.files import growing
 from station.render.gpu.nv12 import Planes
 
 Pixels = NDArray[np.uint8]

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _RGB = 2

@@ -18,8 +18,8 @@ import av
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.disk.files import growing
 from station.core.errors import DeviceError
-from station.core.files import growing
 from station.render.gpu.nv12 import Planes
 
 _ENCODER = "libx264"

@@ -22,9 +22,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.disk.files import write_whole
 from station.core.disk_cache import cache_folder, forget_oldest
 from station.core.errors import DeviceError
-from station.core.files import write_whole
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
 from station.render.figure.body import build_body

@@ -7,6 +7,7 @@ of an ending over its bars in every pass. Units are staff spaces, y down, x from
 from station.core.units import PPQ
 from station.music.repeats import Passage, folded
 from station.music.score import Score
+from station.music.tempo import MeterChange
 from station.music.tempo_words import TempoWord, read_tempo_words
 from station.render.notation.bar_lines import BarLine, Volta, draw_slim_line, draw_volta
 from station.render.notation.beams import Anchor
@@ -43,7 +44,7 @@ class BarSigns:
     def __init__(self, score: Score, numbers: BarNumbers, beat_ticks: int) -> None:
         self._score, self._numbers, self._beat_ticks = score, numbers, beat_ticks
         self._tempo_words = read_tempo_words(score.tempo_map)
-        self._new_meters = {meter.tick for meter in score.tempo_map.meters if meter.tick > 0}
+        self._has_pickup = numbers.first == 0 and _begins_with_pickup(score, numbers)
         self._swing = swing_marks(score)
         self._voltas = _voltas(score, numbers)
 
@@ -82,14 +83,14 @@ class BarSigns:
             return
         anchor.at(start)
         draw_list, x = anchor.draw_list, _LINE_X
-        number = str(self._numbers.of(bar))
+        number = "" if self._is_pickup(bar) else str(self._numbers.of(bar))
         x += _NUMBER_X + draw_list.text(number, (x - _NUMBER_X, y), _NUMBER)
         if name := self._numbers.section_of(bar):
             x += _WORD_GAP + draw_list.text(_short(name), (x + _WORD_GAP / 2, y), _SECTION)
         if (volta := self._voltas.get(bar)) is not None:
             x += _WORD_GAP / 2 + self._draw_volta(anchor, (start, end), (x, y), volta)
             anchor.at(start)
-        if word := self._meter_word(start):
+        if word := self._meter_word(bar):
             x += _WORD_GAP + draw_list.text(word, (x, y), _WORD)
         if (mark := self._swing.get(bar)) is not None:
             x += _WORD_GAP + draw_swing_mark(draw_list, (x, y), _WORD.size, mark, BRAND)
@@ -97,9 +98,18 @@ class BarSigns:
             if start <= change.tick < end:
                 self._draw_tempo(anchor, change, (x if change.tick == start else -0.6, y))
 
-    def _meter_word(self, start: int) -> str:
-        """The new meter of the bar that starts at tick `start`; empty where there is none."""
-        return str(self._score.tempo_map.meter_at(start)) if start in self._new_meters else ""
+    def meter_of(self, bar: int) -> MeterChange:
+        """The meter under which the bar is written: a pick-up's is that of the bar after it."""
+        tempo = self._score.tempo_map
+        return tempo.meter_at(tempo.bar_start(bar + 1 if self._is_pickup(bar) else bar))
+
+    def _is_pickup(self, bar: int) -> bool:
+        return self._has_pickup and (bar % self._numbers.per_pass if self._numbers.per_pass else bar) == 0
+
+    def _meter_word(self, bar: int) -> str:
+        """The new meter of the bar; empty where there is none."""
+        word = str(self.meter_of(bar))
+        return word if bar and word != str(self.meter_of(bar - 1)) else ""
 
     def _draw_tempo(self, anchor: Anchor, word: TempoWord, at: tuple[float, float]) -> None:
         """A new tempo, or where it grows faster or slower and to which."""
@@ -118,6 +128,12 @@ class BarSigns:
         draw_volta(anchor.draw_list, _VOLTA_ENDS, y - _VOLTA_UP, bracket, BRAND)
         anchor.draw_list.span_s = 0.0
         return anchor.draw_list.text(volta.text, (x + 0.2, y), _ENDING) if volta.text else 0.0
+
+
+def _begins_with_pickup(score: Score, numbers: BarNumbers) -> bool:
+    """Whether the first pass does."""
+    end_tick = min(score.tempo_map.bar_start(numbers.per_pass or score.bar_count), score.end_tick)
+    return score.tempo_map.section(0, end_tick).pickup_ticks(end_tick) > 0
 
 
 def _short(name: str) -> str:

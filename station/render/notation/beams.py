@@ -5,7 +5,7 @@ Gould, "Behind Bars" (2011): beams half a space, a stem right of its head when u
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from station.music.tempo import TempoMap
 from station.render.notation.note_shapes import draw_figures, figures_width
@@ -48,18 +48,21 @@ class Anchor:
 
     draw_list: DrawList
     tempo: TempoMap
+    _known: dict[int, float] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def at(self, tick: int) -> None:
         """What follows hangs on `tick` of the score."""
         self.draw_list.time_s, self.draw_list.span_s = self.seconds(tick), 0.0
 
     def until(self, tick: int) -> None:
-        """What follows stretches from where it hangs to `tick` of the score."""
+        """What follows is drawn out from where it hangs to `tick` of the score."""
         self.draw_list.span_s = self.seconds(tick) - self.draw_list.time_s
 
     def seconds(self, tick: int) -> float:
         """The score's time at `tick`."""
-        return float(self.tempo.seconds_at(tick))
+        if tick not in self._known:
+            self._known[tick] = float(self.tempo.seconds_at(tick))
+        return self._known[tick]
 
 
 def draw_flags(anchor: Anchor, tick: int, count: int, voice: StaffVoice, beam_y: float) -> None:

@@ -4,32 +4,32 @@ Units are staff spaces, y down, 0 on the staff's middle line. Proportions follow
 music font (`sign_outlines`).
 """
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 
-import numpy as np
-from numpy.typing import NDArray
-
-from station.core.pieces import Articulation, Piece
-from station.music.score import Score
+from station.core.pieces import Articulation, Dynamic
 from station.render.notation.beams import Anchor, StaffVoice
 from station.render.notation.chord_width import (
     DOT_GAP,
     GRACE,
     GRACE_GAP,
     GRACE_STEP,
-    Extent,
     heads_extent,
     sticking,
 )
 from station.render.notation.head_places import EDGE_X, PlacedHead, placed_heads
 from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_letters, draw_slur
 from station.render.notation.spelling.note_values import TimedValue, Value
-from station.render.notation.staff import FOOT_PIECES, height, ledger_steps, step_of
+from station.render.notation.staff import FOOT_PIECES, height, ledger_steps
 from station.render.notation.staff_rows import LETTER_LINE, STACK_GAP, StaffRows, stack_height, stacked_signs
+from station.render.notation.staff_strokes import StaffStroke
 from station.render.palette import INK, INK_SOFT
 from station.render.text.sign_outlines import BEAM, BEAM_STEP, LEDGER_LINE, LEDGER_OUT, STEM, sign_box
 
+_BUZZ, _ACCENT, _FOOT_PIECES = int(Articulation.BUZZ), int(Dynamic.ACCENT), frozenset(map(int, FOOT_PIECES))
+_TICK = attrgetter("tick")
 _BUZZ_OFF, _BUZZ_UNDER_BEAM = 1.4, BEAM + STACK_GAP + sign_box("buzz").height / 2
 """To the middle of a buzz's sign on a stem: below flags from the head, else from the stem's end, clear of one beam."""
 _BUZZ_OVER_WHOLE = 1.6
@@ -59,26 +59,14 @@ class Chord:
 
 
 class ChordPen:
-    """Draws chords of `score` at `anchor`: `limbs` (n,) of `Limb` are written, strokes that are `is_small` (n,) small.
+    """Draws chords of `strokes`, which stand in order of ticks, at `anchor`."""
 
-    `closing` (n,) close the hi-hat.
-    """
-
-    def __init__(
-        self,
-        score: Score,
-        limbs: NDArray[np.int8],
-        is_small: NDArray[np.bool_],
-        closing: NDArray[np.bool_],
-        anchor: Anchor,
-        rows: StaffRows,
-    ) -> None:
-        self._notes, self._limbs, self._is_small, self._closing = score.notes, limbs, is_small, closing
-        self._anchor, self._draw_list, self._rows = anchor, anchor.draw_list, rows
+    def __init__(self, strokes: Sequence[StaffStroke], anchor: Anchor, rows: StaffRows) -> None:
+        self._strokes, self._anchor, self._draw_list, self._rows = strokes, anchor, anchor.draw_list, rows
 
     def step(self, index: int) -> int:
         """On which step of the staff stroke `index` stands."""
-        return step_of(Piece(int(self._notes["piece"][index])))
+        return self._strokes[index].step
 
     def draw(self, chord: Chord, stroke: TimedValue, voice: StaffVoice, beam_y: float) -> None:
         """Heads, stem and signs at the anchor; the stem ends at `beam_y`."""
@@ -100,7 +88,11 @@ class ChordPen:
 
     def is_buzz(self, chord: Chord) -> bool:
         """Whether a roll is in the chord."""
-        return any(self._notes["articulation"][i] == Articulation.BUZZ for i in chord.mains)
+        return any(self._strokes[i].articulation == _BUZZ for i in chord.mains)
+
+    def is_accented(self, chord: Chord) -> bool:
+        """Whether a stroke of the chord is."""
+        return any(self._strokes[i].dynamic == _ACCENT for i in chord.mains)
 
     def draw_buzz(self, chord: Chord, value: Value, voice: StaffVoice, end: tuple[float, bool]) -> None:
         """The sign on the stem, or above a head without one; `end` is the stem's, and whether it bears flags alone."""
@@ -118,29 +110,27 @@ class ChordPen:
 
     def heads_at(self, tick: int, voice: StaffVoice) -> list[int]:
         """The steps of the other voice's heads that stand where a rest of `voice` does, at `tick`."""
-        first, last = np.searchsorted(self._notes["tick"], [tick, tick + 1]).tolist()
-        pieces = [Piece(int(piece)) for piece in self._notes["piece"][first:last]]
-        return [step_of(piece) for piece in pieces if (piece in FOOT_PIECES) == voice.is_up]
+        return [s.step for s in self._strokes[self._span(tick)] if (s.piece in _FOOT_PIECES) == voice.is_up]
+
+    def _span(self, tick: int) -> slice:
+        """The strokes at `tick`."""
+        first = bisect_left(self._strokes, tick, key=_TICK)
+        return slice(first, bisect_right(self._strokes, tick, first, key=_TICK))
 
     # --- heads --------------------------------------------------------------------------------------------------------
 
-    def _at_once(self, chord: Chord) -> list[int]:
+    def _at_once(self, chord: Chord) -> list[StaffStroke]:
         """The main strokes that stand where the chord does, its own first, those of the other voice after them."""
+        mains = [self._strokes[i] for i in chord.mains]
         if chord.is_tied:
-            return list(chord.mains)
-        first, last = np.searchsorted(self._notes["tick"], [chord.tick, chord.tick + 1]).tolist()
-        others = (i for i in range(first, last) if self._notes["lead_ms"][i] <= 0 and i not in chord.mains)
-        return [*chord.mains, *others]
+            return mains
+        span = self._span(chord.tick)
+        there = (i for i in range(span.start, span.stop) if i not in chord.mains)
+        return [*mains, *(self._strokes[i] for i in there if self._strokes[i].is_main)]
 
     def _placed(self, chord: Chord) -> list[PlacedHead]:
         """The heads of the chord, clear of each other and of the other voice's."""
-        rows = self._at_once(chord)
-        return placed_heads(self._notes[rows], self._is_small[rows])[: len(chord.mains)]
-
-    def _extent(self, chord: Chord) -> Extent:
-        """What the heads at the chord's place take."""
-        rows = self._at_once(chord)
-        return heads_extent(self._notes[rows], self._is_small[rows])
+        return placed_heads(self._at_once(chord))[: len(chord.mains)]
 
     def _stem(self, heads: Sequence[PlacedHead], voice: StaffVoice, beam_y: float) -> None:
         """From the head that is farthest from its end."""
@@ -160,7 +150,7 @@ class ChordPen:
 
     def _dots(self, chord: Chord, heads: Sequence[PlacedHead], count: int) -> None:
         """Right of everything, in the space that the head stands in or the one above its line."""
-        right = self._extent(chord).right
+        right = heads_extent(self._at_once(chord)).right
         for k in range(count):
             x = right + DOT_GAP + sign_box("dot").width * (k + 0.5)
             for step in {head.step | 1 for head in heads}:
@@ -169,8 +159,7 @@ class ChordPen:
     # --- beyond the stem's end ----------------------------------------------------------------------------------------
 
     def _stacked(self, chord: Chord) -> list[str]:
-        rows = list(chord.mains)
-        return stacked_signs(self._notes[rows], self._closing[rows])
+        return stacked_signs([self._strokes[i] for i in chord.mains])
 
     def _stack_from(self, chord: Chord, value: Value, voice: StaffVoice, beam_y: float) -> float:
         """Where the stack begins: at the stem's end, or beyond the heads of a note that has none."""
@@ -189,9 +178,9 @@ class ChordPen:
 
     def _letters(self, chord: Chord, voice: StaffVoice, is_double: bool) -> None:
         """The sticking; a diddle's hand twice, as both strokes are its own."""
-        rows = [*chord.graces, *chord.mains]
+        strokes = [self._strokes[i] for i in (*chord.graces, *chord.mains)]
         y = self._rows.hands if voice.is_up else self._rows.feet
-        for k, text in enumerate(sticking(self._notes[rows], self._limbs[rows], voice.is_up)):
+        for k, text in enumerate(sticking(strokes, voice.is_up)):
             at = 0.0, y + voice.way * LETTER_LINE * k
             draw_letters(self._draw_list, text + text[-1] * is_double, at)
 
@@ -202,9 +191,9 @@ class ChordPen:
         if not chord.graces:
             return
         self._anchor.at(chord.tick)
-        order = sorted(chord.graces, key=lambda i: -self._notes["lead_ms"][i])
-        heads = [placed_heads(self._notes[[i]], self._is_small[[i]])[0] for i in order]
-        last_x = -self._extent(chord).left - GRACE_GAP
+        order = sorted(chord.graces, key=lambda i: -self._strokes[i].lead_ms)
+        heads = [placed_heads([self._strokes[i]])[0] for i in order]
+        last_x = -heads_extent(self._at_once(chord)).left - GRACE_GAP
         top = min(height(head.step) for head in heads) - _GRACE_STEM
         stems: list[float] = []
         for k, head in enumerate(heads):

@@ -20,6 +20,7 @@ from station.render.notation.loudness_row import draw_loudness
 from station.render.notation.rests import draw_rest
 from station.render.notation.spelling.note_values import Value
 from station.render.notation.staff_rows import closing_hats, shown_limbs, staff_rows
+from station.render.notation.staff_strokes import staff_strokes
 from station.render.notation.voice_pen import BarSpan, VoicePen
 from station.render.notation.whole_score import whole_score
 from station.render.notation.written_strokes import feet_of, written_strokes
@@ -56,8 +57,10 @@ class Engraver:
         self._limbs = shown_limbs(self._whole, known)
         self.rows_y = staff_rows(self._whole, self._limbs)
         self._closing = closing_hats(self._whole)
+        self._staff_strokes = staff_strokes(self._whole, self._limbs, self._is_small, self._closing)
         self.strokes = written_strokes(self._whole, feet_of(self._whole))
         self._order = np.argsort(self.strokes.tick, kind="stable")
+        self._in_order = self.strokes.tick[self._order]
 
     def bar(self, bar: int, with_line: bool = True, opens_line: bool = False) -> NDArray[np.void]:
         """The shapes of one bar, `with_line` with what stands at its left bar line, dtype `draw_list.SHAPE_DTYPE`.
@@ -75,18 +78,17 @@ class Engraver:
 
     def rows(self, start: int, end: int) -> list[int]:
         """Indices of the strokes that are written in [start, end) ticks, but the second ones of diddles."""
-        first, last = np.searchsorted(self.strokes.tick[self._order], [start, end])
+        first, last = np.searchsorted(self._in_order, [start, end])
         rows = self._order[first:last]
-        return [int(i) for i in rows[~self.strokes.is_hidden[rows]]]
+        return rows[~self.strokes.is_hidden[rows]].tolist()  # type: ignore[no-any-return]
 
     def chords(self, rows: Sequence[int], feet: bool) -> list[Chord]:
         """The strokes of one voice, gathered by where they are written."""
-        notes = self._whole.notes
         places: dict[int, tuple[list[int], list[int]]] = {}
         for i in rows:
             if self.strokes.is_foot[i] == feet:
                 mains, graces = places.setdefault(int(self.strokes.tick[i]), ([], []))
-                (graces if notes["lead_ms"][i] > 0 else mains).append(i)
+                (mains if self._staff_strokes[i].is_main else graces).append(i)
         return [
             Chord(self._stands(written, [*mains, *graces]), written, tuple(mains), tuple(graces))
             for written, (mains, graces) in sorted(places.items())
@@ -94,11 +96,16 @@ class Engraver:
 
     def _stands(self, written: int, rows: Sequence[int]) -> int:
         """On which tick a chord hangs."""
-        return written if self._as_written else int(self._whole.notes["tick"][rows].min())
+        return written if self._as_written else min(self._staff_strokes[i].tick for i in rows)
+
+    def is_held_into(self, bar: int) -> bool:
+        """Whether a roll of the bar before goes on in it."""
+        start = self.score.tempo_map.bar_start(bar)
+        return any(self.strokes.held_into(start, is_foot) for is_foot in (False, True))
 
     def pen(self, anchor: Anchor) -> ChordPen:
         """What draws the score's chords at `anchor`."""
-        return ChordPen(self._whole, self._limbs, self._is_small, self._closing, anchor, self.rows_y)
+        return ChordPen(self._staff_strokes, anchor, self.rows_y)
 
     def context(self, bar: int) -> bytes:
         """What of a bar's strokes is engraved as it is for where and beside what they stand."""

@@ -12,9 +12,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Dynamic, Piece, Zone
+from station.core.pieces import Articulation, Piece, Zone
 from station.music.score import Score
 from station.render.notation.staff import FOOT_PIECES, NoteHead, head_of, step_of
+from station.render.notation.staff_strokes import StaffStroke, staff_strokes
 from station.render.text.sign_outlines import sign_box
 
 HEAD_SIGNS = {
@@ -90,23 +91,20 @@ def _stem_half(head: NoteHead) -> float:
     return sign_box(HEAD_SIGNS[head]).advance / 2
 
 
-def placed_heads(mains: NDArray[np.void], is_small: NDArray[np.bool_]) -> list[PlacedHead]:
-    """The heads of the strokes `mains` (rows of one tick, both voices, without grace strokes), in their order.
-
-    `is_small`, shape (n,): those beyond the player.
-    """
-    kinds = zip(*(mains[name].tolist() for name in ("piece", "zone", "articulation")), is_small.tolist(), strict=True)
-    return list(_placed(tuple(kinds), tuple(map(is_ghost, mains))))
+def placed_heads(mains: Sequence[StaffStroke]) -> list[PlacedHead]:
+    """The heads of the strokes `mains` (of one tick, both voices, without grace strokes), in their order."""
+    kinds = tuple((s.piece, s.zone, s.articulation, s.is_small) for s in mains)
+    return list(_placed(kinds, tuple(s.is_ghost for s in mains)))
 
 
 def heads_x(score: Score) -> NDArray[np.float64]:
     """Where the head of each of the player's strokes stands beside its time, shape (n,); grace strokes at 0."""
     whole, is_small = score.whole
-    found = np.zeros(len(whole))
+    found, strokes = np.zeros(len(whole)), staff_strokes(whole, is_small=is_small)
     mains = np.flatnonzero(~whole.is_grace)
     _, firsts = np.unique(whole.notes["tick"][mains], return_index=True)
     for rows in np.split(mains, firsts[1:]):
-        found[rows] = [head.x for head in placed_heads(whole.notes[rows], is_small[rows])]
+        found[rows] = [head.x for head in placed_heads([strokes[i] for i in rows.tolist()])]
     return found[~is_small]
 
 
@@ -154,11 +152,6 @@ def _displaced_x(head: PlacedHead, near: Sequence[PlacedHead]) -> float:
     edges = [-other.left if head.is_foot else other.right for other in near]
     beyond = max(EDGE_X, *edges) + half_width(head.head) * head.scale
     return -beyond if head.is_foot else beyond
-
-
-def is_ghost(row: np.void) -> bool:
-    """Whether brackets say that the stroke is soft; grace strokes are so by themselves."""
-    return bool(row["dynamic"] == Dynamic.GHOST and row["lead_ms"] == 0)
 
 
 def _ghost_clusters(heads: Sequence[PlacedHead], ghosts: Sequence[bool]) -> list[list[int]]:

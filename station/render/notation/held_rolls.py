@@ -14,7 +14,7 @@ from station.render.notation.beams import Anchor, StaffVoice
 from station.render.palette import INK
 
 _STEPS = 24
-"""A tie bends in so many level steps, for time stretches level shapes alone (`loudness_row`)."""
+"""A tie bends in so many level steps, for time draws out level shapes alone (`loudness_row`)."""
 _OFF, _DEPTH, _THICK = 0.75, 0.6, 0.15
 """How far from its heads' middle a tie begins, how deep it hangs, how thick it is, in staff spaces (our choice)."""
 _SHORT_DEPTH = 0.3

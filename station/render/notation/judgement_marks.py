@@ -2,7 +2,7 @@
 
 A judged note bears a shape as well as a colour: a ring on time, an arrow that points left when early and right when
 late, a barred ring when missed, a square when the wrong piece was struck. The tick or arrow stands where the hit fell,
-stretched by `TICK_ZOOM` so that a few milliseconds can be seen across a room. A wedge above the head that points up
+drawn out by `TICK_ZOOM` so that a few milliseconds can be seen across a room. A wedge above the head that points up
 says too loud, one below that points down too soft. Units are staff spaces unless a size is given, y down.
 """
 
@@ -15,7 +15,7 @@ from station.render.text.draw_list import Colour, DrawList
 ON_TIME_MS = 25.0
 """Within this a stroke counts as on time in the picture (HUMANS: mild to 25 ms)."""
 TICK_ZOOM = 5.0
-"""The tick's distance from its head is the asynchrony stretched so much (our choice: 10 ms is half a head)."""
+"""The tick's distance from its head is the asynchrony drawn out so much (our choice: 10 ms is half a head)."""
 _NEAREST_ARROW, _FARTHEST_ARROW = 1.65, 2.1
 """Spaces: beside the head, and still nearer to it than to the next."""
 LOUD_OFF_DB = 6.0

@@ -13,7 +13,7 @@ from station.render.text.sign_outlines import HAIRPIN_LINE, sign_box
 _RAISED, _OPENING = 0.5, 0.6
 """How far a hairpin's axis lies above the words' baseline, and half its width where it is open."""
 _STEPS = 32
-"""Its lines slope in so many level steps a bar, for time stretches level shapes alone: 0.02 spaces each."""
+"""Its lines slope in so many level steps a bar, for time draws out level shapes alone: 0.02 spaces each."""
 _AFTER_WORD = 0.5
 """What it leaves free beside a word."""
 

@@ -224,7 +224,8 @@ class ScoreView:
         line = (line_x - place.left) / space
         draw_list.box((line - 0.14, place.top_y), (0.28, place.height / space), with_opacity(BRAND, 0.95))
         tick = max(int(snapshot.score.tempo_map.ticks_at(snapshot.position_s)), 0)
-        note_shapes.time_signature(draw_list, snapshot.score.tempo_map.meter_at(tick), _SIGNATURE_X)
+        bar = int(snapshot.score.tempo_map.bars_at(tick))
+        note_shapes.time_signature(draw_list, self._engraved(snapshot).signs.meter_of(bar), _SIGNATURE_X)
         return draw_list.shapes()
 
     def _heads(self, score: Score) -> NDArray[np.float64]:
@@ -282,7 +283,7 @@ def lead_spaces(score: Score) -> float:
 
 
 def visible_bars(score: Score, first_s: float, last_s: float) -> range:
-    """The bars of the score that a stretch of time touches, and the bar line after the last."""
+    """The bars of the score that a span of time touches, and the bar line after the last."""
     ticks = score.tempo_map.ticks_at([max(first_s, 0.0), max(last_s, 0.0)])
     first, last = score.tempo_map.bars_at(ticks).tolist()
     return range(first, min(last, score.bar_count) + 1) if last_s >= 0 else range(0)

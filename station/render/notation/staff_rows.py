@@ -7,7 +7,8 @@ Units are staff spaces, y down, 0 on the staff's middle line.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import groupby, pairwise
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from station.core.units import PPQ
 from station.music.score import Score
 from station.render.notation.rests import rest_edge
 from station.render.notation.staff import FOOT_PIECES, height, step_of
+from station.render.notation.staff_strokes import StaffStroke, staff_strokes
 from station.render.notation.whole_score import whole_score
 from station.render.text.sign_outlines import BEAM, BEAM_STEP, sign_box
 
@@ -53,6 +55,8 @@ _UNDER_WORD = 0.7
 """What the letter f has below its baseline."""
 _WEAKEST_FEET = {Piece.KICK: Limb.LEFT_FOOT, Piece.HIHAT_PEDAL: Limb.RIGHT_FOOT}
 """Whose letters say something: the foot that a piece is not played with as a rule."""
+_HIHAT, _SPLASH, _ACCENT = int(Piece.HIHAT), int(Articulation.SPLASH), int(Dynamic.ACCENT)
+_HATS = (_HIHAT, int(Piece.HIHAT_PEDAL))
 _PLAIN_GRID = PPQ // 8
 _PLAIN_BEAMS, _FINEST = 2, 5
 """Rests of sixteenths lie within any stem; 128ths have five beams, and nothing finer is written."""
@@ -86,21 +90,20 @@ def closing_hats(score: Score) -> NDArray[np.bool_]:
     return closing
 
 
-def stacked_signs(notes: NDArray[np.void], closing: NDArray[np.bool_]) -> list[str]:
-    """The signs that stand beyond the stem's end of one chord's main strokes `notes`, from there outward."""
-    found = [_hat_sign(row, bool(shut)) for row, shut in zip(notes, closing, strict=True)]
-    found += ["choke"] * bool((notes["choke_ticks"] > 0).any())
-    found += ["accent"] * bool((notes["dynamic"] == Dynamic.ACCENT).any())
+def stacked_signs(mains: Sequence[StaffStroke]) -> list[str]:
+    """The signs that stand beyond the stem's end of one chord's main strokes, from there outward."""
+    found = [_hat_sign(stroke) for stroke in mains if stroke.piece in _HATS]
+    found += ["choke"] * any(stroke.choke_ticks > 0 for stroke in mains)
+    found += ["accent"] * any(stroke.dynamic == _ACCENT for stroke in mains)
     return [name for name in found if name]
 
 
-def _hat_sign(row: np.void, is_closing: bool) -> str:
-    piece, openness = row["piece"], row["openness"]
-    if piece == Piece.HIHAT and openness >= OPEN_FROM:
-        return "hat_open" if openness >= WIDE_FROM else "hat_half"
-    if piece == Piece.HIHAT and is_closing:
+def _hat_sign(stroke: StaffStroke) -> str:
+    if stroke.piece == _HIHAT and stroke.openness >= OPEN_FROM:
+        return "hat_open" if stroke.openness >= WIDE_FROM else "hat_half"
+    if stroke.piece == _HIHAT and stroke.is_closing:
         return "hat_closed"
-    return "hat_open" if piece == Piece.HIHAT_PEDAL and row["articulation"] == Articulation.SPLASH else ""
+    return "hat_open" if stroke.piece != _HIHAT and stroke.articulation == _SPLASH else ""
 
 
 def stack_height(names: list[str]) -> float:
@@ -188,18 +191,21 @@ def _bar_rows(score: Score, bars: range) -> Iterator[tuple[int, int]]:
 
 def _reach(score: Score, of_voice: NDArray[np.bool_], places: Sequence[tuple[int, int]], way: int) -> float:
     """How far what is stacked on the chords of one voice reaches at the most, in any bar."""
-    closing = closing_hats(score)
+    strokes = staff_strokes(score, closing=closing_hats(score))
     found = way * _BARE_STAFF
     for first, last in places:
-        own = of_voice[first:last]
-        if own.any():
-            reach = _bar_reach(score.notes[first:last][own], closing[first:last][own], way)
+        own = (first + np.flatnonzero(of_voice[first:last])).tolist()
+        if own:
+            reach = _bar_reach(score.notes[own], [strokes[i] for i in own], way)
             found = min(found, reach) if way < 0 else max(found, reach)
     return found
 
 
-def _bar_reach(notes: NDArray[np.void], closing: NDArray[np.bool_], way: int) -> float:
-    """How far the chords of one voice reach in a bar: no nearer than they do once their rhythm is spelled."""
+def _bar_reach(notes: NDArray[np.void], strokes: Sequence[StaffStroke], way: int) -> float:
+    """How far the chords of one voice reach in a bar: no nearer than they do once their rhythm is spelled.
+
+    `notes` (n,) and `strokes` are the same rows.
+    """
     heights = [height(step_of(Piece(piece))) for piece in set(notes["piece"].tolist())]
     written = notes["tick"] - notes["swing_ticks"]
     beams = _most_beams(written)
@@ -209,7 +215,7 @@ def _bar_reach(notes: NDArray[np.void], closing: NDArray[np.bool_], way: int) ->
     )
     stem = stem_end(heights, way < 0, beams, flag_room(1, bool(has_marks.any()), 0), rests, bool(has_marks.any()))
     has_tuplets = (written % _PLAIN_GRID != 0).any()
-    return stem + way * (_tallest(notes, closing) + (TUPLET_HEIGHT if has_tuplets else 0.0))
+    return stem + way * (_tallest(strokes) + (TUPLET_HEIGHT if has_tuplets else 0.0))
 
 
 def _most_beams(written: NDArray[np.int64]) -> int:
@@ -220,16 +226,7 @@ def _most_beams(written: NDArray[np.int64]) -> int:
     return min((PPQ // shortest).bit_length() - 1, _FINEST)
 
 
-def _tallest(notes: NDArray[np.void], closing: NDArray[np.bool_]) -> float:
-    """The highest stack of the chords among `notes`."""
-    mains = notes["lead_ms"] <= 0
-    notes, closing = notes[mains], closing[mains]
-    bearing = (
-        closing | (notes["openness"] >= OPEN_FROM) | (notes["choke_ticks"] > 0) | (notes["dynamic"] == Dynamic.ACCENT)
-    )
-    if not bearing.any():
-        return 0.0
-    ticks = np.unique(notes["tick"][bearing])
-    firsts, lasts = np.searchsorted(notes["tick"], ticks), np.searchsorted(notes["tick"], ticks, side="right")
-    kinds = {tuple(stacked_signs(notes[a:b], closing[a:b])) for a, b in zip(firsts, lasts, strict=True)}
-    return max((stack_height(list(names)) for names in kinds), default=0.0)
+def _tallest(strokes: Sequence[StaffStroke]) -> float:
+    """The highest stack of the chords among `strokes`."""
+    chords = groupby((stroke for stroke in strokes if stroke.is_main), key=attrgetter("tick"))
+    return max((stack_height(stacked_signs(list(chord))) for _, chord in chords), default=0.0)

@@ -6,7 +6,6 @@ Units are staff spaces, y down, 0 on the staff's middle line; everything hangs o
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from station.core.pieces import Dynamic
 from station.music.tempo import MeterChange
 from station.render.notation.beams import (
     FEET,
@@ -79,14 +78,14 @@ class VoicePen:
         return [Chord(tick, tick, rows, (), is_tied=True)] if rows else []
 
     def _stroke(self, chord: Chord) -> Stroke:
-        rows, start = list(chord.mains), self._bar.start
-        until = int(self._strokes.until[rows].max())
+        start, written = self._bar.start, self._strokes
+        until = max(int(written.until[i]) for i in chord.mains)
         return Stroke(
             chord.written - start,
             until - start if until > chord.written else None,
-            bool((self._strokes.score.notes["dynamic"][rows] == Dynamic.ACCENT).any()),
+            self._pen.is_accented(chord),
             chord.is_tied,
-            bool(self._strokes.is_measured[rows].any()),
+            any(bool(written.is_measured[i]) for i in chord.mains),
         )
 
     def _chord(self, mains: Sequence[Chord], value: TimedValue) -> Chord:

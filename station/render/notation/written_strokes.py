@@ -17,7 +17,7 @@ class WrittenStrokes:
     """A score's strokes as notation has them, shape (n,) each: the tick where each is written, up to where it is held.
 
     `until` is its own tick for a stroke that is not held. `is_measured`: the first stroke of a diddle or of an open
-    roll's cell, which writes both; `is_hidden`: the second.
+    roll's cell, which writes both; `is_hidden`: the second. `held` (k,) are the rows of those that are held.
     """
 
     score: Score
@@ -26,11 +26,13 @@ class WrittenStrokes:
     is_foot: NDArray[np.bool_]
     is_measured: NDArray[np.bool_]
     is_hidden: NDArray[np.bool_]
+    held: NDArray[np.intp]
 
     def held_into(self, tick: int, is_foot: bool) -> tuple[int, ...]:
         """The rolls of one voice that were struck before `tick` and are still held there."""
-        held = (self.tick < tick) & (self.until > tick) & (self.is_foot == is_foot)
-        return tuple(np.flatnonzero(held).tolist())
+        rows = self.held
+        held = (self.tick[rows] < tick) & (self.until[rows] > tick) & (self.is_foot[rows] == is_foot)
+        return tuple(rows[held].tolist())
 
 
 def feet_of(score: Score) -> NDArray[np.bool_]:
@@ -45,4 +47,4 @@ def written_strokes(score: Score, is_foot: NDArray[np.bool_]) -> WrittenStrokes:
     is_measured, is_hidden = np.zeros(len(score), np.bool_), np.zeros(len(score), np.bool_)
     for first, second, end in measured_cells(score, is_foot, ticks):
         is_measured[first], is_hidden[second], until[first] = True, True, end
-    return WrittenStrokes(score, ticks, until, is_foot, is_measured, is_hidden)
+    return WrittenStrokes(score, ticks, until, is_foot, is_measured, is_hidden, np.flatnonzero(until > ticks))

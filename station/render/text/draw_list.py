@@ -70,7 +70,7 @@ _NO_UV = (0.0, 0.0, 0.0, 0.0)
 
 
 class DrawList:
-    """Collects shapes in drawing order, each with the present anchor: `time_s`, and `span_s` that stretches it."""
+    """Collects shapes in drawing order, each with the present anchor: `time_s`, and `span_s` that draws it out."""
 
     def __init__(self, atlas: Atlas) -> None:
         self.atlas = atlas

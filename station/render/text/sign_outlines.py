@@ -17,7 +17,7 @@ FONT_FILE = Path(__file__).with_name("music_signs.ttf")
 _SPACES_PER_EM = 4.0
 """SMuFL 1.4, "Metrics and glyph registration"."""
 
-STAFF_LINE, STEM, BEAM, BEAM_STEP, THIN_LINE, THICK_LINE = 0.13, 0.12, 0.5, 0.75, 0.16, 0.5
+STAFF_LINE, STEM, BEAM, BEAM_STEP = 0.13, 0.12, 0.5, 0.75
 LEDGER_LINE, LEDGER_OUT, BRACKET_LINE, HAIRPIN_LINE, SLUR_END, SLUR_MIDDLE = 0.16, 0.4, 0.16, 0.16, 0.1, 0.22
 """Thicknesses that Bravura's metadata advise with its signs (`engravingDefaults`), the step from one beam to the
 next, and how far a ledger line passes a head."""

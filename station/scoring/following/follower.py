@@ -6,7 +6,7 @@ were judged in the wrong place meanwhile are judged anew (`live_judge`); a judge
 so.
 
 Everything is a function of the hits and their own times alone; frames decide nothing. With a click, notes that nobody
-plays are missed as time passes; without one, as the student passes them, for silence is no mistake of his.
+plays are missed as time passes; without one, as the student passes them, for silence is no mistake of theirs.
 """
 
 from collections.abc import Collection, Sequence

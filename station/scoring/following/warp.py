@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.scoring.following.anchors import Hits
-from station.scoring.following.offline import RawWay, clicked_way, free_way
+from station.scoring.following.free_run import RawWay
+from station.scoring.following.offline import clicked_way, free_way
 from station.scoring.following.tempo_tracker import GATE_S
 from station.scoring.following.written import Written, written_of
 from station.scoring.matching.slow_drift import half_width, local_trend, robust_sd

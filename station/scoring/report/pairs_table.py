@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from station.core.files import write_whole
+from station.core.disk.files import write_whole
 from station.core.note_map import general_midi_note
 from station.core.pieces import word
 from station.core.units import NS_PER_S

@@ -20,7 +20,9 @@ from pathlib import Path
 import numpy as np
 
 from station.core.errors import BadInput
-from station.core.schema import (
+from station.core.sound_names import SoundName
+from station.core.sound_naming import FileName, file_named
+from station.core.toml.schema import (
     Field,
     Fields,
     Reader,
@@ -36,10 +38,8 @@ from station.core.schema import (
     text,
     whole,
 )
-from station.core.sound_names import SoundName
-from station.core.sound_naming import FileName, file_named
-from station.core.toml_faults import wrong
-from station.core.toml_source import read_source
+from station.core.toml.toml_faults import wrong
+from station.core.toml.toml_source import read_source
 from station.sound.drum_kit import LEVEL_LAW, MAX_VELOCITY, DrumKit, Frames, Layer, Sound, level_of
 from station.sound.samples.audio_file import ENDINGS
 from station.sound.samples.recordings import Recordings, balance_of, even, kit_of

@@ -16,13 +16,13 @@ A fault is `BadInput` with line and column.
 from math import degrees, radians
 from pathlib import Path
 
-from station.core.files import NoSuchFile, write_whole
+from station.core.disk.files import NoSuchFile, write_whole
 from station.core.pieces import HAND_PIECES, Limb, Zone, word
-from station.core.schema import Field, Fields, choice, list_of, members_by_label, needed, number, read, record
 from station.core.settings import settings_path
-from station.core.toml_faults import wrong
-from station.core.toml_source import read_source
-from station.core.toml_write import toml_text
+from station.core.toml.schema import Field, Fields, choice, list_of, members_by_label, needed, number, read, record
+from station.core.toml.toml_faults import wrong
+from station.core.toml.toml_source import read_source
+from station.core.toml.toml_write import toml_text
 from station.sync.air.air_swing import FULL_SPEED_M_S
 from station.sync.air.air_zones import NORMAL_SPEED_M_S, AirKit, AirZone
 

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
-from station.core.files import write_whole
-from station.core.schema import Field, Fields, list_of, needed, number, one_of, optional, read, record, title
-from station.core.toml_faults import wrong
-from station.core.toml_source import read_source
-from station.core.toml_write import toml_text
+from station.core.disk.files import write_whole
+from station.core.toml.schema import Field, Fields, list_of, needed, number, one_of, optional, read, record, title
+from station.core.toml.toml_faults import wrong
+from station.core.toml.toml_source import read_source
+from station.core.toml.toml_write import toml_text
 from station.sync.phase.periodic_model import FEWEST_CENTRES, MOST_CENTRES, PeriodicModel
 
 FORMAT = "drum-station/phase-model/1"

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from station.core.errors import BadInput
-from station.core.schema import either
+from station.core.toml.schema import either
 from station.sync.signals.amc import read_amc
 from station.sync.signals.bvh_motion import read_bvh
 from station.sync.signals.signal import Signal

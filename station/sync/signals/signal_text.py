@@ -4,10 +4,10 @@ import math
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from station.core.disk.files import read_regular
+from station.core.disk.utf8 import utf8_text
 from station.core.errors import BadInput
-from station.core.files import read_regular
-from station.core.schema import shown
-from station.core.utf8 import utf8_text
+from station.core.toml.schema import shown
 
 MOST_BYTES = 64_000_000
 """Our choice: the longest trial of the CMU database has 6 MB, ten minutes of its 62 channels about 55."""

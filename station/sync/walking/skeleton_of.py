@@ -8,7 +8,7 @@ from math import radians
 from pathlib import Path
 
 from station.core.errors import BadInput
-from station.core.schema import either
+from station.core.toml.schema import either
 from station.sync.signals.amc import skeleton_beside
 from station.sync.signals.asf import AsfSkeleton, Bone, read_asf
 from station.sync.signals.bvh_motion import BONES, BvhMotion, read_bvh

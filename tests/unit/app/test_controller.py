@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from station.app.actions.action import Show
-from station.app.actions.file_actions import Export, ExportKind
+from station.app.actions.file_actions import Export
 from station.app.actions.practice_actions import (
     Begin,
     ChooseBars,
@@ -24,6 +24,7 @@ from station.app.actions.practice_actions import (
 )
 from station.app.actions.settings_actions import FinishFirstStart, LearnPause, PutUp, SetPreferences, SetView
 from station.app.controller import Controller
+from station.app.export import LESSON
 from station.app.first_start import FirstAnswers
 from station.app.room_state import Stage
 from station.app.sessions.session_control import LIVELY_NS, Launch
@@ -409,7 +410,7 @@ def test_who_practises_for_this_call_alone_has_what_is_exported(tmp_path: Path) 
     """`--student Ann` over a file that says Bob."""
     path = save_settings(Settings(sessions=str(tmp_path), student="Bob"), tmp_path / "settings.toml")
     station = station_on([Line()], SettingsStore(path, {"student": "Ann"}), Launch(PLAN))
-    station.dispatch(Export(ExportKind.LESSON))
+    station.dispatch(Export(LESSON))
     assert [path.relative_to(tmp_path).parts[0] for path in tmp_path.glob("*/take-along/*")] == ["Ann"]
 
 

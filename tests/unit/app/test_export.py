@@ -7,17 +7,23 @@ from pathlib import Path
 
 import pytest
 
-from station.app.export import LOOP, Exporter, film_words
+from station.app.export import LOOP, SHEET, ExportedFile, Exporter, film_words
+from station.app.music_files.part_export import WRITTEN, bars_of
 from station.app.view_settings import ViewSettings, view_settings_of
-from station.cli.animate_options import LEVELS, AnimateOptions
+from station.cli.animation.animate_options import LEVELS, AnimateOptions
 from station.cli.options.option_fields import read_options
 from station.core.errors import DeviceError
 from station.core.named_view import NamedView
+from station.core.pieces import Piece
 from station.core.settings import Settings
-from station.drills.lesson import BarCue
+from station.core.units import PPQ
+from station.drills.lesson import BarCue, Lesson, Section
 from station.drills.library import find_lesson
 from station.motion.sticking.hand_notes import Hands
+from station.music.formats.format_table import read_part
+from station.music.formats.music_format import MusicFormat
 from station.music.formats.smf.standard_midi import read_midi
+from tests.fakes.work_at_once import WorkAtOnce
 from tests.same_lesson import first_difference
 
 ROCK = find_lesson("rock-1")
@@ -50,9 +56,45 @@ def ended(files: Exporter) -> str | None:
     return files.news()
 
 
+def written(lesson: Lesson, bars: tuple[int, int], folder: Path, ending: str) -> ExportedFile:
+    files = Exporter(start=WorkAtOnce)
+    files.music(lesson, bars, settings(folder), ending)
+    assert files.view().is_writing
+    said = files.written()
+    made = files.view().written
+    assert made is not None
+    assert said is not None
+    assert said.startswith(f"kept in {made.path}")
+    assert not files.view().is_writing
+    return made
+
+
+@pytest.mark.parametrize("form", WRITTEN, ids=lambda form: form.endings[0])
+def test_bars_in_every_format_come_back(form: MusicFormat, tmp_path: Path) -> None:
+    """The second bar of Rock 1, as it is printed: eighths on the hi-hat, kick on 1 and 3, snare on 2 and 4."""
+    made = written(ROCK, (1, 1), tmp_path, form.endings[0])
+    score = read_part(made.path).score
+    quarters = [note.tick / PPQ for note in score if note.piece == Piece.SNARE]
+    assert quarters == [1.0, 3.0]
+    assert sum(note.piece == Piece.HIHAT for note in score) == 8
+
+
+def test_what_a_format_has_no_word_for_is_told(tmp_path: Path) -> None:
+    """A Clone Hero chart has no sticking (its table)."""
+    made = written(find_lesson("single-paradiddle"), (0, 0), tmp_path, ".chart")
+    assert any("sticking" in line for line in made.lost)
+
+
+def test_sections_are_cut_with_the_bars() -> None:
+    lesson = find_lesson("rock-1")
+    parts = (Section("a", 0, 0), Section("b", 1, 1))
+    found = bars_of(replace(lesson, sections=parts), (1, 1)).sections
+    assert [(part.name, part.first_bar, part.last_bar) for part in found] == [("b", 0, 0)]
+
+
 def test_bars_as_midi(tmp_path: Path) -> None:
     """The first bar of Rock 1: eight hi-hats, two kicks, two snares."""
-    path = Exporter().midi(ROCK, (0, 0), settings(tmp_path))
+    path = written(ROCK, (0, 0), tmp_path, ".mid").path
     assert path == tmp_path / "Ann" / "take-along" / "rock-1_1-1.mid"
     assert sum(len(track.notes) for track in read_midi(path).tracks) == 12
 
@@ -170,7 +212,7 @@ def test_a_gif_is_filmed_without_a_click(tmp_path: Path) -> None:
 
 
 def test_the_bars_as_a_sheet(tmp_path: Path) -> None:
-    path = Exporter().sheet(ROCK, (1, 1), settings(tmp_path))
+    path = written(ROCK, (1, 1), tmp_path, SHEET).path
     assert path == tmp_path / "Ann" / "take-along" / "rock-1_2-2.pdf"
     assert path.read_bytes().startswith(b"%PDF-")
 

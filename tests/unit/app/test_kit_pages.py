@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from station.cli.devices_learn import LearnPage
-from station.cli.devices_learn_pad import OnePadPage
-from station.cli.devices_monitor import MonitorPage
+from station.cli.device_pages.devices_learn import LearnPage
+from station.cli.device_pages.devices_learn_pad import OnePadPage
+from station.cli.device_pages.devices_monitor import MonitorPage
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS, ns_from_ms
 from station.devices.mapping.device_file import kits_folder, own_kit

@@ -10,7 +10,7 @@ import pytest
 from station.app.toml_files import KINDS, check_files, kind_of
 from station.cli.command_line import main
 from station.core.errors import BadInput
-from station.core.toml_source import MAX_FILE_BYTES, read_source, text_source
+from station.core.toml.toml_source import MAX_FILE_BYTES, read_source, text_source
 from station.drills.library import lessons_dir
 from station.drills.writing.authoring import NEW_LESSON
 from tests.toml_kinds import GOOD, Good, read_as

@@ -13,7 +13,7 @@ import pytest
 
 from station.bench.rigs.devices.serial_kit import SerialKit
 from station.cli.command_line import main
-from station.cli.devices_monitor_sticks import SticksPage
+from station.cli.device_pages.devices_monitor_sticks import SticksPage
 from station.core.events import SensorMounted, SensorSamples
 from station.core.imu import Mounting
 from station.core.pieces import Limb
@@ -99,7 +99,7 @@ def test_sensors_are_recorded_and_replayed(tmp_path: Path, capsys: pytest.Captur
 
 @pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak as serial ports are Linux's")
 def test_a_sensor_is_set_up_and_kept_so_at_its_new_rate(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("station.cli.devices_setup_stick._BETWEEN_S", 0.0)
+    monkeypatch.setattr("station.cli.device_pages.devices_setup_stick._BETWEEN_S", 0.0)
     with SerialKit(tmp_path / "ttyUSB0") as sensor:
         keeps_open = os.open(sensor.path, os.O_RDWR | os.O_NOCTTY)  # a line that is closed drops what nobody read
         order = ["devices", "setup-stick", f"{sensor.device}@9600", "--rate", "100", "--baud", "115200"]

@@ -5,10 +5,11 @@ from pathlib import Path
 
 import pytest
 
+from station.app.music_files.named_parts import is_lesson
+from station.app.music_files.read_captures import is_capture
+from station.app.music_files.read_takes import FREE_TITLE, take_as_score
 from station.cli.command_line import main
-from station.cli.input.read_captures import is_capture
-from station.cli.input.read_scores import is_lesson, load_score
-from station.cli.input.read_takes import FREE_TITLE, take_as_score
+from station.cli.input.read_scores import load_score
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.mapping.presets import GENERAL_MIDI_PRESET

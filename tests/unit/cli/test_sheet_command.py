@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from station.app.music_files.named_parts import load_part
 from station.cli.command_line import main
-from station.cli.input.read_scores import load_part
 from station.core.pieces import Limb
 from station.core.units import PPQ
 from station.drills.library import find_lesson

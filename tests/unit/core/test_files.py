@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from station.core.disk.files import write_whole
 from station.core.errors import DeviceError
-from station.core.files import write_whole
 
 
 def test_a_new_file_holds_the_bytes_and_nothing_else_is_left(tmp_path: Path) -> None:
@@ -115,7 +115,7 @@ def test_a_disk_that_fills_up_leaves_the_old_file_whole(tmp_path: Path) -> None:
         import resource, signal, sys
         from pathlib import Path
         from station.core.errors import DeviceError
-        from station.core.files import write_whole
+        from station.core.disk.files import write_whole
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
         try:

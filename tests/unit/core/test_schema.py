@@ -5,7 +5,7 @@ from typing import NamedTuple
 import pytest
 
 from station.core.errors import BadInput
-from station.core.schema import (
+from station.core.toml.schema import (
     Field,
     Reader,
     choice,
@@ -24,8 +24,8 @@ from station.core.schema import (
     text,
     whole,
 )
-from station.core.toml_faults import MOST_FAULTS, wrong
-from station.core.toml_source import source_of, text_source
+from station.core.toml.toml_faults import MOST_FAULTS, wrong
+from station.core.toml.toml_source import source_of, text_source
 
 
 class Drum(NamedTuple):

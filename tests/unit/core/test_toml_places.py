@@ -2,8 +2,8 @@
 
 import pytest
 
-from station.core.toml_places import Places
-from station.core.toml_source import load
+from station.core.toml.toml_places import Places
+from station.core.toml.toml_source import load
 
 TEXT = """\
 # a comment with "quotes" and [brackets]

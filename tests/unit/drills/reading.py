@@ -1,6 +1,6 @@
 """Small words that the tests of lessons share."""
 
-from station.core.toml_faults import Fault
+from station.core.toml.toml_faults import Fault
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
 from station.drills.reading.lesson_file import parse_lesson

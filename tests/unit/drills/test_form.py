@@ -183,6 +183,26 @@ def test_an_unplayable_letter_is_blamed_once_however_often_it_is_played() -> Non
     assert "3 hands needed at once" in found.text
 
 
+@pytest.mark.parametrize(
+    ("form", "played"),
+    [
+        ("A x3, B", "A1-3 B4-4"),
+        ("(A, B) x2, A", "A1-1 B2-2 A3-3 B4-4 A5-5"),
+        ("B, (A x2, B x2) x2", "B1-1 A2-3 B4-5 A6-7 B8-9"),
+        ("(A, B)", "A1-1 B2-2"),
+        ("A × 2, B", "A1-2 B3-3"),
+    ],
+)
+def test_an_entry_or_a_group_may_be_played_several_times(form: str, played: str) -> None:
+    sections = bars_of(f'form = "{form}"\n{A}{B}')
+    assert " ".join(f"{name}{first}-{last}" for name, first, last in sections) == played
+
+
+def test_a_grid_that_is_called_so_is_meant() -> None:
+    text = 'form = "A, A x2, (A)"\n' + A + B.replace('"B"', '"A x2"') + B.replace('"B"', '"(A)"')
+    assert [name for name, _, _ in bars_of(text)] == ["A", "A x2", "(A)"]
+
+
 # --- faults -----------------------------------------------------------------------------------------------------------
 
 
@@ -193,6 +213,10 @@ def test_an_unplayable_letter_is_blamed_once_however_often_it_is_played() -> Non
         ('form = ["A", "Bb", "B"]\n' + A + B, 3, 14, "no such grid: Bb; did you mean B?"),
         ('form = "A, , B"\n' + A + B, 3, 8, "expected one line of text"),
         ("form = []\n" + A, 3, 8, "0 entries; expected 1 to 1000"),
+        ('form = "A x0"\n' + A, 3, 8, "0 entries; expected 1 to 1000"),
+        ('form = "(A, A x40) x40"\n' + A, 3, 8, "1640 entries; expected 1 to 1000"),
+        ('form = "(A, B"\n' + A + B, 3, 8, "( before A is never closed"),
+        ('form = "(A, C x2) x2"\n' + A + B, 3, 13, "no such grid: C"),
         ("form = 3\n" + A, 3, 8, 'expected a list such as ["A", "A", "B"], or "A, A, B", found 3'),
         ('form = ["A"]\n' + A + B, 8, 8, "never played; expected B in form"),
         ('form = ["A"]\n' + A + '[[grid]]\nsnare = "o"\n', 7, 1, "never played, for it has no name"),

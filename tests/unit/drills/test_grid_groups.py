@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.core.toml_faults import Wrong
+from station.core.toml.toml_faults import Wrong
 from station.drills.grid.grid_timing import meter, meters
 from station.drills.reading.lesson_file import parse_lesson
 from tests.unit.drills.reading import EIGHTH, QUARTER, WHOLE, faults, read, text_of, ticks

@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.core.toml_faults import Faults
+from station.core.toml.toml_faults import Faults
 from station.core.units import PPQ
 from station.drills.grid.grid_reader import GridSection, read_grid
 from station.drills.grid.grid_timing import GridTiming

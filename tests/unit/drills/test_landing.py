@@ -3,7 +3,7 @@
 import pytest
 
 from station.core.pieces import Dynamic, Limb, Piece
-from station.core.toml_faults import Faults
+from station.core.toml.toml_faults import Faults
 from station.core.units import PPQ
 from station.drills.grid.grid_timing import GridTiming
 from station.drills.grid.landing import read_landing

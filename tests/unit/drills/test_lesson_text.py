@@ -2,7 +2,7 @@
 
 import pytest
 
-from station.core.toml_source import load
+from station.core.toml.toml_source import load
 from station.drills.library import find_lesson, lesson_names
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_text import show, with_value

@@ -8,9 +8,10 @@ import pytest
 from station.core.pieces import Articulation, Limb, Piece
 from station.core.units import PPQ
 from station.music.loudness_marks import LoudnessMark
-from station.music.repeats import Ending, Passage, folded, played_bars
+from station.music.repeats import Ending, Passage, folded
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
+from tests.played_passages import played_bars
 
 BAR = 4 * PPQ
 _STROKES = {"A": (0, 2), "B": (0, 1, 2, 3), "C": (1, 3), "D": (0,), "E": (3,)}

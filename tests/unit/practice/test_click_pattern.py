@@ -15,7 +15,6 @@ from station.practice.session.click_pattern import (
     bar_clicks,
     click_cues,
     count_in,
-    pickup_of,
 )
 
 FOUR = MeterChange(0, 4, 4)
@@ -132,7 +131,7 @@ def test_a_bar_that_is_cut_short_keeps_to_its_end() -> None:
 
 def test_a_pickup_takes_its_beats_from_the_count_in() -> None:
     with_pickup = TempoMap.build([TempoChange.from_bpm(0, 60.0)], [MeterChange(0, 1, 4), MeterChange(PPQ, 4, 4)])
-    pickup = pickup_of(with_pickup, 9 * PPQ)
+    pickup = with_pickup.pickup_ticks(9 * PPQ)
     before, end_tick = count_in(with_pickup, 1, pickup)
     assert pickup == PPQ
     assert end_tick == 3 * PPQ
@@ -140,10 +139,10 @@ def test_a_pickup_takes_its_beats_from_the_count_in() -> None:
 
 
 def test_no_pickup_no_change() -> None:
-    before, end_tick = count_in(SLOW, 2, pickup_of(SLOW, 8 * PPQ))
+    before, end_tick = count_in(SLOW, 2, SLOW.pickup_ticks(8 * PPQ))
     assert end_tick == 8 * PPQ
     assert before.bpm_at(0) == pytest.approx(60.0)
-    assert pickup_of(SLOW, 4 * PPQ) == 0  # a single bar is no pickup
+    assert SLOW.pickup_ticks(4 * PPQ) == 0  # a single bar is no pickup
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from station.core.units import PPQ
 from station.music.score import Note, Score
 from station.render.notation.chord_width import heads_extent, sticking
 from station.render.notation.head_places import PlacedHead, heads_x, placed_heads
+from station.render.notation.staff_strokes import staff_strokes
 from tests.unit.render.scores import score_of
 
 NOTE_HALF, CROSS_HALF, BRACKET = 0.59, 0.58, 0.436
@@ -19,12 +20,12 @@ def heads(*pieces: Piece, ghosts: tuple[Piece, ...] = ()) -> dict[Piece, PlacedH
     rows = score_of(*notes).notes
     return {
         Piece(int(row["piece"])): head
-        for row, head in zip(rows, placed_heads(rows, np.zeros(len(rows), np.bool_)), strict=True)
+        for row, head in zip(rows, placed_heads(staff_strokes(score_of(*notes))), strict=True)
     }
 
 
 def reach(note: Note) -> tuple[float, float]:
-    return heads_extent(score_of(note).notes, np.zeros(1, np.bool_))
+    return heads_extent(staff_strokes(score_of(note)))
 
 
 def test_a_third_stands_on_one_line_and_a_second_on_both_sides_of_the_stem() -> None:
@@ -82,12 +83,12 @@ def test_how_far_heads_reach() -> None:
 
 def test_letters_of_a_chord() -> None:
     notes = [Note(0, Piece.SNARE), Note(0, Piece.HIHAT), Note(0, Piece.KICK)]
-    rows = score_of(*notes).notes  # in the order of the pieces: kick, snare, hi-hat
-    limbs = np.array([Limb.LEFT_FOOT, Limb.LEFT_HAND, Limb.RIGHT_HAND], np.int8)
-    assert sticking(rows, limbs, is_up=True) == ["L", "R"], "from the staff outward, as the heads are"
-    assert sticking(rows, limbs, is_up=False) == ["L"]
-    assert sticking(rows, np.full(3, Limb.UNKNOWN, np.int8), is_up=True) == []
+    score = score_of(*notes)  # in the order of the pieces: kick, snare, hi-hat
+    strokes = staff_strokes(score, np.array([Limb.LEFT_FOOT, Limb.LEFT_HAND, Limb.RIGHT_HAND], np.int8))
+    assert sticking(strokes, is_up=True) == ["L", "R"], "from the staff outward, as the heads are"
+    assert sticking(strokes, is_up=False) == ["L"]
+    assert sticking(staff_strokes(score), is_up=True) == []
     early = [Note(0, Piece.SNARE, lead_ms=ms, ornament=Ornament.DRAG) for ms in (110.0, 55.0)]
-    drag = score_of(*early, Note(0, Piece.SNARE, ornament=Ornament.DRAG)).notes
+    drag = score_of(*early, Note(0, Piece.SNARE, ornament=Ornament.DRAG))
     left = np.array([Limb.LEFT_HAND, Limb.LEFT_HAND, Limb.RIGHT_HAND], np.int8)
-    assert sticking(drag, left, is_up=True) == ["llR"]
+    assert sticking(staff_strokes(drag, left), is_up=True) == ["llR"]

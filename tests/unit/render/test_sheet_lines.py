@@ -13,7 +13,7 @@ from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 from station.render.notation.bar_lines import BarLine, Volta
 from station.render.notation.engraving import Engraver
-from station.render.notation.page.bar_columns import BarColumns, bar_columns, stretch_to
+from station.render.notation.page.bar_columns import BarColumns, bar_columns, force_to
 from station.render.notation.page.line_breaks import SetBar, lines
 from station.render.notation.page.sheet_bars import number_words, sheet_bars
 from station.render.notation.sheet_words import LineWord, draw_words
@@ -85,10 +85,10 @@ def test_a_whole_rest_stands_in_the_middle_of_its_bar() -> None:
 def test_springs_give_way_only_where_they_may() -> None:
     bars = [columns_of(0.0, 0.25, 0.5, 2.0), columns_of(0.0, 2.0)]
     for width in (18.0, 25.0, 60.0):
-        stretch = stretch_to(bars, width)
-        assert sum(bar.places(stretch)[-1] for bar in bars) == pytest.approx(width)
+        force = force_to(bars, width)
+        assert sum(bar.places(force)[-1] for bar in bars) == pytest.approx(width)
         for bar in bars:
-            assert (np.diff(bar.places(stretch)) >= bar.least - 1e-9).all()
+            assert (np.diff(bar.places(force)) >= bar.least - 1e-9).all()
 
 
 # --- lines ------------------------------------------------------------------------------------------------------------

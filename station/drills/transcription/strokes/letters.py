@@ -13,8 +13,9 @@ from station.music.score import Note
 
 def as_letter(note: Note) -> Note:
     """The main stroke `note` as the letter nearest to it plays it, with a limb that can."""
-    is_buzz = note.articulation is Articulation.BUZZ
-    letter = nearest_letter(replace(note, ornament=Ornament.ROLL if is_buzz else note.ornament))
+    ornament = Ornament.ROLL if note.articulation is Articulation.BUZZ else note.ornament
+    meaning = TabSymbol(note.zone, note.articulation, note.dynamic, note.openness, ornament)
+    letter = nearest_letter(family_of(note.piece), meaning)
     return replace(
         note,
         zone=letter.zone,
@@ -29,18 +30,12 @@ def as_letter(note: Note) -> Note:
     )
 
 
-def nearest_letter(note: Note) -> TabSymbol:
-    """The letter of the note's piece that differs least.
+@lru_cache(maxsize=4096)
+def nearest_letter(family: TabFamily, meaning: TabSymbol) -> TabSymbol:
+    """The letter of the family that differs least from what is meant.
 
     What counts most comes first: articulation, a bell or a rim, ornament, openness, dynamic, edge or bow.
     """
-    meaning = TabSymbol(note.zone, note.articulation, note.dynamic, note.openness, note.ornament)
-    return _nearest(family_of(note.piece), meaning)
-
-
-@lru_cache(maxsize=4096)
-def _nearest(family: TabFamily, meaning: TabSymbol) -> TabSymbol:
-    """The letter of the family that differs least from what is meant."""
     openness = meaning.openness or 0.0
 
     def distance(letter: TabSymbol) -> tuple[bool, bool, bool, float, int, bool]:

@@ -11,14 +11,16 @@ spacing belongs to the hand, not to the beat. What a stroke is called, by the ga
 What a file says itself (ornaments, grace strokes, buzzes) stays, and then nothing is looked for.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import inf
-from statistics import fmean, median
+from math import inf, log
+from statistics import median
 
 from station.core.pieces import TOMS, Articulation, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS, PPQ
+from station.drills.transcription.strokes.close_pairs import Neighbours, is_two_of_a_run, neighbours
+from station.drills.transcription.strokes.press_rolls import FEWEST, Roll, hands_strokes
 from station.music.grace_strokes import DRAG_RANGE_MS, FLAM_RANGE_MS, Graces
 from station.music.score import Note, Score
 
@@ -33,25 +35,26 @@ AT_ONCE_MS = 8.0
 CLOSE_MS = 45.0
 """A flam's grace stroke comes 15–40 ms before its note (HUMANS, Timing); a hand's own next stroke after 50 ms or more
 (`limb_speeds`)."""
-DRAG_MS = (15.0, 72.0)
+WIDE_MS = 60.0
+"""A soft stroke so near before a louder one, and alone with it, is its grace stroke (our choice: as in a drag)."""
+DRAG_MS = (15.0, 78.0)
 """The strokes of a drag are 40–70 ms apart (HUMANS, Timing); tight ruffs go down to a buzz's spacing."""
 _SOFT = 0.75
 """Grace strokes have 25–50 % of their note's velocity (HUMANS, Timing); human spread allows half as much again."""
 _DRAG_SOFT = 0.62
-RUN_MS = 120.0
-"""So near to other strokes of its drum a pair is part of a run: sixteenths at 125 bpm (our choice)."""
-_CELLS_OF_TWO, _CELLS_BESIDE = 2.5, 1.75
-"""From the stroke before two of a run to the one after them are three cells, about a flam two; what is farther from
-the next stroke is the end of a run."""
-_LATE_HAND = 1.1
-_NEXT_HAND = 1.2
+_LATE_GAP, _LATE_HAND = 1.2, 1.2
+_NEXT_HAND = 1.35
 """So much louder than rebounds is the other hand's stroke after them: rebounds lose a third; where it also
 comes so much later than a rebound would, less will do (our choice)."""
-_ALIKE = 0.5
+_ALIKE = 0.25
 """Both strokes of a drag are of one bounce: the softer has at least this share of the louder (our choice)."""
 _APART = 1.3
 """So many times as far as its own spacing a drag stands from the stroke before it, or so many times softer than it is,
 else the three are a run (our choice)."""
+_EVEN = 1.6
+"""A louder stroke that comes by so much earlier before a grace stroke is a stroke of its own (our choice)."""
+_ALONE = 3.0
+"""So many times as far as its own spacing from the stroke before it nothing but a drag is so quick (our choice)."""
 _RUN_TICKS = (PPQ // 8, PPQ // 12)
 """Strokes that lie exactly on these cells of an exact score are written strokes, not grace strokes."""
 _FEWEST = 3
@@ -137,10 +140,48 @@ def _line(piece: Piece, line: list[_Stroke], score: Score) -> list[_Stroke]:
     """The main strokes of one piece."""
     if piece not in _DRUMS:
         return line
-    return _without_chains(_with_drags(line), score)
+    return [found for stretch in _stretches(_with_drags(line), score) for found in stretch]
 
 
 # --- chains of close strokes ------------------------------------------------------------------------------------------
+
+
+def _stretches(line: Sequence[_Stroke], score: Score) -> Iterator[list[_Stroke]]:
+    """The line, its rolls of rebounds parted into hands' strokes, and what lies between them as the strokes it is."""
+    rest: list[_Stroke] = []
+    together = list(_rolls(line))
+    presses = [roll for roll in together if _may_be_pressed(roll)]
+    hands = {id(roll): at for roll, at in zip(presses, _hands(presses, score), strict=True)}
+    for roll in together:
+        at = hands.get(id(roll), ())
+        if not at:
+            rest += roll
+            continue
+        yield _without_chains(rest, score)
+        rest = []
+        yield [_buzz(roll[a:b], score) for a, b in pairwise([*at, len(roll)])]
+    yield _without_chains(rest, score)
+
+
+def _rolls(line: Sequence[_Stroke]) -> Iterator[list[_Stroke]]:
+    """The line cut where a gap is wider than `CLOSE_MS`."""
+    roll: list[_Stroke] = []
+    for stroke in line:
+        if roll and stroke.ms - roll[-1].ms > CLOSE_MS:
+            yield roll
+            roll = []
+        roll.append(stroke)
+    if roll:
+        yield roll
+
+
+def _may_be_pressed(roll: Sequence[_Stroke]) -> bool:
+    return len(roll) >= FEWEST and not any(stroke.leads_ms or not _is_plain(stroke.note) for stroke in roll)
+
+
+def _hands(presses: Sequence[Sequence[_Stroke]], score: Score) -> list[tuple[int, ...]]:
+    rolls = [Roll([s.ms for s in press], [s.note.velocity for s in press]) for press in presses]
+    return hands_strokes(rolls, score.tempo_map)
 
 
 def _without_chains(line: Sequence[_Stroke], score: Score) -> list[_Stroke]:
@@ -151,32 +192,51 @@ def _without_chains(line: Sequence[_Stroke], score: Score) -> list[_Stroke]:
             chains[-1].append(stroke)
         else:
             chains.append([stroke])
-    is_run = _are_of_runs([chain[0].ms for chain in chains], [chain[-1].ms for chain in chains])
-    return [found for chain, inside in zip(chains, is_run, strict=True) for found in _meant(chain, inside, score)]
+    chains = _with_wide_flams(chains)
+    starts, ends = [chain[0].ms for chain in chains], [chain[-1].ms for chain in chains]
+    runs = [neighbours(starts, ends, i) if len(chain) == 2 else None for i, chain in enumerate(chains)]
+    likely = [len(c) == 2 and not _is_two_of_run(c, run, 0.0) for c, run in zip(chains, runs, strict=True)]
+    rare = log((len(chains) + 1) / (sum(likely) + 0.5))
+    return [
+        found for c, run in zip(chains, runs, strict=True) for found in _meant(c, _is_two_of_run(c, run, rare), score)
+    ]
 
 
-def _are_of_runs(starts: Sequence[float], ends: Sequence[float]) -> list[bool]:
-    """Whether each chain, from `starts` to `ends` (ms), stands where a run of strokes needs two.
-
-    Three cells of the run lie then between the strokes before and after; at its end or begin a whole cell beside it.
-    """
-    found: list[bool] = []
-    for i, (start, end) in enumerate(zip(starts, ends, strict=True)):
-        before, after = ends[max(i - 2, 0) : i], starts[i + 1 : i + 3]
-        gaps = [b - a for a, b in (*pairwise(before), *pairwise(after)) if b - a <= RUN_MS]
-        left, right = start - before[-1] if before else inf, after[0] - end if after else inf
-        if gaps:
-            found.append(_is_of_run(left / fmean(gaps), end - start, right / fmean(gaps), fmean(gaps)))
+def _with_wide_flams(chains: Sequence[list[_Stroke]]) -> list[list[_Stroke]]:
+    """The chains, a soft stroke a little farther before a louder one in its chain where both stand alone."""
+    found: list[list[_Stroke]] = []
+    for i, chain in enumerate(chains):
+        after = chains[i + 1][0].ms if i + 1 < len(chains) else inf
+        if found and _is_wide_flam(found[-2:-1], found[-1], chain, after):
+            found[-1] = [*found[-1], *chain]
         else:
-            found.append(max(left, right) < inf and min(left, right) <= RUN_MS)
+            found.append(chain)
     return found
 
 
-def _is_of_run(left: float, wide_ms: float, right: float, cell_ms: float) -> bool:
-    """Whether two strokes `wide_ms` apart, so many cells after a run's stroke and before its next, are two of it."""
-    if max(left, right) <= _CELLS_BESIDE:
-        return left + wide_ms / cell_ms + right >= _CELLS_OF_TWO
-    return 1 <= left <= _CELLS_BESIDE or 1 < right <= _CELLS_BESIDE
+def _is_wide_flam(before: Sequence[list[_Stroke]], soft: list[_Stroke], loud: list[_Stroke], after_ms: float) -> bool:
+    gap = loud[0].ms - soft[-1].ms
+    room = min(soft[0].ms - before[0][-1].ms if before else inf, after_ms - loud[0].ms)
+    return (
+        len(soft) == len(loud) == 1
+        and gap <= WIDE_MS
+        and room >= _ALONE * gap
+        and not soft[0].leads_ms
+        and not loud[0].leads_ms
+        and soft[0].note.velocity <= _DRAG_SOFT * loud[0].note.velocity
+        and not _is_written_run((*soft, *loud))
+    )
+
+
+def _is_two_of_run(chain: Sequence[_Stroke], run: Neighbours | None, rare: float) -> bool:
+    """Whether two close strokes are two of the run; a flam costs `rare` more, as seldom as the drum has them."""
+    if run is None or len(chain) != 2:
+        return False
+    first, second = chain
+    share = first.note.velocity / second.note.velocity
+    if second.ms - first.ms <= AT_ONCE_MS and share >= _BOUNCE_SHARE:
+        return False
+    return is_two_of_a_run(first.ms, second.ms, share, run, rare)
 
 
 def _begins_another(chain: Sequence[_Stroke], stroke: _Stroke) -> bool:
@@ -187,21 +247,29 @@ def _begins_another(chain: Sequence[_Stroke], stroke: _Stroke) -> bool:
         return False
     heard, velocity = [s.note.velocity for s in chain], stroke.note.velocity
     gap = median(b.ms - a.ms for a, b in pairwise(chain))
-    is_late = stroke.ms - chain[-1].ms >= _NEXT_HAND * gap
+    is_late = stroke.ms - chain[-1].ms >= _LATE_GAP * gap
     is_louder = velocity >= (_LATE_HAND if is_late else _NEXT_HAND) * median(heard[1:])
     return is_louder and max(heard) > _SOFT * velocity
 
 
 def _meant(chain: Sequence[_Stroke], is_run: bool, score: Score) -> list[_Stroke]:
-    """What a chain is; `is_run`: another stroke of the drum is near."""
+    """What a chain is; `is_run`: its two strokes are two of a run."""
     first, last = chain[0], chain[-1]
     if len(chain) == 1 or not all(_is_plain(s.note) for s in chain):
         return list(chain)
     if len(chain) == 2:
-        return _flam(first, last, is_run)
+        return list(chain) if is_run else _flam(first, last)
     before = max(s.note.velocity for s in chain[:-1])
     if before <= _SOFT * last.note.velocity:
         return [_graced(last, Ornament.DRAG, chain[-3:-1])]
+    return [_buzz(chain, score)]
+
+
+def _buzz(chain: Sequence[_Stroke], score: Score) -> _Stroke:
+    """A stroke and its rebounds as one; alone it is the stroke after a roll."""
+    first, last = chain[0], chain[-1]
+    if len(chain) == 1:
+        return first
     rebounds_until = last.ms + (last.ms - first.ms) / (len(chain) - 1)
     end = int(score.tempo_map.ticks_at_ns(round(rebounds_until * NS_PER_MS)))
     note = replace(
@@ -211,22 +279,17 @@ def _meant(chain: Sequence[_Stroke], is_run: bool, score: Score) -> list[_Stroke
         ornament=Ornament.ROLL,
         duration_ticks=max(1, end - first.note.tick),
     )
-    return [_Stroke(note, first.ms)]
+    return _Stroke(note, first.ms)
 
 
 def _is_plain(note: Note) -> bool:
     return note.articulation in (Articulation.NORMAL, Articulation.RIM_SHOT)
 
 
-def _flam(first: _Stroke, second: _Stroke, is_run: bool) -> list[_Stroke]:
-    """Two close strokes: a flam, but where the first is by far the louder, a stroke and its rebound.
-
-    In a run of strokes two that are nearly alike are two of the run, one late and one early.
-    """
+def _flam(first: _Stroke, second: _Stroke) -> list[_Stroke]:
+    """Two close strokes: a flam, but where the first is by far the louder, a stroke and its rebound."""
     share = first.note.velocity / second.note.velocity
     is_at_once = second.ms - first.ms <= AT_ONCE_MS and share >= _BOUNCE_SHARE
-    if is_run and share > _DRAG_SOFT and not is_at_once:
-        return [first, second]
     if share <= _SOFT or is_at_once:
         return [_graced(second, Ornament.FLAM, [first])]
     if share <= 1 / _SOFT:
@@ -264,7 +327,14 @@ def _is_drag(before: Sequence[_Stroke], first: _Stroke, second: _Stroke, main: _
     if not all(DRAG_MS[0] <= gap <= DRAG_MS[1] for gap in gaps) or _is_written_run(three):
         return False
     low, high = sorted((first.note.velocity, second.note.velocity))
-    if high > _DRAG_SOFT * main.note.velocity or low < _ALIKE * high:
+    is_alone = not before or first.ms - before[0].ms >= _ALONE * max(gaps)
+    is_even = max(gaps) <= _APART * min(gaps)
+    heard = (low + high) / 2 if is_even else high
+    if (not is_alone and heard > _DRAG_SOFT * main.note.velocity) or high > _SOFT * main.note.velocity:
+        return False
+    if low < _ALIKE * high:
+        return False
+    if gaps[0] > _EVEN * gaps[1] and first.note.velocity > second.note.velocity / _SOFT:
         return False
     return not before or first.ms - before[0].ms >= _APART * gaps[0] or before[0].note.velocity >= _APART * high
 

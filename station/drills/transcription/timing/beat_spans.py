@@ -1,4 +1,4 @@
-"""The beats of a piece as stretches of time that are cut into cells, whatever its meters.
+"""The beats of a piece as spans of time that are cut into cells, whatever its meters.
 
 A span is what a foot taps (`MeterChange.pulses`): a quarter in 4/4, a dotted quarter in 6/8, a group of eighths in
 2+2+3/8. Longer pulses are cut into quarters, so that one table of divisions serves all.
@@ -44,6 +44,11 @@ class BeatSpans:
     def lengths_s(self) -> Floats:
         """Length of each in seconds."""
         return self.ends_s - self.starts_s
+
+    def only(self, chosen: Ints) -> "BeatSpans":
+        """Those with the indices `chosen`, in order; what lies between them is a gap."""
+        columns = (self.starts, self.ends, self.starts_s, self.ends_s, self.bar, self.in_bar, self.is_ternary)
+        return BeatSpans(*(column[chosen] for column in columns))
 
     def places(self, times_s: Floats) -> tuple[Ints, Floats]:
         """Of each time the span that holds it and where in it, 0 to 1; before the first it is below 0."""

@@ -19,15 +19,13 @@ from station.core.units import PPQ
 from station.music.swing import STRAIGHT, Swing
 from station.music.tempo import MeterChange
 
-BINARY_COSTS: Mapping[int, float] = MappingProxyType(
-    {1: 0.0, 2: 0.3, 4: 0.8, 3: 1.6, 6: 3.5, 8: 4.0, 5: 11.0, 7: 12.0, 12: 12.0}
-)
-"""Cost of cutting a beat of two halves into so many cells."""
+BINARY_COSTS: Mapping[int, float] = MappingProxyType({1: 0.0, 2: 0.3, 4: 0.8, 3: 1.6, 6: 3.5, 8: 4.0, 5: 11.0, 7: 12.0})
+"""Cost of cutting a beat of two halves into so many cells; nothing finer than these is guessed (decision 0060)."""
 TERNARY_COSTS: Mapping[int, float] = MappingProxyType(
     {1: 0.0, 3: 0.3, 6: 0.9, 12: 4.0, 2: 5.0, 4: 6.0, 9: 8.0, 5: 11.0, 7: 12.0}
 )
 """The same of a beat of three thirds, as in 6/8."""
-BINARY_FINE_COSTS: Mapping[int, float] = MappingProxyType({6: 0.7, 8: 1.0, 5: 0.3, 7: 0.5, 12: 6.0})
+BINARY_FINE_COSTS: Mapping[int, float] = MappingProxyType({6: 0.7, 8: 1.0, 5: 0.3, 7: 0.5})
 """What each beat costs that is cut so fine, however many others are: a drummer's habits of timing recur as rhythms do,
 and must not add up to thirty-seconds. Our choice, by the Groove MIDI Dataset's grooves that several drummers play."""
 TERNARY_FINE_COSTS: Mapping[int, float] = MappingProxyType({12: 1.0, 5: 1.0, 7: 2.0, 9: 2.0})

@@ -9,6 +9,7 @@ better than a constant lean does.
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product
+from math import ceil
 
 import numpy as np
 
@@ -17,6 +18,9 @@ from station.drills.transcription.timing.take_feel import Feel, Take, clipped_er
 
 STROKES = 10
 """As many make a point of the drift: their mean is known to a third of their spread."""
+_MOST_POINTS = 300
+"""Of a take of more than 3000 strokes each point has more of them: what it costs, a beat read for each point, must not
+grow without end (our choice)."""
 FIRST_STROKES = 40
 """As many decide where the beat begins, and how fast."""
 _LEANS_S = tuple(ms / 1000 for ms in range(-40, 41, 10))
@@ -57,10 +61,11 @@ def steadied(take: Take, feel: Feel) -> Take | None:
 
 
 def _points(take: Take, feel: Feel) -> Iterator[tuple[float, float]]:
-    """Where the take's beat is: time, and how late it then is, by `STROKES` strokes each."""
+    """Where the take's beat is: time, and how late it then is, by `STROKES` strokes or more each."""
     line = _begin(take, feel)
-    for start in range(0, len(take.piece), STROKES):
-        some = slice(start, start + STROKES)
+    count = max(STROKES, ceil(len(take.piece) / _MOST_POINTS))
+    for start in range(0, len(take.piece), count):
+        some = slice(start, start + count)
         times_s = take.times_s[some]
         middle = float(times_s.mean())
         error = _error(take, some, line, feel)

@@ -60,7 +60,10 @@ class _Option:
 
 @dataclass(frozen=True, eq=False)
 class _Kind:
-    """The strokes of all spans of one length and nature; `which` (n,) are their indices, `spans` (s,) the spans'."""
+    """The strokes of all spans of one length and nature, over those of these spans alone that have any.
+
+    `which` (n,) are the strokes' indices among all strokes, `spans` (s,) those of their spans among all spans.
+    """
 
     strokes: Strokes
     which: Ints
@@ -120,23 +123,26 @@ def _kinds(strokes: Strokes, swing: Swing) -> Iterator[_Kind]:
         chosen = np.nonzero(code[strokes.span] == value)[0]
         here = struck[code[struck] == value]
         divisions = divisions_of(bool(value % 2), int(value // 2), swing)
-        yield _Kind(strokes.of(chosen), chosen, here, divisions)
+        of_stroke = np.searchsorted(here, strokes.span[chosen])
+        own = Strokes(spans.only(here), of_stroke, strokes.place[chosen], strokes.piece[chosen], strokes.spread_s)
+        yield _Kind(own, chosen, here, divisions)
 
 
 def _read_kind(kind: _Kind, max_words: int) -> tuple[Ints, Floats, float]:
     """Of the spans of a kind the cells (s,), of their strokes the places (n,), and what both cost."""
     table = _Table.of(kind.by_division)
     chosen = np.argmin(table.error + table.cut + table.cells, axis=0)
-    in_bar = kind.strokes.spans.in_bar[kind.spans]
+    in_bar = kind.strokes.spans.in_bar
     for _ in range(ROUNDS):
         said = table.said(chosen)
-        spoken = [_spoken(kind, word) for word in _commonest(said, max_words)]
-        table = _Table.of([*kind.by_division, *spoken])
+        if max_words:
+            spoken = [_spoken(kind, word) for word in _commonest(said, max_words)]
+            table = _Table.of([*kind.by_division, *spoken])
         chosen = np.argmin(table.error + table.word_cost(said, in_bar), axis=0)
         if np.array_equal(said, table.said(chosen)):
             break
     chosen = _fewer_words(table, chosen)
-    of_stroke = np.searchsorted(kind.spans, kind.strokes.span)
+    of_stroke = kind.strokes.span
     place = table.place[chosen[of_stroke], np.arange(len(of_stroke))]
     return table.said(chosen) >> _CELL_BITS, place, table.joint_cost(chosen)
 
@@ -167,11 +173,11 @@ def _cut(kind: _Kind, division: Division) -> _Option:
     cell = nearest_cells(strokes, division.places)
     struck = np.zeros((len(strokes.spans), division.cells + 1), np.bool_)
     struck[strokes.span, cell] = True
-    inner = struck[kind.spans, 1:-1]
+    inner = struck[:, 1:-1]
     word = (division.cells << _CELL_BITS) + (inner << np.arange(1, division.cells)).sum(axis=1)
     error = strokes.sums(strokes.error_cost(division.places[cell])) + collision_cost(strokes, cell)
     cut = np.full(len(kind.spans), division.cost)
-    return _Option(error[kind.spans] + division.fine, cut, inner @ division.costs[1:-1], word, division.places[cell])
+    return _Option(error + division.fine, cut, inner @ division.costs[1:-1], word, division.places[cell])
 
 
 def _commonest(said: Ints, most: int) -> list[int]:
@@ -191,10 +197,10 @@ def _spoken(kind: _Kind, word: int) -> _Option:
     cell = nearest_cells(strokes, places)
     struck = np.zeros((len(strokes.spans), len(places)), np.bool_)
     struck[strokes.span, cell] = True
-    silent = (~struck[kind.spans, 1:-1]).sum(axis=1) * SILENT_CELL
+    silent = (~struck[:, 1:-1]).sum(axis=1) * SILENT_CELL
     error = strokes.sums(strokes.error_cost(places[cell])) + collision_cost(strokes, cell)
     cut, struck_cells, words = (np.full(len(kind.spans), x) for x in (division.cost, division.costs[inner].sum(), word))
-    return _Option(error[kind.spans] + silent + division.fine, cut, struck_cells, words, places[cell])
+    return _Option(error + silent + division.fine, cut, struck_cells, words, places[cell])
 
 
 # --- what the piece has said ------------------------------------------------------------------------------------------

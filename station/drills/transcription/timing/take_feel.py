@@ -31,7 +31,7 @@ LEAN_STROKES, SWING_STROKES = 300, 600
 
 NAMED_RATIOS: Mapping[float, float] = MappingProxyType({1.5: 5.0, 2.0: 3.0, 3.0: 6.0})
 """What a swing costs that a teacher would name: light swing, triplets, dotted; our choice."""
-_OTHER_RATIO_COST = 7.0
+_OTHER_RATIO_COST = 6.0
 _LEAST_RATIO, _MOST_RATIO, _RATIO_STEP = 1.2, 3.0, 0.1
 """Below is the unevenness of straight playing, above a dotted figure; in finer steps nobody names a ratio."""
 _HARD_SIXTEENTHS_COST = 6.0

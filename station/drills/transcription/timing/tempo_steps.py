@@ -12,7 +12,7 @@ _RUN = 3
 
 
 def steady(tempo_map: TempoMap, bar_count: int) -> TempoMap:
-    """The map, its changes at bars, with one tempo for each stretch of bars over which it only wanders."""
+    """The map, its changes at bars, with one tempo for each run of bars over which it only wanders."""
     rates = [_said(tempo_map.us_per_quarter_at(tempo_map.bar_start(bar))) for bar in range(bar_count)]
     found: list[TempoChange] = []
     start = 0

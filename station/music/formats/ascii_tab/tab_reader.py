@@ -10,10 +10,10 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import islice
 
+from station.core.disk.utf8 import utf8_text
 from station.core.errors import BadInput
 from station.core.pieces import CHOKEABLE, HALF_OPEN, Articulation, Dynamic, Piece
 from station.core.units import PPQ
-from station.core.utf8 import utf8_text
 from station.music.drum_part import DrumPart, PartSection
 from station.music.formats.ascii_tab.tab_beats import in_whole_bars
 from station.music.formats.ascii_tab.tab_letters import CHOKE, LETTERS, RESTS, TabStroke

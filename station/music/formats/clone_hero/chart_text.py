@@ -9,7 +9,6 @@ import codecs
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 from station.core.errors import BadInput
 from station.core.pieces import Dynamic
@@ -82,7 +81,7 @@ def read_chart(data: bytes, source: str) -> DrumChart:
         has_five,
         flips_of([(line.tick, line.value) for line in track if line.kind == "E"], difficulty, last) if is_pro else (),
         tuple(_rolls(track, ROLL_LANE)),
-        title=song.get("Name", "") or Path(source).stem,
+        title=song.get("Name", ""),
         author=song.get("Artist", ""),
         about=f"Charted by {song['Charter']}." if song.get("Charter") else "",
         end=end,

@@ -8,10 +8,10 @@ foot is the second kick, a buzz roll a roll lane over one note.
 from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 
+from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput
 from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece, word
 from station.core.units import PPQ
-from station.core.utf8 import one_line
 from station.music.drum_part import DrumPart
 from station.music.formats.clone_hero.chart_text import (
     ACCENT_MARK,

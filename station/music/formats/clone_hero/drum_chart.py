@@ -18,6 +18,8 @@ MOST_CHART_NOTES = 40_000
 """Our choice: an hour of 11 a second; 30 µs each to read."""
 MOST_SECTIONS = 2_000
 """Our choice: a name every five seconds of three hours."""
+MOST_CHANGES = MOST_QUARTERS
+"""Of tempo, and of meter: one on every quarter note of the longest chart (our choice; real charts have a thousand)."""
 MOST_RESOLUTION = 1_000_000
 """Ticks a quarter note (our choice: games use 192 or 480)."""
 
@@ -119,6 +121,9 @@ def check_size(chart: DrumChart, source: str) -> None:
         raise BadInput(source, "", f"{chart.resolution} ticks a quarter note; expected 1 to {MOST_RESOLUTION}")
     if len(chart.notes) > MOST_CHART_NOTES:
         raise BadInput(source, "", f"{len(chart.notes)} drum notes; expected at most {MOST_CHART_NOTES}")
+    for name, changes in (("tempo", chart.tempos), ("meter", chart.meters)):
+        if len(changes) > MOST_CHANGES:
+            raise BadInput(source, "", f"{len(changes)} changes of {name}; expected at most {MOST_CHANGES}")
     if len(chart.sections) > MOST_SECTIONS:
         raise BadInput(source, "", f"{len(chart.sections)} sections; expected at most {MOST_SECTIONS}")
     if chart.notes and max(n.tick for n in chart.notes) > MOST_QUARTERS * chart.resolution:

@@ -1,6 +1,6 @@
 """GrooveScribe among the other formats: its links in files, and its MIDI."""
 
-from station.core.utf8 import utf8_text
+from station.core.disk.utf8 import utf8_text
 from station.music.drum_part import DrumPart
 from station.music.formats.groovescribe.groove_midi import is_groove_midi, read_groove_midi
 from station.music.formats.groovescribe.groove_query import find_groove_url, is_groove_url

@@ -12,9 +12,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from urllib.parse import quote, unquote
 
+from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput
 from station.core.units import PPQ
-from station.core.utf8 import one_line
 from station.music.formats.groovescribe.groove_letters import LETTERS
 from station.music.tempo import MeterChange
 

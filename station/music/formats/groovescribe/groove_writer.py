@@ -10,10 +10,10 @@ from types import MappingProxyType
 
 import numpy as np
 
+from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Limb
 from station.core.units import PPQ
-from station.core.utf8 import one_line
 from station.music.drum_part import DrumPart
 from station.music.formats.groovescribe.groove_letters import HANDS, LETTERS
 from station.music.formats.groovescribe.groove_nearest import SENTENCES, nearest_letter

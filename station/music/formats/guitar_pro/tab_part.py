@@ -90,7 +90,7 @@ def _tempo_map(bars: Sequence[TabBar], order: Sequence[int], starts: Sequence[in
 
 
 def _sections(bars: Sequence[TabBar], order: Sequence[int]) -> tuple[PartSection, ...]:
-    """Each stretch of played bars under one marker; what stands before the first has no name."""
+    """Each run of played bars under one marker; what stands before the first has no name."""
     marker, of_bar = -1, []
     for i, bar in enumerate(bars):
         marker = i if bar.section else marker

@@ -13,10 +13,10 @@ from types import MappingProxyType
 
 import numpy as np
 
+from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput
 from station.core.pieces import CHOKEABLE, Articulation, Ornament
 from station.core.units import PPQ
-from station.core.utf8 import one_line
 from station.music.drum_part import DrumPart
 from station.music.formats.hydrogen.instrument_strikes import InstrumentStrike, instrument_for, instrument_of
 from station.music.formats.hydrogen.rock_kit import KIT, kit_id

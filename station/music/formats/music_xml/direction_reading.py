@@ -38,7 +38,7 @@ _ORDER = {"dacapo", "dalsegno", "tocoda", "fine", "segno", "coda"}
 class DirectionReader:
     """Reads what stands beside the notes of one part; `base_velocity` (1–127) is an unmarked note's by now.
 
-    `is_drums` False: another part's, whose words are nobody's loss.
+    `is_drums` False: another part's, whose words are not counted as lost.
     """
 
     def __init__(self, lost: LostMarks, is_drums: bool) -> None:

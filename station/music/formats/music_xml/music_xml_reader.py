@@ -15,7 +15,7 @@ from station.music.formats.music_xml.mxl_container import score_text
 from station.music.formats.music_xml.note_reading import NoteReader
 from station.music.formats.music_xml.part_choice import FilePart, drum_parts, parts_of
 from station.music.formats.music_xml.strokes_reading import PlayedBar, strokes_of
-from station.music.formats.music_xml.written_bars import STOP, LostMarks, WrittenBar
+from station.music.formats.music_xml.written_bars import STOP, LostMarks, WrittenBar, short_meter
 from station.music.formats.playing_order import playing_order
 from station.music.formats.safe_xml import parse_xml, text_of
 from station.music.loudness_marks import GROW, USUAL, LoudnessMark
@@ -25,8 +25,6 @@ from station.music.tempo import MeterChange, TempoChange, TempoMap
 
 ROOTS = ("score-partwise", "score-timewise")
 _MARKS = tuple(VELOCITY_OF_MARK)
-_FINEST_METER = 64
-"""A bar of another length than its meter's gets a meter in these units at the finest (our choice)."""
 _WRITERS = ("composer", "arranger", "transcriber", "lyricist")
 _MOST_STROKES = 50_000
 """As played, of repeats that multiply (our choice)."""
@@ -121,24 +119,13 @@ def _timeline(bars: Sequence[WrittenBar]) -> _Timeline:
     for bar in bars:
         meter = bar.meter or meter
         start, length = line.ticks[-1], round(bar.length) or meter.bar_ticks
-        own = meter if length == meter.bar_ticks else _meter_of(length, meter)
+        own = meter if length == meter.bar_ticks else short_meter(length, meter)
         swings = [(0, swing), *((round(at), each) for at, each in bar.swings)]
         swing = swings[-1][1]
         line.bars.append(PlayedBar(own, start, tuple(swings)))
         line.meters.append(replace(own, tick=start))
         line.ticks.append(start + length)
     return line
-
-
-def _meter_of(length: int, usual: MeterChange) -> MeterChange:
-    """A meter whose bar is `length` ticks long, in the usual unit if that can be; else the usual, cut short."""
-    unit = usual.unit
-    while unit <= _FINEST_METER:
-        beats, rest = divmod(length, 4 * PPQ // unit)
-        if beats and not rest:
-            return MeterChange(0, beats, unit)
-        unit *= 2
-    return usual
 
 
 def _assembled(root: Element, bars: Sequence[WrittenBar], lost: tuple[str, ...]) -> DrumPart:

@@ -14,7 +14,7 @@ from station.core.pieces import HAND_PIECES, Piece
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import WrittenFile
-from station.music.formats.music_xml.bar_spelling import SpelledBar
+from station.music.formats.music_xml.bar_writing import SpelledBar
 from station.music.formats.music_xml.direction_writing import Direction, directions_of
 from station.music.formats.music_xml.element_writing import (
     VoiceSetting,
@@ -28,9 +28,12 @@ from station.music.formats.music_xml.element_writing import (
 from station.music.formats.music_xml.part_losses import losses_of
 from station.music.formats.music_xml.swung_bars import BarFrame, WrittenVoices, can_be_said, written_voices
 from station.music.formats.music_xml.time_reading import MOST_BEATS, MOST_UNIT
+from station.music.formats.music_xml.written_bars import short_meter
 from station.music.formats.music_xml.xml_instruments import XmlInstrument, instrument_of
 from station.music.formats.playing_order import MOST_BARS
+from station.music.score import Score
 from station.music.swing import Swing
+from station.music.tempo import MeterChange
 
 _HEAD = (
     '<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE score-partwise PUBLIC "-//Recordare//DTD MusicXML 4.0 Partwise'
@@ -111,9 +114,14 @@ def _add_measures(element: Element, part: DrumPart, written: WrittenVoices, ids:
     directions = directions_of(part, _swings(part, written))
     last_bars = {section.last_bar for section in part.sections}
     at = 0
+    meters = [frame.meter for frame in written.frames]
+    has_pickup = _has_pickup(part.score)
     for bar, frame in enumerate(written.frames):
-        measure = child(element, "measure", number=str(bar + 1))
-        _add_attributes(measure, written.frames, bar, divisions)
+        measure = child(element, "measure", number=str(bar + 1 - has_pickup))
+        if has_pickup and not bar:
+            measure.set("implicit", "yes")
+            meters[0] = meters[1]
+        _add_attributes(measure, meters, bar, divisions)
         until = at
         is_last = bar + 1 == len(written.frames)
         while until < len(directions) and (directions[until].tick < frame.end or is_last):
@@ -150,8 +158,17 @@ def _swings(part: DrumPart, written: WrittenVoices) -> list[tuple[int, Swing]]:
     return found
 
 
-def _add_attributes(measure: Element, frames: Sequence[BarFrame], bar: int, divisions: int) -> None:
-    meter, before = frames[bar].meter, frames[bar - 1].meter if bar else None
+def _has_pickup(score: Score) -> bool:
+    """Whether the first bar is a pick-up that can be written under the meter of the second, and comes back as it is."""
+    tempo = score.tempo_map
+    length = tempo.pickup_ticks(score.end_tick)
+    first, second = tempo.meters[0], tempo.meter_at(length)
+    is_cut = (first.beats, first.unit) == (second.beats, second.unit)
+    return length > 0 and (is_cut or short_meter(length, second) == first)
+
+
+def _add_attributes(measure: Element, meters: Sequence[MeterChange], bar: int, divisions: int) -> None:
+    meter, before = meters[bar], meters[bar - 1] if bar else None
     if before is not None and (before.beats, before.unit, before.groups) == (meter.beats, meter.unit, meter.groups):
         return
     attributes = child(measure, "attributes")

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from station.music.formats.music_xml.bar_spelling import SpelledBar, spelled_bar
+from station.music.formats.music_xml.bar_writing import SpelledBar, spelled_bar
 from station.music.formats.music_xml.direction_writing import SWING_TYPES
 from station.music.formats.music_xml.stroke_cells import StrokeCell, cells_of
 from station.music.formats.music_xml.strokes_reading import PlayedBar

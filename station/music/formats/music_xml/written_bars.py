@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Dynamic, Limb
+from station.core.units import PPQ
 from station.music.formats.playing_order import BarSigns
 from station.music.swing import Swing
 from station.music.tempo import MeterChange
@@ -15,6 +16,8 @@ NUMBER = re.compile(r"\s*([+-]?\d{1,9}(?:\.\d{1,12})?)\s*")
 """A decimal number as the file writes it, no longer than any that music needs (our choice)."""
 STOP = "stop"
 """Among loudness signs: here a hairpin ends."""
+_FINEST_METER = 64
+"""A bar of another length than its meter's gets a meter in these units at the finest (our choice)."""
 
 
 @dataclass(slots=True)
@@ -81,3 +84,14 @@ class LostMarks:
     def lines(self) -> tuple[str, ...]:
         """What is lost, in the order in which it was met."""
         return tuple(f"{what}: {self._counts[what]}, the first in bar {bar}" for what, bar in self._first.items())
+
+
+def short_meter(length: int, usual: MeterChange) -> MeterChange:
+    """A meter whose bar is `length` ticks long, in the usual unit if that can be; else the usual, cut short."""
+    unit = usual.unit
+    while unit <= _FINEST_METER:
+        beats, rest = divmod(length, 4 * PPQ // unit)
+        if beats and not rest:
+            return MeterChange(0, beats, unit)
+        unit *= 2
+    return usual

@@ -17,8 +17,12 @@ from station.music.formats.smf.track_events import Columns, TrackEvents, parse_e
 
 MAX_BYTES = 8 << 20
 """Our choice: a million notes, many times the longest piece. What is larger is not music, and the bound keeps the
-memory that the worst of files takes below 700 MB (80 bytes for one, all tempo changes)."""
+memory that the worst of files takes below 400 MB."""
 
+_MOST_TRACKS = 1000
+"""Our choice: an orchestra's score has fifty, and every empty one still costs a quarter of a millisecond."""
+_MOST_CHANGES = 50_000
+"""Of tempo and meter (our choice: an hour in which the tempo is drawn as a curve of fourteen points a second)."""
 _HEADER_BYTES = 6
 _CHUNK_HEAD_BYTES = 8
 _RIFF_HEAD_BYTES = 20
@@ -36,6 +40,8 @@ def parse_midi(data: bytes, source: str) -> MidiFile:
     start = _RIFF_HEAD_BYTES if data[:4] == b"RIFF" and data[8:16] == b"RMIDdata" else 0
     header = _header(data, start, source)
     found = _tracks(data, header, source)
+    if (changes := sum(len(t.tempos) + len(t.meters) for t in found.tracks)) > _MOST_CHANGES:
+        raise BadInput(source, "", f"{changes:,} changes of tempo and meter; at most {_MOST_CHANGES:,} are read")
     midi = MidiFile(source, header.format, header.division, tuple(_track(t) for t in found.tracks), found.oddities)
     if any(sequence.lasts_too_long for sequence in midi.sequences):
         raise BadInput(source, "", "lasts longer than a year, which no music does")
@@ -71,6 +77,8 @@ def _header(data: bytes, start: int, source: str) -> _Header:
     kind, count, division = (int.from_bytes(data[at : at + 2], "big") for at in range(body, body + _HEADER_BYTES, 2))
     if kind not in _FORMATS:
         raise BadInput(source, f"byte {body}", f"MIDI file format {kind}; there are only 0, 1 and 2")
+    if count > _MOST_TRACKS:
+        raise BadInput(source, f"byte {body + 2}", f"{count} tracks; at most {_MOST_TRACKS} are read")
     return _Header(kind, count, _division(division, body + 4, source), body + length)
 
 
@@ -111,7 +119,7 @@ def _tracks(data: bytes, header: _Header, source: str) -> _Found:
                 source, f"byte {at + 4}", f"a chunk of {end - start} bytes, the file has {len(data) - start} left"
             )
         if kind == b"MTrk":
-            tracks.append(parse_events(data, start, end, source))
+            tracks.append(parse_events(data, start, end, source, tracks[-1].singles if tracks else 0))
             oddities += tracks[-1].oddities
         else:
             oddities.append(f"byte {at}: a chunk of another kind, {_kind_label(kind)}, was skipped")

@@ -8,7 +8,7 @@ what they mean, `track_writer` and `track_bytes` the way out.
 
 from pathlib import Path
 
-from station.core.files import read_regular
+from station.core.disk.files import read_regular
 from station.music.formats.smf.chunk_reader import MAX_BYTES, parse_midi
 from station.music.formats.smf.contents import MidiFile, MidiTrack
 from station.music.formats.smf.drum_channels import guess_kit_map

@@ -46,6 +46,11 @@ _MOST_LISTED = 20
 """So many of them are listed one by one; of more, their number (our choice)."""
 
 
+MOST_SINGLE = 400_000
+"""Events of a file that are no note, controller or bend, which are read one by one: half a second of work and 100 MB at
+the most. Our choice: twenty minutes of channel pressure at its densest, 300 a second."""
+
+
 @dataclass(frozen=True, slots=True)
 class Columns:
     """Channel messages with two data bytes in file order: equally long arrays."""
@@ -67,15 +72,19 @@ class TrackEvents:
     sysex: list[SysEx] = field(default_factory=list)
     oddities: list[str] = field(default_factory=list)
     end_tick: int = 0
+    singles: int = 0
 
 
 _Block = tuple[NDArray[np.int64], NDArray[np.uint8], NDArray[np.uint8], NDArray[np.uint8]]
 _NOTHING: _Block = (np.empty(0, np.int64), np.empty(0, np.uint8), np.empty(0, np.uint8), np.empty(0, np.uint8))
 
 
-def parse_events(data: bytes, start: int, stop: int, source: str) -> TrackEvents:
-    """The events of a track chunk's content `data[start:stop]`; raises `BadInput` for what cannot be read."""
-    return _TrackReader(data, start, stop, source).read()
+def parse_events(data: bytes, start: int, stop: int, source: str, singles: int = 0) -> TrackEvents:
+    """The events of a track chunk's content `data[start:stop]`; raises `BadInput` for what cannot be read.
+
+    `singles` is how many events the tracks before had that were read one by one; with this track's they are returned.
+    """
+    return _TrackReader(data, start, stop, source, singles).read()
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,8 +100,9 @@ class _Places:
 class _TrackReader:
     """Where we are in a track: byte, tick, running status (0 for none), and what was found."""
 
-    def __init__(self, data: bytes, start: int, stop: int, source: str) -> None:
+    def __init__(self, data: bytes, start: int, stop: int, source: str, singles: int) -> None:
         self.data, self.at, self.stop, self.source = data, start, stop, source
+        self.singles = singles
         self.tick = 0
         self.running = 0
         self.ended = False
@@ -111,7 +121,7 @@ class _TrackReader:
         self._flush()
         self._note_ending()
         self.found.columns = _joined(self.blocks)
-        self.found.end_tick = self.tick
+        self.found.end_tick, self.found.singles = self.tick, self.singles
         return self.found
 
     def _note_ending(self) -> None:
@@ -168,6 +178,9 @@ class _TrackReader:
     # --- one by one ---------------------------------------------------------------------------------------------------
 
     def _read_event(self) -> None:
+        self.singles += 1
+        if self.singles > MOST_SINGLE:
+            self._refuse(self.at, f"more than {MOST_SINGLE:,} events that are no notes")
         self.tick += self._number("a delta time")
         status = self._byte("an event")
         if status < 0x80:

@@ -19,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.disk.files import write_whole
 from station.core.errors import BadInput
-from station.core.files import write_whole
 from station.core.note_map import GENERAL_MIDI, V_DRUMS, KitMap, general_midi_note, strike_of
 from station.core.pieces import Articulation, Piece, Zone
 from station.core.units import PPQ

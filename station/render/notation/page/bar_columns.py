@@ -30,8 +30,8 @@ _NOTES_Y = (-5.3, 4.2)
 _TOP, _BAND, _BANDS = -10.0, 0.5, 44
 """The bands in which room is measured, from the highest down, and how high each is."""
 _STAFF_BANDS = slice(round((-2.0 - _TOP) / _BAND), round((2.0 - _TOP) / _BAND))
-_STRETCH_STEPS = 26
-"""Halvings of the interval in which the stretch of a line is sought: to a hundred-thousandth of a space."""
+_FORCE_STEPS = 26
+"""Halvings of the interval in which the force on a line is sought: to a hundred-thousandth of a space."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,13 +53,13 @@ class BarColumns:
         """The least width of the bar."""
         return self.inset + float(self.least.sum())
 
-    def width(self, stretch: float) -> float:
-        """The bar's width where its springs are `stretch` times as long as at ease."""
-        return self.inset + float(np.maximum(self.least, stretch * self.ease).sum())
+    def width(self, force: float) -> float:
+        """The bar's width where its springs are `force` times as long as at ease."""
+        return self.inset + float(np.maximum(self.least, force * self.ease).sum())
 
-    def places(self, stretch: float) -> Floats:
+    def places(self, force: float) -> Floats:
         """Where the columns stand from the bar line, and the next bar line, shape (k + 1,)."""
-        places = self.inset + np.concatenate([[0.0], np.cumsum(np.maximum(self.least, stretch * self.ease))])
+        places = self.inset + np.concatenate([[0.0], np.cumsum(np.maximum(self.least, force * self.ease))])
         if self.is_silent:
             places[-2] = places[-1] / 2 + (self.inset - _INSET) / 2
         return places
@@ -127,7 +127,7 @@ def _packed(left: Floats, right: Floats, beside: tuple[float, float]) -> tuple[f
     return inset, np.array(least)
 
 
-def stretch_to(bars: Sequence[BarColumns], width: float) -> float:
+def force_to(bars: Sequence[BarColumns], width: float) -> float:
     """How far the springs of a line's bars are drawn out so that the bars together are `width` wide.
 
     Where they cannot be so narrow, 0.
@@ -137,7 +137,7 @@ def stretch_to(bars: Sequence[BarColumns], width: float) -> float:
     low, high = 0.0, 1.0
     while np.maximum(least, high * ease).sum() < left:
         high *= 2
-    for _ in range(_STRETCH_STEPS):
+    for _ in range(_FORCE_STEPS):
         middle = (low + high) / 2
         low, high = (middle, high) if np.maximum(least, middle * ease).sum() < left else (low, middle)
     return high

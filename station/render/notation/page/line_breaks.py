@@ -12,10 +12,10 @@ from math import inf, log
 import numpy as np
 from numpy.typing import NDArray
 
-from station.render.notation.page.bar_columns import BarColumns, stretch_to
+from station.render.notation.page.bar_columns import BarColumns, force_to
 
 _WIDE, _NARROW = log(1.4), log(0.76)
-"""A line stretched or squeezed by so much is as bad as one that ends within a phrase (our choice)."""
+"""A line drawn out or squeezed by so much is as bad as one that ends within a phrase (our choice)."""
 _WITHIN_PHRASE = {4: 0.2, 2: 0.7, 1: 1.5}
 """What a break costs after a multiple of so many bars of a phrase; with the phrase it costs nothing (our choice)."""
 _PHRASE_INSIDE = 0.8
@@ -27,8 +27,8 @@ _LONE_BAR = 3.0
 _OVERFULL = 1e3
 _MOST_BARS = 16
 """Bars in a line at the most, rests though they are (our choice)."""
-_LAST_FULL, _LAST_STRETCH = 1.35, 1.15
-"""A last line is spread to its end where it needs no more than the first; else it keeps the stretch of the line before
+_LAST_FULL, _LAST_FORCE = 1.35, 1.15
+"""A last line is spread to its end where it needs no more than the first; else it keeps the force of the line before
 it, or the second where it is the only one (our choice)."""
 
 
@@ -70,14 +70,14 @@ class BarBox:
 def lines(bars: Sequence[SetBar], width: float) -> list[list[BarBox]]:
     """The lines of `bars`, each at most `width` long with its lead and courtesy; all but the last are full."""
     breaks = _breaks(bars, width)
-    found, stretch = list[list[BarBox]](), _LAST_STRETCH
+    found, force = list[list[BarBox]](), _LAST_FORCE
     for first, after in breaks:
         columns = [bars[first].columns, *(bar.inside for bar in bars[first + 1 : after])]
         room = _room(bars, first, after, width)
-        full = stretch_to(columns, room)
+        full = force_to(columns, room)
         is_ragged = after == len(bars) and full > _LAST_FULL
-        stretch = min(full, stretch) if is_ragged else full
-        found.append(_boxes(columns, first, stretch, room))
+        force = min(full, force) if is_ragged else full
+        found.append(_boxes(columns, first, force, room))
     return found
 
 
@@ -91,11 +91,11 @@ def _room(bars: Sequence[SetBar], first: int, after: int, width: float) -> float
     return width - bars[first].lead - (bars[after].courtesy if after < len(bars) else 0.0)
 
 
-def _boxes(columns: Sequence[BarColumns], first: int, stretch: float, room: float) -> list[BarBox]:
-    squeezed = min(1.0, room / sum(bar.width(stretch) for bar in columns))  # a bar too wide for paper still fits on it
+def _boxes(columns: Sequence[BarColumns], first: int, force: float, room: float) -> list[BarBox]:
+    squeezed = min(1.0, room / sum(bar.width(force) for bar in columns))  # a bar too wide for paper still fits on it
     boxes, left = [], 0.0
     for index, bar in enumerate(columns, first):
-        places = left + bar.places(stretch) * squeezed
+        places = left + bar.places(force) * squeezed
         boxes.append(BarBox(index, left, float(places[-1]), places[:-1]))
         left = float(places[-1])
     return boxes
@@ -123,13 +123,13 @@ def _breaks(bars: Sequence[SetBar], width: float) -> list[tuple[int, int]]:
     return list(zip(ends[:0:-1], ends[-2::-1], strict=True))
 
 
-def _line_cost(bars: Sequence[SetBar], first: int, after: int, stretch: float) -> float:
-    """How bad a line is whose springs are so stretched."""
+def _line_cost(bars: Sequence[SetBar], first: int, after: int, force: float) -> float:
+    """How bad a line is whose springs are drawn out by so much."""
     inside = _PHRASE_INSIDE * sum(bar.in_phrase == 0 for bar in bars[first + 1 : after])
     if after == len(bars):
         alone = _LONE_BAR if first == after - 1 and first else 0.0
-        return inside + alone + ((log(stretch) / _NARROW) ** 2 if stretch < 1 else 0.0)
-    badness = inside + (log(stretch) / (_WIDE if stretch > 1 else _NARROW)) ** 2
+        return inside + alone + ((log(force) / _NARROW) ** 2 if force < 1 else 0.0)
+    badness = inside + (log(force) / (_WIDE if force > 1 else _NARROW)) ** 2
     bar = bars[after]
     part = next((cost for bars_, cost in _WITHIN_PHRASE.items() if bar.in_phrase % bars_ == 0), 0.0)
     return badness + (part if bar.in_phrase else 0.0) + _WITHIN_ENDING * bar.within_ending

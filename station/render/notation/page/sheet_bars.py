@@ -17,7 +17,8 @@ _MOST_NUMBERS = 3
 class SheetBar:
     """Bar `bar` of the score, from 0, as it stands on the sheet.
 
-    `number` is what it is called in all places where it is played, such as "1, 5" or "1–4"; `line` stands on its right;
+    `number` is what it is called in all places where it is played, such as "1, 5" or "1–4", empty for a pick-up; `line`
+    stands on its right;
     `opens_repeat`: a repeat sign on its left; `times` how often a passage without endings is played that ends with it,
     else 0; `meter` what is new before its notes; `in_phrase` counts from its phrase's first bar, 0.
     """
@@ -52,7 +53,9 @@ def sheet_bars(
             phrase = bar.bar if bar.bar in starts else phrase
             bars.append(replace(bar, in_phrase=bar.bar - phrase))
         played += passage.times * passage.pass_length
-    return _with_meters(_with_lines(_with_loop(bars, loop), set(sections)), score)
+    bars = _with_lines(_with_loop(bars, loop), set(sections))
+    has_pickup = first_number == 1 and score.tempo_map.pickup_ticks(score.end_tick) > 0
+    return _with_meters([replace(bars[0], number=""), *bars[1:]] if has_pickup else bars, score, has_pickup)
 
 
 def _passage(passage: Passage, number: int) -> Iterator[SheetBar]:
@@ -120,9 +123,14 @@ def _with_lines(bars: list[SheetBar], starts: set[int]) -> list[SheetBar]:
     return [*found, replace(last, line=BarLine.FINAL) if last.line is BarLine.PLAIN else last]
 
 
-def _with_meters(bars: list[SheetBar], score: Score) -> list[SheetBar]:
-    """Each bar with its meter where another one stands before it, or where a repeat leads back to it from another."""
+def _with_meters(bars: list[SheetBar], score: Score, has_pickup: bool) -> list[SheetBar]:
+    """Each bar with its meter where another one stands before it, or where a repeat leads back to it from another.
+
+    A pick-up has that of the bar after it.
+    """
     meters = [score.tempo_map.meter_at(score.tempo_map.bar_start(bar.bar)) for bar in bars]
+    if has_pickup:
+        meters[0] = score.tempo_map.meter_at(score.tempo_map.bar_start(1))
     found = []
     for k, bar in enumerate(bars):
         befores = [meters[k - 1]] if k else []

@@ -97,6 +97,7 @@ class LineSetter:
 
     def _shapes(self, bar: int, opens_line: bool) -> NDArray[np.void]:
         """A bar's engraved shapes, their times counted from its start."""
+        opens_line = opens_line and self._engraver.is_held_into(bar)  # else it looks the same
         key = (self._form(bar), opens_line)
         if key not in self._engraved:
             shapes = self._engraver.bar(bar, with_line=False, opens_line=opens_line).copy()
@@ -169,7 +170,8 @@ class LineSetter:
         for box in boxes:
             bar, left, right = self._bars[box.index], lead + box.left, lead + box.right
             edge = 0.0 if box is boxes[0] else left
-            draw_number(staff, skyline, edge, bar.number)
+            if bar.number:
+                draw_number(staff, skyline, edge, bar.number)
             if bar.times:
                 draw_times(staff, skyline, right, bar.times)
             if bar.volta is not None:

@@ -24,7 +24,7 @@ _FINEST_BASE = 128
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A stretch of a beat in `slots` equal steps, each a 1/`base` note; `number` in the time of `of`, 0 where plain.
+    """A part of a beat in `slots` equal steps, each a 1/`base` note; `number` in the time of `of`, 0 where plain.
 
     `start` and `end` are shares of the beat.
     """

@@ -87,6 +87,33 @@ def test_of_a_roll_without_gaps_each_hands_stroke_is_a_buzz() -> None:
     assert names(*strokes) == ["buzz"] * 4
 
 
+def test_a_press_roll_whose_rebounds_are_as_loud_is_told_by_the_beat() -> None:
+    """Sixteenths at 120 bpm, rebounds every 30 ms, each hand's stroke a quarter louder than the rebounds."""
+    rebounds = ((0, 70), (30, 52), (60, 58), (90, 49))
+    strokes = [(500 + 125 * i + ms, velocity + i % 3) for i in range(8) for ms, velocity in rebounds]
+    result = found(*strokes)
+    assert [round(note.tick / (PPQ // 4)) for note in result.mains] == list(range(4, 12))
+    assert result.buzzes == 8
+
+
+def test_a_soft_stroke_alone_before_a_louder_one_is_a_wide_flam() -> None:
+    assert names((0, 80), (446, 35), (500, 100), (1000, 80)) == ["stroke", "flam", "stroke"]
+
+
+def test_flams_of_slow_sixteenths_are_flams_whatever_two_of_their_gaps_are() -> None:
+    """Sixteenths at 100 bpm, 150 ms apart, one of them so late that 110 ms are left to the next one's grace stroke."""
+    strokes = [(150.0 * i, 80) for i in range(12)]
+    strokes[5] = (strokes[5][0] + 20, 80)
+    assert names(*strokes[:6], (150 * 6 - 35, 34), (150 * 6, 116), *strokes[7:])[6] == "flam"
+
+
+def test_in_a_roll_without_flams_two_close_strokes_are_two() -> None:
+    """Thirty-seconds at 97 bpm: a stroke of a roll late, the next early, 17 ms between them."""
+    times = [77.0 * i for i in range(40)]
+    times[20], times[21] = times[20] + 36, times[21] - 24
+    assert names(*((ms, 80 + i % 2 * 3) for i, ms in enumerate(times))) == ["stroke"] * 40
+
+
 def test_a_stroke_right_after_a_buzz_is_a_stroke() -> None:
     assert names((500, 80), (530, 60), (560, 50), (590, 45), (625, 90), (1000, 80)) == ["buzz", "stroke", "stroke"]
 

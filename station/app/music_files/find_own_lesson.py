@@ -1,4 +1,4 @@
-"""The lesson that a command names: shipped, a file, or one that a course of the user's own brings."""
+"""The lesson that a command names: shipped, a file, or one of the user's own."""
 
 from station.core.errors import BadInput
 from station.drills.lesson import Lesson
@@ -15,8 +15,9 @@ def find_any_lesson(name_or_path: str) -> Lesson:
     try:
         return find_lesson(name_or_path)
     except BadInput:
-        courses, _ = courses_in(SettingsStore().now.courses_dir)
-        own = own_lessons(courses, lesson_names())
+        settings = SettingsStore().now
+        courses, _ = courses_in(settings.courses_dir)
+        own = own_lessons(courses, settings.own_lessons_dir, lesson_names())
         if name_or_path not in own:
             raise
         return own[name_or_path]

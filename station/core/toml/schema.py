@@ -15,9 +15,9 @@ from unicodedata import category
 from station.core.did_you_mean import did_you_mean, nearest, nearest_word
 from station.core.expected import LINE, TEXT, JsonSchema, expected_by, expects, later, list_like
 from station.core.pieces import word
-from station.core.toml_faults import Fault, Faults, Noted, Wrong, placed, refused, wrong
-from station.core.toml_source import Source
-from station.core.toml_write import toml_text
+from station.core.toml.toml_faults import Fault, Faults, Noted, Wrong, placed, refused, wrong
+from station.core.toml.toml_source import Source
+from station.core.toml.toml_write import toml_text
 
 T = TypeVar("T")
 K = TypeVar("K")

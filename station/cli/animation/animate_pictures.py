@@ -6,7 +6,7 @@ from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from station.cli.animate_options import AnimateOptions, PictureOptions
+from station.cli.animation.animate_options import AnimateOptions, PictureOptions
 from station.cli.console import Progress
 from station.core.settings import load_settings
 from station.motion.drummer import Drummer
@@ -14,7 +14,7 @@ from station.music.score import Score
 from station.render.framing import Stage, named
 from station.render.picture import Shot
 from station.render.quality import QUALITIES
-from station.scenes.film import FilmLoop, FilmStretch, write_film, write_loop, write_pictures
+from station.scenes.film import FilmLoop, FilmSpan, write_film, write_loop, write_pictures
 from station.scenes.score_words import ScoreWords
 from station.scenes.soundtrack import Sounds
 from station.sound.samples.load_kit import load_kit
@@ -26,7 +26,7 @@ RATE_HZ = 48_000
 _MOST_DENOMINATOR = 1001
 """Of pictures a second: 30000/1001 is what televisions call 29.97."""
 
-Stretch = tuple[float, float]
+Span = tuple[float, float]
 """From which second of the score on, and for how many seconds."""
 
 
@@ -34,16 +34,16 @@ def draw_picture(drummer: Drummer, at_s: float, words: ScoreWords, options: Anim
     """The picture of one instant."""
     write_pictures(
         drummer,
-        FilmStretch(at_s, 1, Fraction(1), words),
+        FilmSpan(at_s, 1, Fraction(1), words),
         _shot(drummer, options.picture),
         [options.out],
         lambda _: None,
     )
 
 
-def draw_sequence(drummer: Drummer, stretch: Stretch, words: ScoreWords, options: AnimateOptions) -> None:
+def draw_sequence(drummer: Drummer, span: Span, words: ScoreWords, options: AnimateOptions) -> None:
     """Numbered pictures, from 1."""
-    film = replace(_film_stretch(stretch, options.fps), words=words)
+    film = replace(_film_span(span, options.fps), words=words)
     shot = _shot(drummer, options.picture)
     _with_progress(film, lambda show: write_pictures(drummer, film, shot, _numbered(options.out, film), show))
 
@@ -59,32 +59,32 @@ def draw_loop(drummer: Drummer, whole: Score, first_bar: int, words: ScoreWords,
         progress.close()
 
 
-def draw_film(drummer: Drummer, stretch: Stretch, words: ScoreWords, options: AnimateOptions) -> None:
+def draw_film(drummer: Drummer, span: Span, words: ScoreWords, options: AnimateOptions) -> None:
     """A video with sound."""
-    film = replace(_film_stretch(stretch, options.fps), words=words)
+    film = replace(_film_span(span, options.fps), words=words)
     settings = load_settings()
     sounds = Sounds(load_kit(settings.drums, RATE_HZ), settings.click if options.picture.click else None)
     shot = _shot(drummer, options.picture)
     _with_progress(film, lambda show: write_film(drummer, film, shot, sounds, options.out, show))
 
 
-def _with_progress(stretch: FilmStretch, work: Callable[[Callable[[int], None]], None]) -> None:
-    progress = Progress(stretch.pictures)
+def _with_progress(span: FilmSpan, work: Callable[[Callable[[int], None]], None]) -> None:
+    progress = Progress(span.pictures)
     try:
         work(progress.show)
     finally:
         progress.close()
 
 
-def _film_stretch(stretch: Stretch, fps: float) -> FilmStretch:
-    start_s, length_s = stretch
+def _film_span(span: Span, fps: float) -> FilmSpan:
+    start_s, length_s = span
     exact = Fraction(fps).limit_denominator(_MOST_DENOMINATOR)
-    return FilmStretch(start_s, max(1, round(length_s * exact)), exact)
+    return FilmSpan(start_s, max(1, round(length_s * exact)), exact)
 
 
-def _numbered(out: Path, stretch: FilmStretch) -> Iterator[Path]:
+def _numbered(out: Path, span: FilmSpan) -> Iterator[Path]:
     before, number, after = _NUMBER.split(out.name, maxsplit=1)
-    return (out.with_name(f"{before}{number % k}{after}") for k in range(1, stretch.pictures + 1))
+    return (out.with_name(f"{before}{number % k}{after}") for k in range(1, span.pictures + 1))
 
 
 def _shot(drummer: Drummer, picture: PictureOptions) -> Shot:

@@ -3,8 +3,8 @@
 import json
 from pathlib import Path
 
-from station.cli.input.find_own_lesson import find_any_lesson
-from station.cli.input.read_captures import performance_of_capture
+from station.app.music_files.find_own_lesson import find_any_lesson
+from station.app.music_files.read_captures import performance_of_capture
 from station.core.errors import BadInput
 from station.core.measured_latency import load_calibration
 from station.core.settings import load_settings

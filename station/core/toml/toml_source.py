@@ -10,8 +10,8 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-from station.core.files import read_regular
-from station.core.toml_places import first_value
+from station.core.disk.files import read_regular
+from station.core.toml.toml_places import first_value
 
 MAX_FILE_BYTES = 1_000_000
 """Our choice: no file that a person writes is longer."""

@@ -115,11 +115,11 @@ def _in_span(span: Span, cells: Sequence[StrokeCell], start: int) -> list[Chord]
     for first, last in pairwise(edges):
         struck = tuple(begins.get(first, ()))
         held = tuple(cell for begin, end, cell in lasting if begin < first < end)
-        found += _stretch(span, first, last, struck, held, [(end, cell) for _, end, cell in lasting])
+        found += _between(span, first, last, struck, held, [(end, cell) for _, end, cell in lasting])
     return found
 
 
-def _stretch(
+def _between(
     span: Span,
     first: int,
     last: int,

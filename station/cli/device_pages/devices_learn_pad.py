@@ -10,7 +10,7 @@ from pathlib import Path
 
 from station.app.equipment.mapping_editor import MappingEditor
 from station.cli.console import say, write
-from station.cli.devices_learn import learn
+from station.cli.device_pages.devices_learn import learn
 from station.cli.input.device_listening import ListenOptions, listening, polls
 from station.cli.options.option_fields import checked, one_of, option
 from station.core.clock import monotonic_ns

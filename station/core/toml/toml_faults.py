@@ -10,8 +10,8 @@ from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 from station.core.errors import BadInput
-from station.core.toml_places import KeyPath, Places
-from station.core.toml_source import Source
+from station.core.toml.toml_places import KeyPath, Places
+from station.core.toml.toml_source import Source
 
 T = TypeVar("T")
 MOST_FAULTS = 1000

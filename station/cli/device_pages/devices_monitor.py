@@ -5,7 +5,7 @@ that would make a rule of it; typed in, they hold at once, and `save` keeps them
 """
 
 from station.cli.console import write
-from station.cli.devices_monitor_sticks import monitor_sticks
+from station.cli.device_pages.devices_monitor_sticks import monitor_sticks
 from station.cli.input.device_listening import HearOptions, TypedLines, event_line, listening, polls
 from station.core.clock import monotonic_ns
 from station.core.errors import StationError
