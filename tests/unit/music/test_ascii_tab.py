@@ -155,6 +155,12 @@ def test_what_comes_back_of_every_lesson_is_what_is_kept() -> None:
         assert (part.author, part.about, part.score.title) == (back.author, back.about, back.score.title)
 
 
+def test_swing_that_begins_later_is_told_too() -> None:
+    """Its first part is straight, and so is the swing that the whole part has."""
+    told = {loss.feature: loss.text for loss in write_tab(part_of(find_lesson("latin-jazz-1"))).lost}
+    assert told == dict.fromkeys((Feature.TIMES, Feature.SWING), "swing is written straight")
+
+
 def test_no_line_is_wider_than_a_mail() -> None:
     parts = (part_of(lesson) for lesson in shipped_lessons())
     wide = [row for part in parts for row in write_tab(part).data.decode().splitlines() if len(row) > 100]
@@ -176,6 +182,7 @@ HAT_ON_EIGHTHS = [k * EIGHTH for k in range(8)]
         "HH|x-x-|x-x-|x-x-|x-x-|\nSD|----|o---|----|o---|\n",
         "HH-x-x-x-x-x-x-x-x-|\nSD-----o-------o---|\n",
         "HH x-x-x-x-x-x-x-x-|\nSD ----o-------o---|\n",
+        "HH: x-x-x-x-x-x-x-x-\nSD: ----o-------o---\n",
         "   1e+a2e+a3e+a4e+a\nHH|x-x-x-x-x-x-x-x|\nSD|----o-------o--|\n",
         "4/4\nHH|x-x-x-x-x-x-x-x--|\nSD|----o-------o----|\n",
         "HH|-xxxxxxxx|\nSD|---o---o-|\n",
@@ -191,13 +198,14 @@ HAT_ON_EIGHTHS = [k * EIGHTH for k in range(8)]
         "beats",
         "dash for a bar line",
         "no first bar line",
+        "colons",
         "a cell short",
         "a cell long",
         "dash before eighths",
         "closed hats",
     ],
 )
-def test_one_bar_as_thirteen_people_type_it(text: str) -> None:
+def test_one_bar_as_fourteen_people_type_it(text: str) -> None:
     assert is_tab(text.encode())
     part = read(text)
     assert (part.score.bar_count, str(part.score.tempo_map.meter_at(0))) == (1, "4/4")
@@ -266,8 +274,27 @@ def test_a_key_with_names_between_bar_lines_is_no_music() -> None:
     assert (ticks(part, Piece.HIHAT), ticks(part, Piece.SNARE)) == (HAT_ON_EIGHTHS, [PPQ, 3 * PPQ])
 
 
-def test_numbers_of_bars_name_no_part() -> None:
-    assert not read("Bar 1            Bar 2\nHH|x-x-x-x-|x-x-x-x-|\nBD|o---o---|o---o---|\n").sections
+@pytest.mark.parametrize("numbers", ["Bar 1            Bar 2", "[1]              [2]"])
+def test_numbers_of_bars_name_no_part(numbers: str) -> None:
+    assert not read(f"{numbers}\nHH|x-x-x-x-|x-x-x-x-|\nBD|o---o---|o---o---|\n").sections
+
+
+def test_words_by_themselves_below_say_how_often() -> None:
+    tab = "HH|x-x-x-x-|\nBD|o---o---|\n"
+    assert read(f"{tab}\nRepeat x3\n\n{tab}").score.bar_count == 4
+
+
+def test_the_last_bar_line_may_be_missing() -> None:
+    part = read("HH|x-x-x-x-|x-x-x-x-\nBD|o---o---|o---o---\n")
+    assert part.score.bar_count == 2
+    assert ticks(part, Piece.KICK) == [k * 2 * PPQ for k in range(4)]
+
+
+def test_a_percent_sign_is_the_bar_before() -> None:
+    part = read("HH|x-x-x-x-|   %    |--------|\nBD|o---o---|---%----|o-------|\n")
+    assert part.score.bar_count == 3
+    assert ticks(part, Piece.KICK) == [0, 2 * PPQ, 4 * PPQ, 6 * PPQ, 8 * PPQ]
+    assert ticks(part, Piece.HIHAT) == [k * PPQ for k in range(8)]
 
 
 def test_a_tab_says_the_tempo_as_people_do() -> None:

@@ -87,6 +87,22 @@ def test_a_roll_lane_over_several_notes_leaves_them_and_says_so() -> None:
     assert part.lost == ("1 roll lanes over several notes: the notes stand as charted",)
 
 
+def test_a_roll_lane_over_two_lanes_is_no_buzz_roll_of_the_first() -> None:
+    """A double roll alternates between two lanes (S 66), one note in each of which may be all that is charted."""
+    part = _read(_chart("0 = N 1 0\n96 = N 3 0\n0 = S 66 192"))
+    assert [(n.piece, n.articulation) for n in part.score] == [
+        (Piece.SNARE, Articulation.NORMAL),
+        (Piece.TOM_2, Articulation.NORMAL),
+    ]
+    assert part.lost[-1:] == ("1 roll lanes over several notes: the notes stand as charted",)
+
+
+def test_a_roll_lane_over_a_cymbal_is_one_stroke_and_says_so() -> None:
+    part = _read(_chart("0 = N 4 0\n0 = N 68 0\n0 = S 65 192"))
+    assert [(n.piece, n.articulation) for n in part.score] == [(Piece.CRASH_1, Articulation.NORMAL)]
+    assert part.lost == ("rolls on cymbals and the kick: one stroke stands for each",)
+
+
 @pytest.mark.parametrize("event", ['E "mix 3 drums0d"', "E mix_3_drums0d", 'E "[mix 3 drums0d]"'])
 def test_a_disco_flip_puts_snare_and_hi_hat_right(event: str) -> None:
     notes = "0 = N 2 0\n0 = N 66 0\n192 = N 1 0\n384 = N 2 0\n384 = N 66 0"

@@ -269,6 +269,15 @@ def test_every_small_circle_opens_a_hihat(sign: str) -> None:
     ]
 
 
+@pytest.mark.parametrize(("sign", "openness"), [("pictHalfOpen2", 0.5), ("pictOpen", 1.0), ("guitarClosePedal", 0.0)])
+def test_pictures_say_how_open_a_hihat_is(sign: str, openness: float) -> None:
+    """Signs of SMuFL's ranges for percussion and pedals, which MusicXML has as another articulation."""
+    other = f'<notations><articulations><other-articulation smufl="{sign}"/></articulations></notations>'
+    part = _read(_note("hat", 24, other) + _note("snare", 24, other))
+    assert part.score[0].openness == openness
+    assert part.lost == ("other-articulation signs: 1, the first in bar 1",)
+
+
 def test_repeats_and_sections_are_written_out() -> None:
     verse = "<direction><direction-type><rehearsal>verse</rehearsal></direction-type></direction>"
     back = '<barline location="right"><repeat direction="backward"/></barline>'

@@ -7,7 +7,7 @@ has no other rest, its blanks are the rests.
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from station.core.errors import BadInput
 from station.music.formats.ascii_tab.tab_letters import LABELS, RESTS, TAB_CHARACTERS, label_key
@@ -18,10 +18,13 @@ _DASHED = re.compile(rf"\s*({_LABEL})-(?=[^ |:]+\|)")
 _SPACED = re.compile(rf"\s*({_LABEL})\s+(?=[-.=_xXoOgfFdDbBcshHrRzZ#@]+\|)")
 _WORD = re.compile(r"[A-Za-z]{3,}")
 _BEHIND = re.compile(rf"\s*[|:]{{1,2}}(.{{6,}})\|[|:]?\s*({_LABEL})\s*$")
-_WITHOUT_BAR_LINES = re.compile(rf"\s*({_LABEL})\s+((?=[^ ]*-)[^ |:]{{6,}})\s*$")
+_WITHOUT_BAR_LINES = re.compile(rf"\s*({_LABEL})(?::\s*|\s+)((?=[^ ]*-)[^ |:]{{6,}})\s*$")
 _KNOWN = 0.8
 """A line of fewer known letters is words (our choice)."""
+_SHORTEST_BAR = 4
+"""Cells of a bar that nobody closed: shorter ones are the typist's dashes (our choice)."""
 _BLANK = " "
+_AGAIN = "%"
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +85,7 @@ def tab_line(line: str) -> FoundLine | None:
     cells = line[found.start : found.end]
     if any(_is_a_word(run) for run in _WORD.findall(cells)):
         return None
-    known = sum(c in TAB_CHARACTERS or c in "|:" for c in cells)
+    known = sum(c in TAB_CHARACTERS or c in f"|:{_AGAIN}" for c in cells)
     is_sure = "|" in line and known >= _KNOWN * len(cells) and any(c in cells for c in "-xo")
     return found if cells.strip() and (known == len(cells) or is_sure) else None
 
@@ -103,15 +106,17 @@ def refuse_unknown_label(line: str, number: int, source: str) -> None:
 
 
 def bars_of(line: str, found: FoundLine) -> Iterator[TabBar]:
-    """The bars between the line's strokes."""
+    """The bars between the line's strokes; one of a single `%` is the bar before it."""
     text = line[found.start : found.end]
     are_rests = _BLANK in text.strip() and not set(text) & (set(RESTS) - {_BLANK}) and not _is_grouped(text)
-    at, opens = found.start, False
+    at, opens, last = found.start, False, TabBar("", ())
     for bar in text.split("|"):
         opens = opens or bar.lstrip().startswith(":")
         cells = _cells(bar, are_rests)
         if cells.strip(_BLANK) or (are_rests and len(cells) > 1):
-            yield TabBar(cells, _columns(bar, at, are_rests), opens, bar.rstrip().endswith(":"))
+            if not last.cells or cells.strip(RESTS) != _AGAIN:
+                last = TabBar(cells, _columns(bar, at, are_rests))
+            yield replace(last, opens=opens, closes=bar.rstrip().endswith(":"))
             opens = False
         at += len(bar) + 1
 
@@ -133,5 +138,8 @@ def _columns(bar: str, at: int, are_rests: bool) -> tuple[int, ...]:
 
 
 def _end_of_cells(line: str, start: int) -> int:
-    """What follows the last bar line is words."""
-    return line.rindex("|") if line.rfind("|") >= start else len(line)
+    """What follows the last bar line is words, if it is no bar that nobody closed."""
+    last = line.rfind("|")
+    rest = line[last + 1 :].rstrip()
+    is_open = len(rest) >= _SHORTEST_BAR and "-" in rest and all(letter in TAB_CHARACTERS for letter in rest)
+    return last if last >= start and not is_open else len(line)

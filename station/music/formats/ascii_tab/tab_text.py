@@ -27,7 +27,7 @@ _NAMED = {
     "author": re.compile(r"\s*(?:artist|band|by|tabbed by|author)\s*[:=]\s*(.+)", re.IGNORECASE),
     "about": re.compile(r"\s*(?:notes?|comments?|about)\s*[:=]\s*(.+)", re.IGNORECASE),
 }
-_IN_BRACKETS = re.compile(r"\s*\[([^\]|]{1,40})\]")
+_IN_BRACKETS = re.compile(r"\s*\[(?=[^\]|]{0,39}[A-Za-z])([^\]|]{1,40})\]")
 _SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9 '/-]{0,30}):?\s*(?:\([\s0-9]*\))?:?\s*$")
 _PART = re.compile(
     r"\s*(?:intro|verse|(?:pre|post)?[ -]?chorus|refrain|bridge|solo|outro|ending|break|interlude|fill|groove|beat|"
@@ -110,6 +110,9 @@ def tab_text(text: str, source: str) -> TabText:
             system.times = max(system.times, _times(_tidy(line)))
         else:
             close()
+            is_alone = not "".join(lines[number : number + 1]).strip()
+            if found.systems and is_alone and _AGAIN.match(line) and waiting == TabSystem():
+                found.systems[-1].times = max(found.systems[-1].times, _times(_tidy(line)))
             _read_words(_tidy(line), found, waiting)
     close()
     return found

@@ -59,8 +59,9 @@ class _Lines:
 def write_tab(part: DrumPart) -> WrittenFile:
     """The part as a text of drum tablature, in UTF-8."""
     lost: dict[Loss, None] = {}
-    if part.swing.ratio != STRAIGHT and part.score.notes["swing_ticks"].any():
-        text = f"swing of {part.swing.ratio:.3g} : 1 is written straight"
+    if part.score.notes["swing_ticks"].any():
+        ratio = f" of {part.swing.ratio:.3g} : 1" if part.swing.ratio != STRAIGHT else ""
+        text = f"swing{ratio} is written straight"
         lost |= {Loss(Feature.TIMES, text): None, Loss(Feature.SWING, text): None}
     score = part.score.as_written
     bars = [_bar(score, k, lost) for k in range(score.bar_count)]

@@ -2,8 +2,8 @@
 
 Our choices: an accent and a ghost have the station's usual velocities, for charts know no others. In a disco flip red
 and yellow change places. A second kick is the left foot's. A roll lane over one note of its lane is a buzz roll as long
-as the lane; over several the notes stand as charted. What the game's drummer does beside a note (within a 64th) says
-its hand, and which cymbal or tom the lane stands for there.
+as the lane; over several, and where two lanes are rolled in turn, the notes stand as charted. What the game's drummer
+does beside a note (within a 64th) says its hand, and which cymbal or tom the lane stands for there.
 """
 
 from bisect import bisect_left, bisect_right
@@ -185,8 +185,10 @@ def _with_chokes(chart: DrumChart, strokes: Sequence[Note]) -> list[Note]:
 
 
 def _lost(chart: DrumChart) -> Iterator[str]:
-    left = len(merged(chart.rolls)) - len(_buzzes(chart))
+    buzzes = _buzzes(chart)
+    left = len(merged(chart.rolls)) - len(buzzes) + len(merged(chart.double_rolls))
     if left:
         yield f"{left} roll lanes over several notes: the notes stand as charted"
-    if any(n.length and meaning_of(n, chart.has_five_lanes).piece not in DRUMS for n in chart.notes):
+    rolled = (n for n in chart.notes if n.length or (n.tick, n.lane) in buzzes)
+    if any(meaning_of(n, chart.has_five_lanes).piece not in DRUMS for n in rolled):
         yield "rolls on cymbals and the kick: one stroke stands for each"

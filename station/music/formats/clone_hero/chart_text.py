@@ -80,12 +80,13 @@ def read_chart(data: bytes, source: str) -> DrumChart:
         tuple((line.tick, text) for line in events if (text := _section_name(_event(line))) is not None),
         has_five,
         flips_of([(line.tick, line.value) for line in track if line.kind == "E"], difficulty, last) if is_pro else (),
-        tuple(_rolls(track)),
+        tuple(_rolls(track, ROLL_LANE)),
         title=song.get("Name", ""),
         author=song.get("Artist", ""),
         about=f"Charted by {song['Charter']}." if song.get("Charter") else "",
         end=end,
         lost=tuple(_lost(sections[name], difficulty, is_pro or has_five, notes)),
+        double_rolls=tuple(_rolls(track, _TWO_LANES)),
     )
 
 
@@ -222,10 +223,10 @@ def _dynamic(lane: Lane, marks: dict[int, int]) -> Dynamic:
     return Dynamic.GHOST if lane is not Lane.KICK and lane + GHOST_MARK in marks else Dynamic.NORMAL
 
 
-def _rolls(track: list[_Line]) -> Iterator[Span]:
+def _rolls(track: list[_Line], phrase: int) -> Iterator[Span]:
     for line in track:
         numbers = line.numbers() if line.kind == "S" else []
-        if len(numbers) > 1 and numbers[0] in (ROLL_LANE, _TWO_LANES):
+        if len(numbers) > 1 and numbers[0] == phrase:
             yield Span(line.tick, line.tick + numbers[1])
 
 

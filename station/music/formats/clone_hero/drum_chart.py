@@ -92,8 +92,8 @@ class DrumChart:
     """One difficulty of a drum part.
 
     `tempos` are (tick, µs a quarter), `meters` (tick, beats, unit), `sections` (tick, name). `has_five_lanes` tells
-    which kit the lanes stand for. `flips` are where red and yellow change places (disco flip). `end` is where the song
-    ends, 0 where the file does not say.
+    which kit the lanes stand for. `flips` are where red and yellow change places (disco flip), `rolls` where one lane
+    is rolled, `double_rolls` where two are in turn. `end` is where the song ends, 0 where the file does not say.
     """
 
     resolution: int
@@ -112,6 +112,7 @@ class DrumChart:
     about: str = ""
     end: int = 0
     lost: tuple[str, ...] = ()
+    double_rolls: tuple[Span, ...] = ()
 
 
 def check_size(chart: DrumChart, source: str) -> None:

@@ -36,7 +36,7 @@ _LOWEST = MappingProxyType({Difficulty.EXPERT: 96, Difficulty.HARD: 84, Difficul
 """The kick of each difficulty; the lanes follow."""
 _SECOND_KICK, _FLAM = 95, 109
 _TOMS = MappingProxyType({Lane.YELLOW: 110, Lane.BLUE: 111, Lane.ORANGE_GREEN: 112})
-_ROLLS = (126, 127)
+_ROLL, _DOUBLE_ROLL = 126, 127
 _HARD_ROLL_VELOCITIES = range(41, 51)
 """A roll lane that is not for Expert alone."""
 
@@ -98,13 +98,14 @@ def read_notes_midi(data: bytes, source: str) -> DrumChart:
         tuple(_sections(midi)),
         has_five_lanes,
         () if has_five_lanes else flips_of(texts, difficulty, track.end_tick),
-        _rolls(track, difficulty),
+        _rolls(track, difficulty, _ROLL),
         tuple(_motions(track)),
         _spans(track, (_OPEN_HAT,)),
         tuple(_grabs(track)),
         midi.title,
         end=_end(midi),
         lost=tuple(_lost(track, difficulty, notes)),
+        double_rolls=_rolls(track, difficulty, _DOUBLE_ROLL),
     )
 
 
@@ -156,11 +157,11 @@ def _spans(track: MidiTrack, numbers: Sequence[int]) -> tuple[Span, ...]:
     return merged(Span(tick, tick + max(length, 0)) for tick, _, _, length in _rows(track, tuple(numbers)))
 
 
-def _rolls(track: MidiTrack, difficulty: Difficulty) -> tuple[Span, ...]:
+def _rolls(track: MidiTrack, difficulty: Difficulty, marker: int) -> tuple[Span, ...]:
     """The roll lanes of a difficulty: Expert has all, Hard those whose velocity says so."""
     return tuple(
         Span(tick, tick + length)
-        for tick, _, velocity, length in _rows(track, _ROLLS)
+        for tick, _, velocity, length in _rows(track, (marker,))
         if length > 0
         and (difficulty is Difficulty.EXPERT or (difficulty is Difficulty.HARD and velocity in _HARD_ROLL_VELOCITIES))
     )

@@ -30,6 +30,14 @@ FULL_VELOCITY = 90
 _FLAGS = {name: flags for flags, name in enumerate(("quarter", "eighth", "16th", "32nd", "64th", "128th", "256th"))}
 _OPENNESS = {"open": OPEN, "open-string": OPEN, "harmonic": OPEN, "stopped": CLOSED, "half-muted": HALF_OPEN}
 """Over a hi-hat every small circle says that it is open; MuseScore has them as `open-string` and `harmonic`."""
+_PICTURED = {
+    "pictOpen": OPEN,
+    **dict.fromkeys(("pictHalfOpen1", "pictHalfOpen2", "pictHalfOpen3"), HALF_OPEN),
+    "guitarOpenPedal": OPEN,
+    "guitarHalfOpenPedal": HALF_OPEN,
+    "guitarClosePedal": CLOSED,
+}
+"""Signs of SMuFL for which MusicXML has no element."""
 _CHOKE = re.compile("choke", re.IGNORECASE)
 _READ_ARTICULATIONS = {"accent": Dynamic.ACCENT, "strong-accent": Dynamic.ACCENT}
 _READ_TECHNICAL = {"fingering", *_OPENNESS}
@@ -114,7 +122,7 @@ class NoteReader:
             found.dynamic = _READ_ARTICULATIONS[sign.tag]
         elif _CHOKE.search(sign.get("smufl", "")) or _CHOKE.search(sign.text or ""):
             found.is_choked = found.strike.piece in CHOKEABLE
-        elif group == "technical" and sign.tag in _OPENNESS and _is_opened(found, _OPENNESS[sign.tag]):
+        elif (openness := _openness_of(group, sign)) is not None and _is_opened(found, openness):
             pass
         elif group == "ornaments" and sign.tag == "tremolo" and sign.get("type", "single") in ("single", "unmeasured"):
             _tremble(sign, note, found)
@@ -143,6 +151,12 @@ def _line(note: Element) -> tuple[str, str]:
     step = note.findtext("unpitched/display-step") or note.findtext("pitch/step") or ""
     octave = note.findtext("unpitched/display-octave") or note.findtext("pitch/octave") or ""
     return step.strip().upper()[:1], octave.strip()[:2]
+
+
+def _openness_of(group: str, sign: Element) -> float | None:
+    """How open a hi-hat is that has this sign; None where it says nothing of that."""
+    pictured = _PICTURED.get(sign.get("smufl", ""))
+    return _OPENNESS.get(sign.tag) if pictured is None and group == "technical" else pictured
 
 
 def _is_opened(found: WrittenNote, openness: float) -> bool:
