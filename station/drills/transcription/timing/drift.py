@@ -23,6 +23,9 @@ _MOST_POINTS = 300
 grow without end (our choice)."""
 FIRST_STROKES = 40
 """As many decide where the beat begins, and how fast."""
+LEAST_STROKES = 20
+"""Fewer do not tell a tempo from a lean (our choice)."""
+_NUMBERS_OF_A_LINE = 2
 _LEANS_S = tuple(ms / 1000 for ms in range(-40, 41, 10))
 _SLOPES = (-0.02, -0.015, -0.01, -0.005, 0.0, 0.005, 0.01, 0.015, 0.02)
 """Tempo errors to begin with, as a share; HUMANS, Timing: professionals without a click keep it to 2 %."""
@@ -50,14 +53,36 @@ class _Line:
 
 def steadied(take: Take, feel: Feel) -> Take | None:
     """The take with its drift removed; None where the constant lean of `feel` explains it as well."""
-    if len(take.piece) < FIRST_STROKES:
+    if len(take.piece) < LEAST_STROKES:
         return None
-    points = np.array(list(_points(take, feel)))
-    late = _smooth(points[:, 0], points[:, 1], take.times_s)
-    steady = replace(take, times_s=take.times_s - late)
+    rivals = [(_straight(take, feel).late(take.times_s), _NUMBERS_OF_A_LINE)]
+    if len(take.piece) >= FIRST_STROKES:
+        points = np.array(list(_points(take, feel)))
+        rivals.append((_smooth(points[:, 0], points[:, 1], take.times_s), len(points)))
+    cost, steady = min((_cost(take, feel, late, fitted) for late, fitted in rivals), key=lambda rival: rival[0])
+    return steady if cost < cost_of(take, feel) else None
+
+
+def _cost(take: Take, feel: Feel, late_s: Floats, fitted: int) -> tuple[float, Take]:
+    """What the take costs with its drift `late_s` (n,) removed, into which so many numbers were fitted."""
+    steady = replace(take, times_s=take.times_s - late_s)
     then = settled(steady, settled(steady, replace(feel, lean_s=0.0)))
-    gain = cost_of(take, feel) - cost_of(steady, then)
-    return steady if gain > _COST_OF_A_POINT * len(points) else None
+    return cost_of(steady, then) + _COST_OF_A_POINT * fitted, steady
+
+
+def _straight(take: Take, feel: Feel) -> _Line:
+    """The line of a take whose tempo is steady but another than its file says: fitted to ever more of its strokes."""
+    line, flat = _begin(take, feel), replace(feel, lean_s=0.0)
+    count = FIRST_STROKES
+    while True:
+        some = take.first(count)
+        here = replace(some, times_s=some.times_s - line.late(some.times_s))
+        errors = clipped_errors(here.errors_s(flat, here.read(flat)), feel.spread_s)
+        slope, late = np.polyfit(some.times_s - line.at_s, errors, 1)
+        line = replace(line, late_s=line.late_s + float(late), slope=line.slope + float(slope))
+        if count >= len(take.piece):
+            return line
+        count = count * 3 // 2
 
 
 def _points(take: Take, feel: Feel) -> Iterator[tuple[float, float]]:

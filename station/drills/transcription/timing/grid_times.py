@@ -22,8 +22,8 @@ from station.music.score import Score
 from station.music.swing import STRAIGHT, TRIPLETS, Swing
 from station.music.tempo import TempoMap
 
-STEADY_S = 0.015
-"""A take with no wider spread keeps to the file's beat, and no drift is looked for (our choice)."""
+STEADY_S = 0.010
+"""A take with no wider spread, a professional's, keeps to the file's beat, and no drift is looked for (our choice)."""
 _MS_PER_S = NS_PER_S // NS_PER_MS
 
 
