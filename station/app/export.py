@@ -20,7 +20,7 @@ from station.app.actions.file_actions import CancelFilm, Export, ExportTake, Fil
 from station.app.music_files.named_parts import load_part
 from station.app.music_files.part_export import bars_of, write_part
 from station.app.view_settings import ViewSettings
-from station.app.worker_process import BACKGROUND, StartWork, Work, WorkerProcess
+from station.app.worker_process import StartWork, Work, WorkerProcess
 from station.core.disk.files import growing, write_whole
 from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
@@ -34,6 +34,8 @@ FOLDER = "take-along"
 _PAPER = "a4"
 FILM, LOOP, LESSON, SHEET, _TAKE = ".mp4", ".gif", ".toml", ".pdf", ".mid"
 ANIMATE = (sys.executable, "-m", "station.cli.command_line", "animate")
+_BACKGROUND = 10
+"""How nice the film is to a drummer who plays meanwhile (our choice: it gets what is left)."""
 _SAID = "said"
 """What the film's process says, in the folder that goes with it."""
 
@@ -171,7 +173,7 @@ class Exporter:
                 self._end()
         self.path = path
         with suppress(OSError, AttributeError):  # there is no such thing on every system
-            os.setpriority(os.PRIO_PROCESS, self.process.pid, BACKGROUND)
+            os.setpriority(os.PRIO_PROCESS, self.process.pid, _BACKGROUND)
 
     def view(self) -> ExportView:
         """What is shown."""

@@ -33,6 +33,7 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
             " then it is your turn.",
             (
                 ("The list", "from first steps to hard; the search finds words of title, level, author and tags"),
+                ("Import…", "or a file dropped on the window: music of any kind becomes a lesson of your own"),
                 ("All lessons", "or one course, in its teacher's order; marks beside the lessons say how far you are"),
                 ("the tempo follows me", "each pass begins where the last one led, and says why"),
                 ("passes", "how often the loop is played"),
@@ -49,6 +50,7 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("Tempo, click", "drag, type or tap a tempo, or play without a click"),
                 ("Listen back", "plays the take once more; it is kept in your sessions folder"),
                 ("Video of it", "films the drummer who plays your take"),
+                ("Lesson of it", "puts your take on the grid, as a lesson of your own; Export has it as MIDI"),
             ),
         ),
         Topic.PLAYING: Help(

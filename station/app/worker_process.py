@@ -14,8 +14,9 @@ from station.core.errors import DeviceError, StationError
 
 Result_co = TypeVar("Result_co", covariant=True)
 Result = TypeVar("Result")
-BACKGROUND = 10
-"""How nice work is to a drummer who plays meanwhile (our choice: it gets what is left)."""
+_NICE = 3
+"""How nice work is to a drummer who plays meanwhile (our choice: the window and the sound come first, and whoever waits
+for a file gets it before a film gets on)."""
 _ENDED = "the program that did the work has ended without a result: is there enough memory?"
 
 
@@ -75,7 +76,7 @@ class WorkerProcess(Generic[Result]):
 def _work(to: Connection, do: Callable[..., object], words: tuple[object, ...]) -> None:
     """What the process does."""
     with suppress(OSError, AttributeError):  # there is no such thing on every system
-        os.nice(BACKGROUND)
+        os.nice(_NICE)
     try:
         to.send(do(*words))
     except StationError as fault:

@@ -3,7 +3,9 @@
 The values are stored in numpy arrays and captures, so a number, once given, is never given again.
 """
 
+from collections.abc import Mapping
 from enum import IntEnum
+from types import MappingProxyType
 
 CLOSED, HALF_OPEN, OPEN = 0.0, 0.5, 1.0
 """Openness of a hi-hat."""
@@ -94,6 +96,10 @@ CYMBALS = frozenset({Piece.RIDE, Piece.RIDE_2, Piece.CRASH_1, Piece.CRASH_2, Pie
 CHOKEABLE = CYMBALS | {Piece.HIHAT}
 """What rings and can be grabbed."""
 TOMS = (Piece.TOM_1, Piece.TOM_2, Piece.TOM_3, Piece.TOM_4, Piece.FLOOR_TOM_1, Piece.FLOOR_TOM_2)
+DRUMS = frozenset({Piece.SNARE, *TOMS})
+"""The drums that hands play: where sticks bounce."""
+USUAL_FEET: Mapping[Piece, Limb] = MappingProxyType({Piece.KICK: Limb.RIGHT_FOOT, Piece.HIHAT_PEDAL: Limb.LEFT_FOOT})
+"""Which foot a pedal is under where nobody says."""
 
 
 def word(member: IntEnum) -> str:

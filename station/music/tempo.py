@@ -42,12 +42,17 @@ class TempoChange:
         """A change to `tempo_bpm` quarter notes a minute, rounded to whole microseconds as MIDI does."""
         return cls(tick, round(_US_PER_MINUTE / tempo_bpm))
 
+    @property
+    def tempo_bpm(self) -> float:
+        """Quarter notes a minute."""
+        return _US_PER_MINUTE / self.us_per_quarter
+
     def short_bpm(self, beat_quarters: float = 1.0) -> float:
         """Beats of `beat_quarters` a minute, with the fewest decimals that mean this tempo.
 
         At 72 a quarter lasts 833 333 whole microseconds: 72, though these alone would be 72.0000288.
         """
-        exact = _US_PER_MINUTE / self.us_per_quarter / beat_quarters
+        exact = self.tempo_bpm / beat_quarters
         near = (round(exact, decimals) for decimals in range(_MOST_DECIMALS))
         return next((b for b in near if b and self._is(b * beat_quarters)), exact)
 

@@ -38,7 +38,7 @@ def tempo_words(tempo_map: TempoMap) -> list[TempoWord]:
 def read_tempo_words(tempo_map: TempoMap) -> list[TempoWord]:
     """Those that somebody reads who plays from a staff: how a played tempo wavers is left out."""
     changes = [change.tick for change in tempo_map.tempos]
-    found, holds = list[TempoWord](), _bpm(tempo_map.tempos[0])
+    found, holds = list[TempoWord](), tempo_map.tempos[0].tempo_bpm
     for word in tempo_words(tempo_map):
         after = bisect_right(changes, word.tick)
         until = word.until or (changes[after] if after < len(changes) else None)
@@ -62,20 +62,18 @@ def _runs(changes: Sequence[TempoChange]) -> Iterator[list[TempoChange]]:
 
 
 def _goes_on(run: Sequence[TempoChange], after: TempoChange) -> bool:
-    step, last = _bpm(run[-1]) - _bpm(run[-2]), _bpm(after) - _bpm(run[-1])
+    step, last = run[-1].tempo_bpm - run[-2].tempo_bpm, after.tempo_bpm - run[-1].tempo_bpm
     return step * last > 0 and abs(last) <= _EVEN * abs(step) and after.tick - run[-1].tick <= _MOST_GAP
 
 
 def _words(run: Sequence[TempoChange], tempo_map: TempoMap) -> Iterator[TempoWord]:
     if len(run) <= _FEWEST_STEPS:
-        yield from (TempoWord(change.tick, _bpm(change)) for change in run[1:])
+        yield from (TempoWord(change.tick, change.tempo_bpm) for change in run[1:])
         return
     last, gap = run[-1], run[-1].tick - run[-2].tick
     has_arrived = tempo_map.position_at(last.tick).beat == tempo_map.position_at(last.tick).tick == 0
-    target = _bpm(last) if has_arrived else 2 * _bpm(last) - _bpm(run[-2])  # one that ends the music stops a step short
+    target = (
+        last.tempo_bpm if has_arrived else 2 * last.tempo_bpm - run[-2].tempo_bpm
+    )  # one that ends the music stops a step short
     until = last.tick if has_arrived else last.tick + gap
-    yield TempoWord(run[1].tick - gap, target, until, 1 if target > _bpm(run[0]) else -1)
-
-
-def _bpm(change: TempoChange) -> float:
-    return 60e6 / change.us_per_quarter
+    yield TempoWord(run[1].tick - gap, target, until, 1 if target > run[0].tempo_bpm else -1)

@@ -42,10 +42,11 @@ from station.gui.glfw_screen import glfw_screen
 from station.gui.keyboard_kit import VIEW_KEYS
 from station.gui.panels.calibration_part import ANYWAY_LABEL, MEASURE_LABEL
 from station.gui.panels.devices_panel import DEVICES
-from station.gui.panels.export_panel import EXPORT, SHEET_LABEL, music_label
+from station.gui.panels.export_panel import EXPORT, PLAYED_LABEL, SHEET_LABEL, music_label
 from station.gui.panels.import_panel import IMPORT, IMPORT_LABEL, PASTE_LABEL, SOURCE_LABEL
 from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LEVEL_LABEL, LISTEN_LABEL
 from station.gui.panels.lessons_panel import IMPORT_LABEL as OPEN_IMPORT_LABEL
+from station.gui.panels.lessons_panel import LESSON_LABEL as TAKE_LESSON_LABEL
 from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL
 from station.gui.panels.pads_part import UNDO_LABEL
 from station.gui.panels.panel import PANELS_LABEL
@@ -59,6 +60,7 @@ from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.panels.velocity_part import LEARN_LABEL as TOUCH_LABEL
 from station.gui.window import Window
 from station.gui.window_frame import WindowOptions
+from station.music.formats.format_table import read_part
 from station.music.formats.smf.midi_part import MIDI
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.self_estimate import SelfEstimate
@@ -350,6 +352,16 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(3)
     capture = drive.room.take
     drive.seen["filmed"] = capture is not None and capture.with_suffix(".mp4").read_text() == str(capture)
+    open_panel(ctx, EXPORT)
+    ctx.item_click(f"//{EXPORT}/{PLAYED_LABEL}")
+    drive.wait_until(ctx, lambda state: not state.export.is_writing)
+    written = drive.state.export.written
+    assert written is not None
+    drive.seen["midi"] = [note.piece.name for note in read_part(written.path).score]
+    open_panel(ctx, EXPORT)
+    ctx.set_ref("//Lessons")
+    ctx.item_click(f"**/{TAKE_LESSON_LABEL}")
+    drive.seen["lesson"] = drive.imported(ctx, "Just play")
 
 
 def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:

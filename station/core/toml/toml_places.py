@@ -17,7 +17,7 @@ _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _BARE_VALUE = re.compile(r"[^,\]}\n#]+")
 _FOLD = re.compile(r"\\[ \t]*\n[ \t\n]*")
 _PLAIN_STRING = re.compile(r""""[^"\\\n]+"|'[^'\n]+'""")
-"""A string in one row without an escape, as nearly all are; of no other can one say so quickly where its letters are."""
+"""A string in one row without an escape, as nearly all are: where its letters are is said at once."""
 _ESCAPE = re.compile(r"\\(?:u[0-9A-Fa-f]{4}|U[0-9A-Fa-f]{8}|.)", re.DOTALL)
 
 

@@ -1,6 +1,8 @@
 """What an import tells the teacher: what was found and what was done, each in a sentence that says in which bars."""
 
-from collections.abc import Iterable, Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +15,16 @@ from station.drills.transcription.strokes.reach import Reach
 from station.drills.transcription.timing.grid_times import GridTimes
 from station.music.score import Score
 from station.music.swing import Swing
-from station.music.tempo import TempoMap
 
 _BARS_NAMED = 8
 """Bars that a remark names (our choice: what fits a line)."""
+_STROKES_APART = 2
+"""A bar that differs from a groove by no more strokes is that groove: one that fell out and one more, or one that moved
+(our choice)."""
+_LEAST_BARS = 4
+"""So many bars at least are a groove, and a third of all (our choice)."""
+_KINDS_TRIED = 64
+"""Kinds of bars, the most frequent, each of which may be the groove (our choice)."""
 _TIDIED_BPM = 0.05
 """A tempo that was only made readable differs less."""
 _TOLD_MS = 0.5
@@ -24,12 +32,18 @@ _TOLD_MS = 0.5
 
 
 def remarks_on(
-    ornaments: FoundOrnaments, times: GridTimes, mains: Score, reach: Reach, lesson: Lesson
+    ornaments: FoundOrnaments, times: GridTimes, mains: Score, reach: Reach, lesson: Lesson, steadied: int = 0
 ) -> Iterator[str]:
-    """The remarks on a `lesson` made of the strokes `mains` of a file."""
+    """The remarks on a `lesson` made of the strokes `mains` of a file, `steadied` of which got another dynamic."""
     yield from _on_tempo(mains, lesson.score)
     yield from _on_meter(mains, lesson.score)
+    if mains.loudness:
+        yield f"loudness marks and hairpins left out: {_bars(mains, (mark.tick for mark in mains.loudness))}"
     yield from _on_times(times, mains)
+    if steadied:
+        yield f"{_counted(steadied, 'stroke')} made as loud as the others of their place in the groove"
+    if times.spread_ms:
+        yield from _on_groove(lesson.score)
     if lesson.is_swung:
         yield f"swing {lesson.swing.ratio:.3g}:1 of {_unit(lesson.swing)}"
     found = {"flam": ornaments.flams, "drag": ornaments.drags, "buzz": ornaments.buzzes}
@@ -60,16 +74,12 @@ def _on_tempo(before: Score, after: Score) -> Iterator[str]:
     """A lesson's tempo changes at bar lines, and not for what only wanders."""
     old, new = before.tempo_map, after.tempo_map
     within = any(change.tick != old.bar_start(int(old.bars_at(change.tick))) for change in old.tempos)
-    if len(old.tempos) == len(new.tempos) == 1 and abs(_bpm(old) - _bpm(new)) > _TIDIED_BPM:
-        yield f"no tempo in it: played at {_bpm(new):.4g}"
+    if len(old.tempos) == len(new.tempos) == 1 and abs(old.tempos[0].tempo_bpm - new.tempos[0].tempo_bpm) > _TIDIED_BPM:
+        yield f"no tempo in it: played at {new.tempos[0].tempo_bpm:.4g}"
     if within or len(new.tempos) < len(old.tempos):
         changes = len(new.tempos) - 1
-        said = f"{changes} at bar lines" if changes else f"one tempo, {_bpm(new):.4g}"
+        said = f"{changes} at bar lines" if changes else f"one tempo, {new.tempos[0].tempo_bpm:.4g}"
         yield f"{_counted(len(old.tempos) - 1, 'change')} of tempo written as {said}"
-
-
-def _bpm(tempo_map: TempoMap) -> float:
-    return 60e6 / tempo_map.tempos[0].us_per_quarter
 
 
 def _on_times(times: GridTimes, mains: Score) -> Iterator[str]:
@@ -90,6 +100,39 @@ def _shifts_ms(times: GridTimes, mains: Score) -> NDArray[np.float64]:
     before = (mains.tempo_map if times.spread_ms else tempo_map).ns_at(mains.notes["tick"][times.origin])
     by = np.abs(before - tempo_map.ns_at(times.score.notes["tick"]))
     return np.asarray(np.minimum(by, np.abs(mains.length_ns - by)) / NS_PER_MS)
+
+
+def _on_groove(score: Score) -> Iterator[str]:
+    """Which bars of a take are one groove: nobody plays a bar twice alike, so the page cannot show it."""
+    bars = _strokes_by_bar(score)
+    kinds = [kind for kind, _ in Counter(filter(None, bars)).most_common(_KINDS_TRIED)]
+    groups = [[i for i, bar in enumerate(bars) if len(bar ^ kind) <= _STROKES_APART] for kind in kinds]
+    groove = max(groups, key=len, default=[])
+    if len(groove) < max(_LEAST_BARS, len(bars) // 3):
+        return
+    model = bars.index(kinds[groups.index(groove)])
+    others = [bar for bar in range(len(bars)) if bar not in set(groove)]
+    apart = f"; not bars {_ranges(others)}" if others else ""
+    yield f"one groove: bars {_ranges(groove)} play bar {model + 1}, but for {_STROKES_APART} strokes at most{apart}"
+
+
+def _strokes_by_bar(score: Score) -> list[frozenset[tuple[int, int]]]:
+    """Piece and tick of each main stroke, from the start of its bar."""
+    found: list[set[tuple[int, int]]] = [set() for _ in range(score.bar_count)]
+    starts = [score.tempo_map.bar_start(bar) for bar in range(score.bar_count)]
+    mains = score.notes[~score.is_grace]
+    for bar, tick, piece in zip(
+        score.bar[~score.is_grace].tolist(), mains["tick"].tolist(), mains["piece"].tolist(), strict=True
+    ):
+        found[bar].add((piece, tick - starts[bar]))
+    return list(map(frozenset, found))
+
+
+def _ranges(bars: Sequence[int]) -> str:
+    """Bars, from 0, as people write them, from 1: "1–3, 5"; no more than fit a line."""
+    runs = [[bar for _, bar in run] for _, run in groupby(enumerate(bars), key=lambda each: each[1] - each[0])]
+    said = [f"{run[0] + 1}–{run[-1] + 1}" if len(run) > 1 else f"{run[0] + 1}" for run in runs]
+    return ", ".join(said[:_BARS_NAMED]) + (" …" if len(said) > _BARS_NAMED else "")
 
 
 def _unit(swing: Swing) -> str:

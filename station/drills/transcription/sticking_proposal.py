@@ -2,7 +2,7 @@
 
 `motion.sticking` chooses the hands of each grid as it is played by itself, and says why. A bar gets a line where the
 reasons are those of grooves: one hand keeps time, and the other is where that one is not. Held against the lessons that
-ship, whose authors wrote their stickings, 335 of the 353 bars that this names are theirs to the letter; of all other
+ship, whose authors wrote their stickings, 360 of the 380 bars that this names are theirs to the letter; of all other
 bars, rudiments above all, it would be one in four.
 """
 
@@ -33,8 +33,8 @@ _SURE = frozenset(
         "the hands stay uncrossed",
     }
 )
-_SURE_BESIDE_TIME = "natural sticking"
-"""Reasons, as `motion.sticking` words them; the last is one where the other hand keeps time."""
+_SURE_BESIDE_TIME = frozenset({"natural sticking", "so that the strokes after it fall well", "too quick for one hand"})
+"""Reasons, as `motion.sticking` words them; the last ones in bars where a hand keeps time."""
 
 
 def with_sticking(lesson: Lesson, form: LessonForm) -> Lesson:
@@ -107,8 +107,7 @@ def _as_written(score: Score, rows: NDArray[np.intp]) -> bytes:
 
 
 def _is_sure(reasons: set[str]) -> bool:
-    keeps_time = {_SURE_BESIDE_TIME} if _KEEPS_TIME in reasons else set()
-    return reasons <= _SURE | keeps_time
+    return reasons <= (_SURE | _SURE_BESIDE_TIME if _KEEPS_TIME in reasons else _SURE)
 
 
 def _with_their_mains(score: Score, limbs: NDArray[np.int8]) -> NDArray[np.int8]:

@@ -87,9 +87,11 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         times = times.bars(int(times.score.bar[0]), int(times.score.bar[-1]))
     score = replace(times.score, tempo_map=steady(times.score.tempo_map, times.score.bar_count))
     strokes, velocities = with_dynamics([as_letter(note) for note in score])
+    heard = strokes
     if times.spread_ms:
-        heard = score.notes["velocity"].tolist()
-        strokes = unified(steady_dynamics(strokes, heard, velocities, score.tempo_map))
+        strokes = steady_dynamics(strokes, score.notes["velocity"].tolist(), velocities, score.tempo_map)
+    steadied = sum(a.dynamic is not b.dynamic for a, b in zip(heard, strokes, strict=True))
+    strokes = unified(strokes) if times.spread_ms else strokes
     strokes = [_written(note, velocities) for note in strokes]
     reach = within_reach(strokes, ornaments.graces, score.tempo_map, score.end_tick)
     notes = with_diddles(with_lengths(reach, _ends(score, part), times), reach.beyond, score.tempo_map, velocities)
@@ -110,7 +112,7 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     form = found_form(lesson, part.sections)
     lesson = with_sticking(replace(lesson, level=_level(lesson)), form)
     read = as_written(lesson, form)
-    return Transcribed(read, tuple(remarks_on(ornaments, whole, mains, reach, read)))
+    return Transcribed(read, tuple(remarks_on(ornaments, whole, mains, reach, read, steadied)))
 
 
 def _heard_times(mains: Score, part: DrumPart) -> GridTimes:
@@ -129,6 +131,7 @@ def _from_its_first_bar(score: Score, ornaments: FoundOrnaments) -> tuple[Score,
     A program that writes a flam on the first beat needs a bar before it.
     """
     mains = Score.from_notes(ornaments.mains, score.tempo_map, score.end_tick, score.title)
+    mains = replace(mains, loudness=score.loudness)
     first = int(mains.bar[0]) if score.bar[0] < mains.bar[0] else 0
     return (mains.bars(first, mains.bar_count - 1), first) if first else (mains, 0)
 

@@ -8,7 +8,12 @@ from station.music.drum_part import DrumPart
 from station.music.formats.ascii_tab.tab_writer import ASCII_TAB
 from station.music.formats.clone_hero.clone_hero_format import CHART, NOTES_MIDI
 from station.music.formats.dtx.dtx_writer import DTX
-from station.music.formats.groovescribe.groove_formats import GROOVE_TEXT, GROOVESCRIBE, GROOVESCRIBE_MIDI
+from station.music.formats.groovescribe.groove_formats import (
+    GROOVE_SHORTCUT,
+    GROOVE_TEXT,
+    GROOVESCRIBE,
+    GROOVESCRIBE_MIDI,
+)
 from station.music.formats.guitar_pro.guitar_pro_format import GUITAR_PRO, OLD_GUITAR_PRO
 from station.music.formats.hydrogen.hydrogen_formats import HYDROGEN_PATTERN, HYDROGEN_SONG
 from station.music.formats.music_format import MusicFormat
@@ -29,6 +34,7 @@ FORMATS: tuple[MusicFormat, ...] = (
     HYDROGEN_SONG,
     HYDROGEN_PATTERN,
     DTX,
+    GROOVE_SHORTCUT,
     GROOVE_TEXT,
     ASCII_TAB,
     TEXT_SCORE,

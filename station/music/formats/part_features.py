@@ -6,14 +6,25 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import CLOSED, CYMBALS, HAND_PIECES, OPEN, Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.core.pieces import (
+    CLOSED,
+    CYMBALS,
+    HAND_PIECES,
+    OPEN,
+    USUAL_FEET,
+    Articulation,
+    Dynamic,
+    Limb,
+    Ornament,
+    Piece,
+    Zone,
+)
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import Feature, MusicFormat, WrittenFile
 from station.music.grace_strokes import Graces
 from station.music.stroke_velocities import USUAL_VELOCITIES
 
 _Rows = NDArray[np.void]
-_USUAL_FEET = {Piece.KICK: Limb.RIGHT_FOOT, Piece.HIHAT_PEDAL: Limb.LEFT_FOOT}
 
 
 def without_a_word(form: MusicFormat, part: DrumPart, written: WrittenFile) -> tuple[Feature, ...]:
@@ -58,7 +69,7 @@ def _is_named_zone(rows: _Rows) -> NDArray[np.bool_]:
 
 def _is_unusual_foot(rows: _Rows) -> NDArray[np.bool_]:
     found = np.zeros(len(rows), bool)
-    for piece, foot in _USUAL_FEET.items():
+    for piece, foot in USUAL_FEET.items():
         found |= (rows["piece"] == piece) & ~np.isin(rows["limb"], (foot, Limb.UNKNOWN))
     return found
 

@@ -4,6 +4,8 @@ A score on the screen is written out as it is played: repeat signs stand where a
 of an ending over its bars in every pass. Units are staff spaces, y down, x from the bar's first beat.
 """
 
+import numpy as np
+
 from station.core.units import PPQ
 from station.music.repeats import Passage, folded
 from station.music.score import Score
@@ -12,6 +14,8 @@ from station.music.tempo_words import TempoWord, read_tempo_words
 from station.render.notation.bar_lines import BarLine, Volta, draw_slim_line, draw_volta
 from station.render.notation.beams import Anchor
 from station.render.notation.beat_note import draw_beat_note
+from station.render.notation.chord_width import GRACE, GRACE_GAP, GRACE_STEP
+from station.render.notation.head_places import EDGE_X
 from station.render.notation.sheet_words import RAMPS
 from station.render.notation.swing_words import draw_swing_mark, swing_marks
 from station.render.palette import BRAND, INK, INK_SOFT
@@ -21,6 +25,8 @@ from station.render.text.fonts import Face
 
 _LINE_X = -1.25
 """Where a bar line stands."""
+_LINE_GAP = 0.5
+"""Between the line and the grace notes before the first beat, as between it and a head."""
 _NUMBER_X = 0.35
 """A bar's number begins so far left of its line: clear of what stands over the first beat."""
 _VOLTA_UP, _VOLTA_ENDS = 1.25, (-1.95, -2.4)
@@ -55,7 +61,17 @@ class BarSigns:
         if begins or ends:
             both = BarLine.REPEAT_BOTH if begins and ends else BarLine.REPEAT_START
             line = both if begins else BarLine.REPEAT_END
-        draw_slim_line(draw_list, _LINE_X, line, INK_SOFT)
+        draw_slim_line(draw_list, self._line_x(bar), line, INK_SOFT)
+
+    def _line_x(self, bar: int) -> float:
+        """Where the line on the left of `bar` stands: before the grace notes of its first beat."""
+        score = self._score
+        first = score.notes["tick"] == score.tempo_map.bar_start(bar)
+        graces = score.notes["piece"][first & score.is_grace]
+        if not len(graces):
+            return _LINE_X
+        most = int(np.unique(graces, return_counts=True)[1].max())
+        return -(EDGE_X + GRACE_GAP + GRACE_STEP * (most - 1) + EDGE_X * GRACE + _LINE_GAP)
 
     def _begins_pass(self, bar: int) -> bool:
         """Whether a pass of a loop begins with the bar."""

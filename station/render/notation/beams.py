@@ -44,11 +44,11 @@ HANDS, FEET = StaffVoice(-1), StaffVoice(1)
 
 @dataclass(frozen=True, slots=True)
 class Anchor:
-    """Ties what `draw_list` draws to the score's time."""
+    """Ties what `draw_list` draws to the score's time; `known` has the seconds of ticks that were asked for."""
 
     draw_list: DrawList
     tempo: TempoMap
-    _known: dict[int, float] = field(default_factory=dict, init=False, repr=False, compare=False)
+    known: dict[int, float] = field(default_factory=dict, repr=False, compare=False)
 
     def at(self, tick: int) -> None:
         """What follows hangs on `tick` of the score."""
@@ -60,9 +60,9 @@ class Anchor:
 
     def seconds(self, tick: int) -> float:
         """The score's time at `tick`."""
-        if tick not in self._known:
-            self._known[tick] = float(self.tempo.seconds_at(tick))
-        return self._known[tick]
+        if tick not in self.known:
+            self.known[tick] = float(self.tempo.seconds_at(tick))
+        return self.known[tick]
 
 
 def draw_flags(anchor: Anchor, tick: int, count: int, voice: StaffVoice, beam_y: float) -> None:

@@ -61,6 +61,10 @@ class Engraver:
         self.strokes = written_strokes(self._whole, feet_of(self._whole))
         self._order = np.argsort(self.strokes.tick, kind="stable")
         self._in_order = self.strokes.tick[self._order]
+        ticks = np.union1d(self.strokes.tick, self._whole.notes["tick"])
+        self._seconds: dict[int, float] = dict(
+            zip(ticks.tolist(), score.tempo_map.seconds_at(ticks).tolist(), strict=True)
+        )
 
     def bar(self, bar: int, with_line: bool = True, opens_line: bool = False) -> NDArray[np.void]:
         """The shapes of one bar, `with_line` with what stands at its left bar line, dtype `draw_list.SHAPE_DTYPE`.
@@ -98,6 +102,10 @@ class Engraver:
         """On which tick a chord hangs."""
         return written if self._as_written else min(self._staff_strokes[i].tick for i in rows)
 
+    def anchor(self) -> Anchor:
+        """What ties an empty sheet on the common letters to the score's time."""
+        return Anchor(DrawList(self._atlas), self.score.tempo_map, self._seconds)
+
     def is_held_into(self, bar: int) -> bool:
         """Whether a roll of the bar before goes on in it."""
         start = self.score.tempo_map.bar_start(bar)
@@ -123,10 +131,6 @@ class Engraver:
         ]
         return b"".join(part.tobytes() for part in (*parts, *(notes[name] for name in _DRAWN), self._limbs[rows]))
 
-    def draw_list(self) -> DrawList:
-        """An empty sheet on the common letters."""
-        return DrawList(self._atlas)
-
 
 class _BarEngraver:
     """The work of one bar."""
@@ -137,8 +141,8 @@ class _BarEngraver:
         self._tempo = engraver.score.tempo_map
         self._bar = bar
         self._start, self._end = self._tempo.bar_start(bar), self._tempo.bar_start(bar + 1)
-        self._draw_list = engraver.draw_list()
-        self._anchor = Anchor(self._draw_list, self._tempo)
+        self._anchor = engraver.anchor()
+        self._draw_list = self._anchor.draw_list
         self._pen = engraver.pen(self._anchor)
 
     def shapes(self) -> NDArray[np.void]:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
+from station.core.units import NS_PER_S
 from station.music.score import Score
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
 from station.render.notation import note_shapes
@@ -28,15 +29,20 @@ from station.render.text.atlas import Atlas
 from station.render.text.draw_list import SHAPE_DTYPE, DrawList
 
 BEFORE_S = AFTER_S = 4.0
-"""Seconds of music to the left and right of the play line (SMED, figure 4.4: the line stands in the middle)."""
+"""Seconds of music to the left and right of the play line at most (SMED, figure 4.4: the line stands in the middle)."""
+_LEAST_SHOWN_S = 1.5
+"""The same at the least: a bar of 4/4 at 160 beats a minute (our choice)."""
+_APART, _CLOSER = 1.6, 0.1
+"""Staff spaces between strokes that follow each other, a head and a third of one, and how many of them may stand closer
+(our choice)."""
 _MARGIN_S = 1.5
 _CLEF_X, _SIGNATURE_X = 1.4, 1.4 + note_shapes.CLEF_WIDTH + note_shapes.SIGNATURE_GAP
 _LEAST_LEAD = 7.0
 """What the clef and the time signature take at the least; our choice."""
 _AFTER_SIGNATURE = 1.6
 """Notes fade out from so far behind the time signature (`fade`), a little further than they do behind the clef."""
-PAGE_S = 8.0
-"""A page holds whole bars of at most so many seconds, at least one bar; our choice, what scrolling shows too."""
+PAGE_S = BEFORE_S + AFTER_S
+"""A page holds whole bars of at most so many seconds, at least one bar; what scrolling shows too."""
 
 
 _LEAST_SPACES = 48.0
@@ -98,8 +104,9 @@ class ScoreView:
         self._engraver: Engraver | None = None
         self._bars: dict[int, NDArray[np.void]] = {}
         self._limbs: NDArray[np.int8] | None = None
-        self._paged: Score | None = None
+        self._paged: tuple[Score, float] | None = None
         self._pages: list[ScorePage] = []
+        self._halved: tuple[Score, float, float] | None = None
         self._led: Score | None = None
         self._reached: tuple[Score, NDArray[np.int8] | None] | None = None
         self._reach = _USUAL_REACH
@@ -142,19 +149,21 @@ class ScoreView:
         engraver, space = self._engraved(snapshot), place.space
         clef_x = place.left + self._lead_spaces(snapshot.score) * space
         across, right = place.left + place.width - clef_x, place.left + place.width
+        half_s = self._half_s(snapshot.score, across / space)
         if form is ScoreForm.PAGED:
-            page = self._page(snapshot)
+            page = self._page(snapshot, 2 * half_s)
             per_s = (across - 2 * space) / (page.shown_s[1] - page.shown_s[0])
             line_x = clef_x + 2 * space + (max(snapshot.position_s, page.shown_s[0]) - page.shown_s[0]) * per_s
             fade = (place.left, place.left + 1.0, right - space, right)
             rolling = Transform(size, (clef_x + 2 * space, place.middle_line), space, page.shown_s[0], per_s, fade)
             window_s = page.shown_s
         else:
-            per_s = across / (BEFORE_S + AFTER_S)
-            line_x = clef_x + BEFORE_S * per_s
+            per_s = across / (2 * half_s)
+            line_x = clef_x + half_s * per_s
             fade = (clef_x - 1.2 * space, clef_x + space, right - 3 * space, right)
             rolling = Transform(size, (line_x, place.middle_line), space, snapshot.position_s, per_s, fade)
-            window_s = snapshot.position_s - BEFORE_S - _MARGIN_S, snapshot.position_s + AFTER_S + _MARGIN_S
+            reach_s = half_s + _MARGIN_S
+            window_s = snapshot.position_s - reach_s, snapshot.position_s + reach_s
         glow = with_opacity(BRAND, 0.07)
         self._printer.fill((line_x - 1.6 * space, place.top, 3.2 * space, place.height), (glow, glow), plain)
         self._printer.draw(self._paper(snapshot, place, line_x), plain)
@@ -172,10 +181,15 @@ class ScoreView:
         window_s = position_s - BEFORE_S - _MARGIN_S, position_s + AFTER_S + _MARGIN_S
         self._printer.draw(strip_shapes(strip, window_s, self._atlas), rolling)
 
-    def _page(self, snapshot: Snapshot) -> ScorePage:
+    def _half_s(self, score: Score, spaces: float) -> float:
+        if self._halved is None or self._halved[0] is not score or self._halved[1] != spaces:
+            self._halved = score, spaces, shown_s(score, spaces)
+        return self._halved[2]
+
+    def _page(self, snapshot: Snapshot, page_s: float) -> ScorePage:
         """The page that holds the snapshot's place; the first before the score, the last after it."""
-        if self._paged is not snapshot.score:
-            self._paged, self._pages = snapshot.score, pages(snapshot.score)
+        if self._paged is None or self._paged[0] is not snapshot.score or self._paged[1] != page_s:
+            self._paged, self._pages = (snapshot.score, page_s), pages(snapshot.score, page_s)
         starts = [page.start_s for page in self._pages]
         return self._pages[max(bisect_right(starts, snapshot.position_s) - 1, 0)]
 
@@ -262,14 +276,23 @@ def shows_staff(snapshot: Snapshot, form: ScoreForm) -> bool:
     return snapshot.strip is None and form is not ScoreForm.HIGHWAY
 
 
-def pages(score: Score) -> list[ScorePage]:
-    """The score's pages in order, at least one."""
+def shown_s(score: Score, spaces: float) -> float:
+    """Seconds of music on each side of the play line, so that strokes stand apart on `spaces` staff spaces in all."""
+    gaps_ns = np.diff(np.unique(score.onset_ns[~score.is_grace]))
+    if not len(gaps_ns):
+        return AFTER_S
+    apart_s = float(np.quantile(gaps_ns, _CLOSER)) / NS_PER_S
+    return min(max(spaces * apart_s / _APART / 2, _LEAST_SHOWN_S), AFTER_S)
+
+
+def pages(score: Score, page_s: float = PAGE_S) -> list[ScorePage]:
+    """The score's pages in order, at least one, each of `page_s` seconds at most."""
     starts = score.tempo_map.seconds_at([score.tempo_map.bar_start(bar) for bar in range(score.bar_count + 1)]).tolist()
     found: list[ScorePage] = []
     first = 0
     while first < score.bar_count:
         after = first + 1
-        while after < score.bar_count and starts[after + 1] - starts[first] <= PAGE_S:
+        while after < score.bar_count and starts[after + 1] - starts[first] <= page_s:
             after += 1
         found.append(ScorePage(starts[first], (starts[first], starts[min(after + 1, score.bar_count)])))
         first = after

@@ -9,12 +9,14 @@ import pytest
 
 from station.app.music_files.named_parts import load_part
 from station.cli.command_line import main
-from station.core.pieces import Limb
+from station.core.pieces import Limb, Piece
 from station.core.units import PPQ
 from station.drills.library import find_lesson
 from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart
 from station.music.formats.format_table import writer_for
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
 from station.render.notation.swing_words import swing_marks
 from station.scenes.sheets import lesson_labels, on_grid, written_down
 from tests.unit.cli.test_cli import refused
@@ -102,3 +104,11 @@ def test_what_velocities_and_times_say_is_printed_as_signs(tmp_path: Path) -> No
 def test_a_part_that_says_its_dynamics_stays() -> None:
     part = part_of(find_lesson("hip-hop-1"))
     assert written_down(part).score.notes.tobytes() == part.score.notes.tobytes()
+
+
+def test_what_a_file_has_beyond_two_hands_stays_beyond_them_on_its_sheet() -> None:
+    """Two velocities are somebody's playing, three drums at once three hands: the third is neither lost nor asked."""
+    hands = (Piece.SNARE, Piece.TOM_1, Piece.RIDE)
+    notes = [Note(k * PPQ, piece, velocity=80 + k % 2) for k in range(16) for piece in hands]
+    score = written_down(DrumPart(Score.from_notes(notes, TempoMap.constant(100)))).score
+    assert (len(score), len(score.beyond)) == (32, 16)

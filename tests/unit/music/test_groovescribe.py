@@ -6,7 +6,13 @@ from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
-from station.music.formats.groovescribe.groove_formats import GROOVE_TEXT, GROOVESCRIBE, is_groove_url, read_url
+from station.music.formats.groovescribe.groove_formats import (
+    GROOVE_SHORTCUT,
+    GROOVE_TEXT,
+    GROOVESCRIBE,
+    is_groove_url,
+    read_url,
+)
 from station.music.formats.music_format import Feature
 from station.music.score import Note, Score
 from station.music.swing import Swing
@@ -217,9 +223,18 @@ def test_other_names_are_no_links(text: str) -> None:
 
 def test_a_link_is_found_in_a_file() -> None:
     shortcut = f"[InternetShortcut]\r\nURL=https://www.mikeslessons.com/gscribe{ROCK}\r\n".encode()
-    assert GROOVE_TEXT.recognises(shortcut)
-    assert len(GROOVE_TEXT.read(shortcut, "rock.url").score) == 12
+    assert GROOVE_SHORTCUT.recognises(shortcut)
+    assert len(GROOVE_SHORTCUT.read(shortcut, "rock.url").score) == 12
+    assert GROOVE_TEXT.recognises(f"try this:\nhttps://www.mikeslessons.com/gscribe{ROCK}".encode())
     assert not GROOVE_TEXT.recognises(b"# drum station text score 1\n")
+
+
+def test_a_shortcut_is_an_ini_file_that_a_browser_opens() -> None:
+    assert GROOVE_SHORTCUT.write
+    part = read_url(f"https://www.mikeslessons.com/gscribe{ROCK}")
+    head, address, end = GROOVE_SHORTCUT.write(part).data.decode().split("\r\n")
+    assert (head, end) == ("[InternetShortcut]", "")
+    assert read_url(address.removeprefix("URL=")).score.notes.tobytes() == part.score.notes.tobytes()
 
 
 # --- writing ----------------------------------------------------------------------------------------------------------

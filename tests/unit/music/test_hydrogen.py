@@ -165,6 +165,16 @@ def test_a_pattern_is_read_by_its_types_else_for_hydrogens_own_kit() -> None:
     assert other.lost == ("the instruments of 'TR808' are not in a pattern; they are taken for those of GMRockKit",)
 
 
+@pytest.mark.parametrize(("size", "bars"), [(768, 4), (384, 2), (432, 3), (192, 1), (288, 1), (144, 1)])
+def test_a_long_pattern_is_several_bars(size: int, bars: int) -> None:
+    """Hydrogen writes 192 ticks a whole note; 288 are 6/4, 432 are three bars of 3/4."""
+    body = pattern("Groove", note(0, 0), note(size - 48, 2), size=size)
+    part = HYDROGEN_PATTERN.read(f"<drumkit_pattern>{body}</drumkit_pattern>".encode(), "groove.h2pattern")
+    assert part.score.bar_count == bars
+    assert part.score.notes["tick"].tolist() == [0, (size - 48) * PPQ // 48]
+    assert part.is_meter_said == (bars == 1)
+
+
 @pytest.mark.parametrize(
     ("data", "place"),
     [

@@ -62,6 +62,24 @@ def test_hands_and_feet_are_voices_that_fill_the_bar() -> None:
     assert _texts(root, ".//instrument-name") == ["Bass drum", "Snare drum"]
 
 
+@pytest.mark.parametrize(
+    ("meter", "beams"),
+    [
+        (MeterChange(0, 7, 8), [2, 2, 3]),  # where nobody says, as on screen and paper
+        (MeterChange(0, 7, 8, (3, 2, 2)), [3, 2, 2]),
+        (MeterChange(0, 6, 8), [3, 3]),
+        (MeterChange(0, 3, 8), [3]),
+    ],
+)
+def test_eighths_are_beamed_by_the_beats_that_the_sheet_shows(meter: MeterChange, beams: list[int]) -> None:
+    tempo_map = TempoMap.build([], [meter])
+    eighths = [_hand(k * PPQ // 2) for k in range(meter.beats)]
+    root = _written(DrumPart(Score.from_notes(eighths, tempo_map, meter.bar_ticks, "x")))
+    signs = [sign for note in root.iter("note") for sign in _texts(note, "beam")]
+    ends = [i + 1 for i, sign in enumerate(signs) if sign == "end"]
+    assert [end - start for start, end in zip([0, *ends], ends, strict=False)] == beams
+
+
 def test_values_and_beams_of_a_beat() -> None:
     """A dotted eighth and a sixteenth, then a triplet of eighths."""
     ticks = [0, 3 * PPQ // 4, PPQ, PPQ + PPQ // 3, PPQ + 2 * PPQ // 3]

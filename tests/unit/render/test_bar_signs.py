@@ -1,19 +1,22 @@
 """Bar lines where time rolls by: repeat signs where a loop comes again, brackets over endings, by counting shapes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from station.core.pieces import Piece
+from station.core.pieces import Ornament, Piece
 from station.core.units import PPQ
 from station.drills.library import find_lesson
+from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.render.notation.engraving import Engraver
 from station.render.palette import BRAND
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
-from station.render.text.draw_list import ShapeKind
+from station.render.text.draw_list import DrawList, ShapeKind
 from station.render.text.fonts import Face
 from tests.unit.render.scores import BAR
 
@@ -86,3 +89,17 @@ def test_the_names_of_sections_stand_over_their_first_bars_in_every_pass() -> No
     found = [bar for bar in range(13) if (engraver.bar(bar)["uv"] == uv).all(axis=1).any()]
     assert found == [2, 6, 10]
     assert BarNumbers(0, 0, None, ((0, "Z"),)).section_of(0) == "Z", "played once"
+
+
+@pytest.mark.parametrize(("ornament", "graces_left"), [(None, 0.0), (Ornament.FLAM, -1.87), (Ornament.DRAG, -2.87)])
+def test_a_bar_line_stands_before_the_grace_notes_of_the_first_beat(
+    ornament: Ornament | None, graces_left: float
+) -> None:
+    """Bravura's head is 1.18 spaces wide: a grace note, 0.62 as large and 0.91 before it, reaches to 1.87 spaces."""
+    main = Note(BAR, Piece.SNARE)
+    rows = [main] if ornament is None else with_graces(replace(main, ornament=ornament))
+    score = Score.from_notes([Note(0, Piece.SNARE), *rows], TempoMap.constant(120), 2 * BAR)
+    pen = DrawList(ATLAS)
+    Engraver(score, ATLAS).signs.draw_line(pen, 1)
+    (x,) = set(pen.shapes()["centre"][:, 0].tolist())
+    assert graces_left - 1.0 < x < graces_left - 0.3 if ornament else x == pytest.approx(-1.25)

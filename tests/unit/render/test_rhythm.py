@@ -5,8 +5,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from station.core.units import PPQ
+from station.music.beat_groups import beat_groups
 from station.music.tempo import MeterChange
-from station.render.notation.spelling.bar_spelling import beat_groups, spell_bar
+from station.render.notation.spelling.bar_spelling import spell_bar
 from station.render.notation.spelling.note_values import BeatGroup, Stroke, Value
 from station.render.notation.spelling.rhythm import spell
 from tests.unit.render.rhythm_sums import gaps

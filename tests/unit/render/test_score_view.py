@@ -4,15 +4,16 @@ import numpy as np
 import pytest
 
 from station.core.pieces import Piece
+from station.core.units import PPQ
 from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
 from station.music.judgement import Judgement, Label
-from station.music.score import Score
+from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 from station.render.notation import note_shapes
 from station.render.notation.highway import Highway, lanes
 from station.render.notation.judgement_marks import draw_dynamics, draw_mark, off_db, timing_colour
-from station.render.notation.score_view import ScorePlace, lead_spaces, pages, visible_bars
+from station.render.notation.score_view import ScorePlace, lead_spaces, pages, shown_s, visible_bars
 from station.render.palette import EARLY, GOOD, LATE
 from station.render.snapshot import MARK_DTYPE, PENDING, Snapshot, mark, no_marks
 from station.render.text.atlas import Atlas
@@ -166,3 +167,20 @@ def test_the_groups_of_a_meter_have_room_between_the_clef_and_the_notes() -> Non
     middles, halves = shapes["centre"][:, 0], shapes["half"][:, 0]
     assert (middles - halves).min() > 1.4 + 1.35, "the clef ends there"
     assert (middles + halves).max() < leads[2] - 0.8
+
+
+def even(gap_ticks: int, count: int = 64) -> Score:
+    return Score.from_notes([Note(k * gap_ticks, Piece.SNARE) for k in range(count)], TempoMap.constant(120))
+
+
+@pytest.mark.parametrize(
+    ("gap_ticks", "spaces", "half_s"),
+    [
+        (PPQ, 60.0, 4.0),  # half a second apart: 3.75 spaces
+        (PPQ // 4, 60.0, 2.34375),  # 0.125 s for 1.6 spaces: 60 spaces are 4.6875 s
+        (PPQ // 8, 60.0, 1.5),  # at the least
+    ],
+)
+def test_so_much_is_shown_that_strokes_stand_apart(gap_ticks: int, spaces: float, half_s: float) -> None:
+    assert shown_s(even(gap_ticks), spaces) == pytest.approx(half_s)
+    assert shown_s(Score.from_notes([], TempoMap()), spaces) == 4.0

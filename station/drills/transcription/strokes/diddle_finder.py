@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby, pairwise
 
-from station.core.pieces import TOMS, Articulation, Dynamic, Ornament, Piece, Zone
+from station.core.pieces import DRUMS, Articulation, Dynamic, Ornament, Zone
 from station.core.units import NS_PER_MS
 from station.drills.grid.stroke_settings import Velocities
 from station.music.score import Note
@@ -18,7 +18,6 @@ from station.music.tempo import TempoMap
 QUICK_MS = 90.0
 """Two hands that play singles as fast make 11 strokes a second, what the fastest of our single stroke lessons ask (95
 ms); our doubles begin at 77 ms (our choice between them)."""
-_DRUMS = frozenset({Piece.SNARE, *TOMS})
 
 
 def with_diddles(
@@ -29,7 +28,7 @@ def with_diddles(
     `beyond` are the strokes beyond the player, which need cells in the same lines.
     """
     found = list(notes)
-    for piece in _DRUMS & {n.piece for n in notes}:
+    for piece in DRUMS & {n.piece for n in notes}:
         rows = [i for i, n in enumerate(notes) if n.piece is piece]
         cells = [n.tick for n in beyond if n.piece is piece]
         cells += [n.tick + n.duration_ticks for n in notes if n.piece is piece and n.duration_ticks]

@@ -2,26 +2,22 @@
 
 Nobody strikes twice alike, and where two levels of a player lie near each other some strokes of a steady groove fall on
 the wrong side of the line between them. Where a piece has the same rhythm in several bars, each place of that rhythm
-has its own loudness; a stroke that lies no further from it than a hand strays is meant as most strokes of that place
-are. One that is clearly louder or softer stays as it was heard: it is a variation.
+has levels of its own (`levels_of`), mostly one; all strokes of such a level are meant as most of them are. A stroke
+that is clearly louder or softer than the others of its place is a level by itself and stays as it was heard.
 """
 
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
-from statistics import median
 
 from station.core.pieces import Dynamic, Piece
 from station.drills.grid.stroke_settings import Velocities
-from station.drills.transcription.strokes.loudness_levels import SPREAD
+from station.drills.transcription.strokes.loudness_levels import levels_of
 from station.music.score import Note
 from station.music.tempo import TempoMap
 
 _FEWEST_BARS = 3
 """So many bars have a majority (our choice; of two nobody knows which is meant)."""
-_STRAYS = 2 * SPREAD
-"""A stroke so far from the middle of its place still is as hard as it: 19 of 20 of one loudness are."""
-
 _Place = tuple[Piece, tuple[int, ...], int]
 """A piece, the ticks in a bar at which it is struck, and one of them."""
 
@@ -35,15 +31,12 @@ def steady_dynamics(
     """
     found = list(strokes)
     for place in _places(strokes, tempo_map).values():
-        if len(place) < _FEWEST_BARS:
-            continue
-        usual, count = Counter(strokes[i].dynamic for i in place).most_common(1)[0]
-        if 2 * count <= len(place):
-            continue
-        middle = median(heard[i] for i in place if strokes[i].dynamic is usual)
-        for i in place:
-            if strokes[i].dynamic is not usual and abs(heard[i] - middle) <= _STRAYS:
-                found[i] = _struck(strokes[i], usual, velocities)
+        if len(place) >= _FEWEST_BARS:
+            for level in levels_of([heard[i] for i in place]):
+                alike = [i for i in place if level.low <= heard[i] <= level.high]
+                usual, count = Counter(strokes[i].dynamic for i in alike).most_common(1)[0]
+                for i in alike if 2 * count > len(alike) else ():
+                    found[i] = _struck(strokes[i], usual, velocities)
     return found
 
 

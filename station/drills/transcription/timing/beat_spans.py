@@ -47,8 +47,8 @@ class BeatSpans:
 
     def only(self, chosen: Ints) -> "BeatSpans":
         """Those with the indices `chosen`, in order; what lies between them is a gap."""
-        columns = (self.starts, self.ends, self.starts_s, self.ends_s, self.bar, self.in_bar, self.is_ternary)
-        return BeatSpans(*(column[chosen] for column in columns))
+        ticks = (self.starts[chosen], self.ends[chosen], self.starts_s[chosen], self.ends_s[chosen])
+        return BeatSpans(*ticks, self.bar[chosen], self.in_bar[chosen], self.is_ternary[chosen])
 
     def places(self, times_s: Floats) -> tuple[Ints, Floats]:
         """Of each time the span that holds it and where in it, 0 to 1; before the first it is below 0."""

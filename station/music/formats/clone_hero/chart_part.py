@@ -10,9 +10,9 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from station.core.pieces import OPEN, TOMS, Articulation, Limb, Ornament, Piece
+from station.core.pieces import DRUMS, OPEN, Articulation, Limb, Ornament, Piece
 from station.core.units import PPQ
-from station.music.drum_part import DrumPart, PartSection
+from station.music.drum_part import DrumPart
 from station.music.formats.clone_hero.drum_chart import (
     ChartNote,
     DrumChart,
@@ -24,12 +24,12 @@ from station.music.formats.clone_hero.drum_chart import (
     merged,
 )
 from station.music.formats.clone_hero.drum_lanes import MOTIONS_OF, STRIKE_OF, meaning_of
+from station.music.formats.section_marks import sections_from_marks
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.stroke_velocities import usual_velocity
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 
-_DRUMS = frozenset({Piece.SNARE, *TOMS})
 _FLIPPED = {Lane.RED: Lane.YELLOW, Lane.YELLOW: Lane.RED}
 _SAME_TIME_QUARTERS = 1 / 16
 _MOST_MOTIONS = 32
@@ -48,7 +48,7 @@ def part_of_chart(chart: DrumChart, source: str) -> DrumPart:
         score,
         chart.author,
         chart.about,
-        sections=_sections(chart, score),
+        sections=sections_from_marks(((_ticks(chart, tick), name) for tick, name in chart.sections), score),
         lost=(*chart.lost, *_lost(chart)),
     )
 
@@ -68,23 +68,6 @@ def _end(chart: DrumChart, tempo_map: TempoMap, notes: Sequence[Note]) -> int:
     last = max((n.tick for n in notes), default=0)
     end = max(_ticks(chart, chart.end) - 1, last)
     return tempo_map.bar_start(int(tempo_map.bars_at(end)) + 1)
-
-
-def _sections(chart: DrumChart, score: Score) -> tuple[PartSection, ...]:
-    """Each from the bar nearest to its mark to the next one; of several at a bar the nearest counts."""
-    marks = [(*_nearest_bar(score.tempo_map, _ticks(chart, tick)), name) for tick, name in chart.sections]
-    names: dict[int, str] = {}
-    for bar, _, name in sorted(marks, key=lambda mark: mark[1]):
-        names.setdefault(bar, name)
-    firsts = sorted(bar for bar in names if bar < score.bar_count)
-    ends = [*firsts[1:], score.bar_count]
-    return tuple(PartSection(names[a], a, b - 1) for a, b in zip(firsts, ends, strict=False) if names[a])
-
-
-def _nearest_bar(tempo_map: TempoMap, tick: int) -> tuple[int, int]:
-    """The bar that begins nearest to `tick`, and how far away."""
-    bar = int(tempo_map.bars_at(tick))
-    return min((abs(tick - tempo_map.bar_start(near)), near) for near in (bar, bar + 1))[::-1]
 
 
 # --- strokes ---------------------------------------------------------------------------------------------------------
@@ -114,10 +97,10 @@ def _stroke(chart: DrumChart, note: ChartNote, length: int) -> Note:
         Limb.LEFT_FOOT if note.is_second_kick else Limb.UNKNOWN,
         meaning.openness,
     )
-    if length and meaning.piece in _DRUMS:
+    if length and meaning.piece in DRUMS:
         buzz = _ticks(chart, note.tick + length) - stroke.tick
         return replace(stroke, articulation=Articulation.BUZZ, ornament=Ornament.ROLL, duration_ticks=buzz)
-    return replace(stroke, ornament=Ornament.FLAM) if note.is_flam and meaning.piece in _DRUMS else stroke
+    return replace(stroke, ornament=Ornament.FLAM) if note.is_flam and meaning.piece in DRUMS else stroke
 
 
 def _flipped(note: ChartNote, flips: Sequence[Span]) -> ChartNote:
@@ -205,5 +188,5 @@ def _lost(chart: DrumChart) -> Iterator[str]:
     left = len(merged(chart.rolls)) - len(_buzzes(chart))
     if left:
         yield f"{left} roll lanes over several notes: the notes stand as charted"
-    if any(n.length and meaning_of(n, chart.has_five_lanes).piece not in _DRUMS for n in chart.notes):
+    if any(n.length and meaning_of(n, chart.has_five_lanes).piece not in DRUMS for n in chart.notes):
         yield "rolls on cymbals and the kick: one stroke stands for each"

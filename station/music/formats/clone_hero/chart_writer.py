@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput
-from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece, word
+from station.core.pieces import DRUMS, Articulation, Dynamic, Limb, Ornament, word
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
 from station.music.formats.clone_hero.chart_text import (
@@ -47,7 +47,6 @@ KEEPS: Mapping[Feature, str] = MappingProxyType(
 
 _RESOLUTIONS = (192, 480, 960, 1920, 3840, 26_880, PPQ)
 """Ticks a quarter note, coarsest first: Moonscraper's, the game's usual 480, finer ones, and our own."""
-_DRUMS = frozenset({Piece.SNARE, *TOMS})
 _OF_A_STROKE = (Feature.TIMES, Feature.PIECES, Feature.DYNAMICS, Feature.FLAMS, Feature.BUZZES, Feature.FEET)
 """What is lost of a stroke that is left out."""
 _MARKS = {Dynamic.ACCENT: ACCENT_MARK, Dynamic.GHOST: GHOST_MARK}
@@ -180,7 +179,7 @@ def _tick_marks(
         bar = int(score.tempo_map.bars_at(tick))
         notes = by_tick[tick]
         flams = [n for n in notes.values() if n.ornament is Ornament.FLAM]
-        drums = [n for n in notes.values() if n.piece in _DRUMS and n.articulation is not Articulation.BUZZ]
+        drums = [n for n in notes.values() if n.piece in DRUMS and n.articulation is not Articulation.BUZZ]
         if flams and len(flams) == len(drums) and all(n in drums for n in flams):
             yield f"{tick // per_tick} = N {FLAM_MARK} 0"
         elif flams:
@@ -189,7 +188,7 @@ def _tick_marks(
             if note.articulation is not Articulation.BUZZ:
                 continue
             later = (by_tick[t] for t in _until(ticks, at, tick + note.duration_ticks))
-            if note.piece not in _DRUMS or len(notes) > 1 or tick < roll_end or any(lane in other for other in later):
+            if note.piece not in DRUMS or len(notes) > 1 or tick < roll_end or any(lane in other for other in later):
                 lost.add(Feature.BUZZES, "a chart rolls one hand's note alone", bar)
                 continue
             roll_end = tick + note.duration_ticks

@@ -13,7 +13,7 @@ from itertools import groupby
 
 from station.core.errors import BadInput
 from station.core.note_map import strike_of
-from station.core.pieces import CHOKEABLE, TOMS, Dynamic, Ornament, Piece
+from station.core.pieces import CHOKEABLE, DRUMS, Dynamic, Ornament, Piece
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart, PartSection
 from station.music.formats.guitar_pro.tab_kit import CHOKED, TAB_KIT
@@ -29,7 +29,6 @@ _GRACE_TICKS = PPQ // 8
 _DIDDLE_TICKS = PPQ // 8
 """Tremolo strokes of 32nds: two to a sixteenth, as diddles are."""
 _ORNAMENTS = {0: Ornament.NONE, 1: Ornament.FLAM, 2: Ornament.DRAG}
-_DRUMS = frozenset({Piece.SNARE, *TOMS})
 
 
 def part_of_song(song: TabSong, source: str) -> DrumPart:
@@ -191,7 +190,7 @@ def _stroke(number: int, tick: int, note: TabNote) -> Note:
 def _roll(main: Note, count: int, note: TabNote) -> Iterator[Note]:
     """Strokes one after the other, an accent on the first alone; 32nds on a drum in pairs as diddles are."""
     step_ticks, unmarked = note.tremolo_ticks, min(note.dynamic, Dynamic.NORMAL)
-    paired = count - count % 2 if step_ticks == _DIDDLE_TICKS and main.piece in _DRUMS else 0
+    paired = count - count % 2 if step_ticks == _DIDDLE_TICKS and main.piece in DRUMS else 0
     ornament = Ornament.ROLL if paired > 2 else Ornament.DIDDLE
     later = replace(main, dynamic=unmarked, velocity=shaded(note.velocity, unmarked))
     for i in range(count):

@@ -15,9 +15,8 @@ from station.music.formats.guitar_pro.tab_song import (
 )
 from station.music.formats.playing_order import AL_FINE, TO_THE_END, BarSigns
 from station.music.swing import TRIPLETS, Swing
-from station.music.tempo import MeterChange
+from station.music.tempo import MeterChange, TempoChange
 
-_US_PER_MINUTE = 60_000_000
 _DOTTED = 3.0
 _8TH, _16TH = PPQ // 2, PPQ // 4
 
@@ -66,7 +65,7 @@ def bpm_to_us(bpm: float, source: str, bar: int) -> int:
     """µs a quarter note at `bpm`; raises `BadInput` at `bar` (from 0) where no music is so fast or slow."""
     if not SLOWEST_TAB_BPM <= bpm <= FASTEST_TAB_BPM:
         raise BadInput(source, f"bar {bar + 1}", f"a tempo of {bpm:g} quarter notes a minute")
-    return round(_US_PER_MINUTE / bpm)
+    return TempoChange.from_bpm(0, bpm).us_per_quarter
 
 
 def checked_meter(beats: int, unit: int, source: str, bar: int) -> MeterChange:

@@ -1,5 +1,7 @@
 """Hydrogen among the other formats."""
 
+from dataclasses import replace
+
 from station.music.drum_part import DrumPart
 from station.music.formats.hydrogen.part_to_song import PATTERN_KEEPS, SONG_KEEPS, pattern_of_part, song_of_part
 from station.music.formats.hydrogen.song_reader import PATTERN_ROOTS, SONG_ROOTS, parse_pattern, parse_song
@@ -14,7 +16,8 @@ def _read_song(data: bytes, source: str) -> DrumPart:
 
 
 def _read_pattern(data: bytes, source: str) -> DrumPart:
-    return part_of_song(kit_of_pattern(*parse_pattern(data, source)), source)
+    song = kit_of_pattern(*parse_pattern(data, source))
+    return replace(part_of_song(song, source), is_meter_said=len(song.columns) == 1)
 
 
 def _write_song(part: DrumPart) -> WrittenFile:

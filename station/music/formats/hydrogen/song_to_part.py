@@ -41,6 +41,9 @@ from station.music.tempo import MeterChange, TempoChange, TempoMap
 _MOST_STROKES = 40_000
 """Our choice: an hour of 11 a second; a small file may ask for any number by its columns."""
 _UNITS = (4, 8, 16, 32)
+_THREE_QUARTERS = WHOLE_NOTE * 3 // 4
+_LONGEST_BAR = WHOLE_NOTE * 3 // 2
+"""Ticks of 6/4, the longest bar that people count (our choice)."""
 _KNOWN_KITS = (ROCK_KIT, "GMkit", "")
 """Kits whose instruments are in General MIDI's order."""
 _FIRST_OTHER = 1 << 20
@@ -81,7 +84,29 @@ def kit_of_pattern(song: HydrogenSong, kit_name: str) -> HydrogenSong:
     more = [Instrument(_FIRST_OTHER + i, kind, kind) for i, kind in enumerate(others)]
     is_guess = kit_name not in _KNOWN_KITS and any(not note.kind for note in notes)
     guess = f"the instruments of {kit_name[:40]!r} are not in a pattern; they are taken for those of {ROCK_KIT}"
-    return replace(song, instruments=(*kit, *more), lost=(*song.lost, *([guess] if is_guess else ())))
+    bars = _bars_of(song.patterns[0])
+    return replace(
+        song,
+        patterns=bars,
+        columns=tuple((bar.name,) for bar in bars),
+        instruments=(*kit, *more),
+        lost=(*song.lost, *([guess] if is_guess else ())),
+    )
+
+
+def _bars_of(pattern: Pattern) -> tuple[Pattern, ...]:
+    """A pattern longer than 6/4 as one for each bar of 4/4 or 3/4 in it: it is the usual way to write several bars.
+
+    Any other is one bar.
+    """
+    lengths = (WHOLE_NOTE, _THREE_QUARTERS) if pattern.size > _LONGEST_BAR else ()
+    length = next((each for each in lengths if pattern.size % each == 0), pattern.size)
+    notes: dict[int, list[PatternNote]] = {}
+    for note in pattern.notes:
+        bar, position = divmod(note.position, length)
+        notes.setdefault(bar, []).append(replace(note, position=position))
+    count = pattern.size // length
+    return tuple(Pattern(f"{i}", length, pattern.denominator, tuple(notes.get(i, ()))) for i in range(count))
 
 
 # --- columns ----------------------------------------------------------------------------------------------------------

@@ -6,11 +6,11 @@ from fractions import Fraction
 from itertools import pairwise
 
 from station.core.units import PPQ
+from station.music.beat_groups import beat_groups
 from station.music.formats.music_xml.note_spelling import (
     CLOSE,
     Span,
     Value,
-    beat_groups,
     rests,
     spans_of,
     values,

@@ -16,6 +16,7 @@ from station.music.formats.music_xml.written_bars import NUMBER, STOP, LostMarks
 from station.music.formats.safe_xml import text_of
 from station.music.loudness_marks import FADE, GROW, USUAL
 from station.music.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
+from station.music.tempo import TempoChange
 
 VELOCITY_OF_MARK: Mapping[str, int] = {
     "ppp": 16, "pp": 33, "p": 49, "mp": 64, "mf": 80, "f": 96, "ff": 112, "fff": 126
@@ -136,7 +137,7 @@ class DirectionReader:
         if not _SLOWEST_BPM <= tempo_bpm <= _FASTEST_BPM:
             self._lost.add("tempos that are none", bar.name)
             return
-        bar.tempos.append((place, round(60e6 / tempo_bpm)))
+        bar.tempos.append((place, TempoChange.from_bpm(0, tempo_bpm).us_per_quarter))
 
     def _read_swing(self, swing: Element, place: Fraction, bar: WrittenBar) -> None:
         if swing.find("straight") is not None:

@@ -20,7 +20,6 @@ _BEATS = {
 }
 SWING_TYPES = {PPQ // 2: "eighth", PPQ // 4: "16th"}
 _FINEST_RATIO = 1000
-_US_PER_MINUTE = 60_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +109,7 @@ def _add_metronome(kind: Element, change: TempoChange, beat_ticks: int) -> None:
     child(metronome, "beat-unit", name)
     for _ in range(dots):
         child(metronome, "beat-unit-dot")
-    a_minute = _US_PER_MINUTE / change.us_per_quarter * PPQ / float(beat)
+    a_minute = change.tempo_bpm * PPQ / float(beat)
     child(metronome, "per-minute", number_text(Fraction(round(100 * a_minute), 100)))
 
 

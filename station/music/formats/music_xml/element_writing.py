@@ -7,7 +7,7 @@ from types import MappingProxyType
 from xml.etree.ElementTree import Element, SubElement
 
 from station.core.note_map import NoteMeaning
-from station.core.pieces import HALF_OPEN, OPEN, Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.core.pieces import HALF_OPEN, OPEN, USUAL_FEET, Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
 from station.music.formats.music_xml.bar_writing import Chord
 from station.music.formats.music_xml.note_reading import FULL_VELOCITY
@@ -27,7 +27,6 @@ TYPES: Mapping[int, str] = MappingProxyType(
 )
 _GRACE_TYPES = {Ornament.FLAM: "eighth", Ornament.DRAG: "16th"}
 _LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L", Limb.RIGHT_FOOT: "R", Limb.LEFT_FOOT: "L"}
-_USUAL_FEET = {Piece.KICK: Limb.RIGHT_FOOT, Piece.HIHAT_PEDAL: Limb.LEFT_FOOT}
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,7 +221,7 @@ def _openness_sign(played: Note) -> tuple[str, dict[str, str]] | None:
 
 def _letter(played: Note) -> str | None:
     """The letter of the hand, and of a foot where it is not the usual one."""
-    return None if _USUAL_FEET.get(played.piece) is played.limb else _LETTERS.get(played.limb)
+    return None if USUAL_FEET.get(played.piece) is played.limb else _LETTERS.get(played.limb)
 
 
 def _add_grace(measure: Element, grace: Note, cell: StrokeCell, setting: VoiceSetting) -> None:

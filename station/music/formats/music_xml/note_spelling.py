@@ -11,7 +11,6 @@ from fractions import Fraction
 from itertools import chain
 
 from station.core.units import PPQ
-from station.music.tempo import MeterChange
 
 _USUAL_TUPLETS, _RARE_TUPLETS = (3, 6, 5, 7), (9, 10, 12, 14, 11, 13, 15)
 _COARSE, _FINE = (2, 4, 8, 16, 32), (64, 128, 256)
@@ -63,18 +62,6 @@ class Value:
     def flags(self) -> int:
         """How many flags or beams it has."""
         return max(self.base.bit_length() - 3, 0)
-
-
-def beat_groups(meter: MeterChange, length: int) -> list[tuple[int, int]]:
-    """Start and end of what beams join, in ticks of a bar that is `length` long."""
-    if meter.unit >= 8 and max(meter.felt_groups) > 1:
-        edges = [start for start, _ in meter.pulses]
-    elif meter.unit == 8 and meter.beats == 3:
-        edges = [0]
-    else:
-        edges = list(range(0, length, PPQ))
-    inside = [edge for edge in edges if edge < length]
-    return list(zip(inside, [*inside[1:], length], strict=True))
 
 
 def spans_of(start: Fraction, end: Fraction, places: Sequence[int]) -> list[Span]:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 
-from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
+from station.core.pieces import USUAL_FEET, Articulation, Dynamic, Limb, Ornament, Piece
 from station.music.formats.music_xml.second_strokes import SecondStrokes
 from station.music.formats.music_xml.written_bars import WrittenNote
 from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY, OTHER_HAND, Graces
@@ -16,7 +16,6 @@ from station.music.tempo import MeterChange
 _MOST_STROKES = 256
 """Of one measured tremolo (our choice: a long fermata of a roll)."""
 _GRACES = Graces()
-_USUAL_FEET = {Piece.KICK: Limb.RIGHT_FOOT, Piece.HIHAT_PEDAL: Limb.LEFT_FOOT}
 """Which foot plays a pedal where the file says nothing."""
 
 
@@ -128,7 +127,7 @@ def _notes(stroke: _Stroke, is_roll: bool, seconds: SecondStrokes) -> Iterator[N
         velocity=_velocity(note),
         articulation=Articulation.BUZZ if note.is_buzz else strike.articulation,
         dynamic=note.dynamic,
-        limb=_USUAL_FEET.get(strike.piece, Limb.UNKNOWN) if note.limb is Limb.UNKNOWN else note.limb,
+        limb=USUAL_FEET.get(strike.piece, Limb.UNKNOWN) if note.limb is Limb.UNKNOWN else note.limb,
         openness=strike.openness,
         ornament=(Ornament.NONE, Ornament.FLAM, Ornament.DRAG)[min(graces, 2)],
         duration_ticks=stroke.until - tick if note.is_buzz else 0,

@@ -193,14 +193,14 @@ def _part(drums: Drums, meaning: _Meaning) -> Score:
     """One sequence as a score that ends where the sequence does."""
     sequence = drums.sequence
     tempo_map = _tempo_map(sequence)
-    rows = _note_rows(drums, meaning, _rescaled(sequence, tempo_map, drums.notes["tick"]))
+    rows = _note_rows(drums, meaning, score_ticks(sequence, tempo_map, drums.notes["tick"]))
     lasts = np.maximum(drums.notes["duration_ticks"], 0)
-    _write_buzzes(rows, _rescaled(sequence, tempo_map, drums.notes["tick"] + lasts))
+    _write_buzzes(rows, score_ticks(sequence, tempo_map, drums.notes["tick"] + lasts))
     rows = rows[_loudest_of_layers(rows, meaning)]
     chokes = _chokes(drums, meaning)
-    chokes["tick"] = _rescaled(sequence, tempo_map, chokes["tick"])
+    chokes["tick"] = score_ticks(sequence, tempo_map, chokes["tick"])
     _write_chokes(rows, chokes)
-    return Score.from_array(rows, tempo_map, int(_rescaled(sequence, tempo_map, sequence.end_tick)))
+    return Score.from_array(rows, tempo_map, int(score_ticks(sequence, tempo_map, sequence.end_tick)))
 
 
 def _note_rows(drums: Drums, meaning: _Meaning, ticks: NDArray[np.int64]) -> NDArray[np.void]:
@@ -273,7 +273,7 @@ def _at_ppq(tick: int, sequence: MidiSequence) -> int:
     return (2 * tick * PPQ + sequence.division.ticks) // (2 * sequence.division.ticks)
 
 
-def _rescaled(sequence: MidiSequence, tempo_map: TempoMap, ticks: ArrayLike) -> NDArray[np.int64]:
+def score_ticks(sequence: MidiSequence, tempo_map: TempoMap, ticks: ArrayLike) -> NDArray[np.int64]:
     """File ticks as score ticks, to the nearest."""
     if sequence.division.us is not None:
         return tempo_map.ticks_at_ns(sequence.ns_at(ticks))

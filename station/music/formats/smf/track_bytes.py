@@ -30,13 +30,17 @@ _MAX_DELTA = (1 << 28) - 1
 
 @dataclass(frozen=True, slots=True)
 class OutTrack:
-    """What a track holds besides its end: names, tempo and meter, and channel messages of `MESSAGE_DTYPE`."""
+    """What a track holds besides its end: names, tempo and meter, and channel messages of `MESSAGE_DTYPE`.
+
+    `markers` are (tick, text).
+    """
 
     name: str
     messages: Messages
     instrument: str = ""
     tempos: Sequence[TempoChange] = ()
     meters: Sequence[MeterChange] = ()
+    markers: Sequence[tuple[int, str]] = ()
 
 
 def tracks_bytes(tracks: Sequence[OutTrack], division: int, end_tick: int) -> bytes:
@@ -59,7 +63,7 @@ def _time(message: mido.Message) -> int:
 
 
 def _metas(track: OutTrack) -> Iterator[mido.MetaMessage]:
-    """Names, tempo and meter, each with its absolute tick as time."""
+    """Names, tempo, meter and markers, each with its absolute tick as time."""
     for kind, name in (("track_name", track.name), ("instrument_name", track.instrument)):
         line = " ".join(name.split()).encode("utf-8", "replace").decode("utf-8")
         if line:
@@ -68,6 +72,8 @@ def _metas(track: OutTrack) -> Iterator[mido.MetaMessage]:
         yield mido.MetaMessage("set_tempo", tempo=tempo.us_per_quarter, time=tempo.tick)
     for meter in track.meters:
         yield mido.MetaMessage("time_signature", numerator=meter.beats, denominator=meter.unit, time=meter.tick)
+    for tick, text in track.markers:
+        yield mido.MetaMessage("marker", text=text.encode("utf-8", "replace").decode("utf-8"), time=tick)
 
 
 def _channel_messages(track: OutTrack) -> Iterator[mido.Message]:

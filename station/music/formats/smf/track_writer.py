@@ -58,8 +58,8 @@ def write_score(score: Score, path: str | Path) -> None:
     write_whole(Path(path), score_bytes(score, str(path)))
 
 
-def score_bytes(score: Score, name: str) -> bytes:
-    """`score` as a MIDI file of format 1: title, tempo and meter; drums by General MIDI numbers.
+def score_bytes(score: Score, name: str, markers: Sequence[tuple[int, str]] = ()) -> bytes:
+    """`score` as a MIDI file of format 1: title, tempo, meter and `markers`; drums by General MIDI numbers.
 
     Raises `BadInput` of `name` for a tempo or meter that MIDI cannot write.
     """
@@ -68,7 +68,7 @@ def score_bytes(score: Score, name: str) -> bytes:
     division = _division(score, onsets)
     step = PPQ // division
     starts = _divided(onsets + pickup, step)
-    conductor = _conductor(score, pickup, step, name)
+    conductor = _conductor(score, markers, pickup, step, name)
     drums = OutTrack("Drums", _score_messages(score, starts, step), _instrument(GENERAL_MIDI))
     return tracks_bytes([conductor, drums], division, int(_divided(score.end_tick + pickup, step)))
 
@@ -96,7 +96,7 @@ def _divided(ticks: NDArray[np.int64] | int, step: int) -> NDArray[np.int64]:
     return (np.asarray(ticks, np.int64) + step // 2) // step
 
 
-def _conductor(score: Score, pickup: int, step: int, source: str) -> OutTrack:
+def _conductor(score: Score, markers: Sequence[tuple[int, str]], pickup: int, step: int, source: str) -> OutTrack:
     def moved(tick: int) -> int:
         return int(_divided(tick + pickup, step)) if tick else 0
 
@@ -108,7 +108,9 @@ def _conductor(score: Score, pickup: int, step: int, source: str) -> OutTrack:
             raise BadInput(source, f"tick {meter.tick}", f"MIDI cannot write a meter of {meter.beats}/{meter.unit}")
     tempos = [TempoChange(moved(t.tick), t.us_per_quarter) for t in score.tempo_map.tempos]
     meters = [MeterChange(moved(m.tick), m.beats, m.unit) for m in score.tempo_map.meters]
-    return OutTrack(score.title, np.empty(0, MESSAGE_DTYPE), "", tempos, meters)
+    return OutTrack(
+        score.title, np.empty(0, MESSAGE_DTYPE), "", tempos, meters, [(moved(tick), text) for tick, text in markers]
+    )
 
 
 def _score_messages(score: Score, starts: NDArray[np.int64], step: int) -> Messages:

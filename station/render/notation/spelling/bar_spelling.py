@@ -15,8 +15,9 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from station.core.units import PPQ
+from station.music.beat_groups import COMPOUND, beat_groups
 from station.music.tempo import MeterChange
-from station.render.notation.spelling.beat_divisions import COMPOUND, tuplets_over
+from station.render.notation.spelling.beat_divisions import tuplets_over
 from station.render.notation.spelling.note_values import BeatGroup, Stroke, TimedValue, Value
 from station.render.notation.spelling.rhythm import spell, spell_by
 
@@ -28,24 +29,6 @@ _LONG: Mapping[int, Value] = MappingProxyType(
 _OVER_BEATS = (3, 5, 7)
 """Tuplets over several beats; nine and eleven are counted by the beat (our choice)."""
 _MOST_BEATS = 4
-
-
-def beat_groups(meter: MeterChange, length: int) -> list[tuple[int, int]]:
-    """Start and end of the beats of a bar `length` ticks long (the last bar before a change may be short).
-
-    Quarters, or the groups of the meter where they are of eighths: those longer than three fall into twos, the last
-    of them a three where they are odd (7/8 reads 2 + 2 + 3 where nothing else is said).
-    """
-    is_grouped = meter.unit >= 8 and max(meter.felt_groups) > 1
-    felt = [(s, min(e, length)) for s, e in meter.pulses if s < length] if is_grouped else [(0, length)]
-    return [group for start, end in felt for group in _beats(start, end)]
-
-
-def _beats(start: int, end: int) -> Iterator[tuple[int, int]]:
-    while start < end:
-        stop = end if end - start <= PPQ or end - start == COMPOUND else start + PPQ
-        yield start, stop
-        start = stop
 
 
 def spell_bar(strokes: Sequence[Stroke], meter: MeterChange, length: int) -> list[BeatGroup]:

@@ -13,8 +13,8 @@ from functools import lru_cache
 from itertools import product
 
 from station.core.units import PPQ
+from station.music.beat_groups import COMPOUND
 
-COMPOUND = 3 * PPQ // 2
 _SIMPLE_TUPLETS = (6, 5, 7, 12, 9, 10, 14, 11, 13, 15, 24)
 _COMPOUND_TUPLETS = (5, 7, 9, 8, 10, 14, 11, 13, 15)
 """Beside triplets, duplets and quadruplets, which come before: the commoner first."""

@@ -10,7 +10,8 @@ from collections.abc import Mapping, Sequence
 from functools import lru_cache
 
 from station.core.units import PPQ
-from station.render.notation.spelling.beat_divisions import COMPOUND, Division, divisions, nearest_slot, slot_ticks
+from station.music.beat_groups import COMPOUND
+from station.render.notation.spelling.beat_divisions import Division, divisions, nearest_slot, slot_ticks
 
 STRAY = 0.04
 """Standard deviation of a played stroke in parts of a quarter: 20 ms at 120 bpm (HUMANS: amateurs 10 to 20 ms)."""

@@ -9,8 +9,8 @@ from dataclasses import replace
 from functools import lru_cache
 
 from station.core.units import PPQ
+from station.music.beat_groups import COMPOUND
 from station.render.notation.spelling.beat_divisions import (
-    COMPOUND,
     Division,
     Part,
     divisions,

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import PPQ
+from station.music.beat_groups import beat_groups
 from station.music.score import Score
-from station.render.notation.spelling.bar_spelling import beat_groups
 from station.render.notation.spelling.beat_divisions import Division, divisions, nearest_slot, slot_ticks
 from station.render.notation.spelling.nearest_division import code_lengths, guesses
 

@@ -60,6 +60,24 @@ def test_played_twice_here_and_once_there_it_is_one_grid() -> None:
     assert form("aaabaaabccdcaaab") == ([("A", 4, 1), ("B", 4, 1)], ["A", "A", "B", "A"])
 
 
+def test_often_here_and_once_there_it_is_one_grid() -> None:
+    assert form("aaaaaaaabcbdaaaa" + "a" * 12) == ([("A", 1, 1), ("B", 4, 1)], ["A"] * 8 + ["B"] + ["A"] * 16)
+
+
+def test_a_groove_of_uneven_phrases_is_written_once() -> None:
+    """Fills after six bars, five and seven, which no phrase of 2, 4 or 8 bars fits."""
+    grids, order = form("aaaaaaf" + "aaaaab" + "aaaaaaac")
+    assert grids == [("A", 1, 1), ("fill", 1, 1), ("B", 1, 1), ("C", 1, 1)]
+    assert order == ["A"] * 6 + ["fill"] + ["A"] * 5 + ["B"] + ["A"] * 7 + ["C"]
+
+
+def test_a_variation_bears_the_letter_of_what_it_varies() -> None:
+    """Of four bars the last differs, and the snare alone has no other line to share."""
+    lesson = lesson_of_bars("aaab" + "aaac" + "defg")
+    text = write_lesson(lesson, found_form(lesson, [PartSection("", i, i + 3) for i in (0, 4, 8)]))
+    assert [line for line in text.splitlines() if "name" in line] == ['name = "A"', 'name = "A 2"', 'name = "B"']
+
+
 def test_a_crash_opens_a_part() -> None:
     """Six bars, then a crash: phrases count from there."""
     grids, order = form("aabbcd" + "Eghh" + "ijkl")

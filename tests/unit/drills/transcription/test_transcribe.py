@@ -1,6 +1,7 @@
 """Parts made lessons, from the strokes to the page; expected cells, bars and words by hand."""
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from station.drills.writing.score_difference import score_difference
 from station.music.drum_part import DrumPart, PartSection
 from station.music.formats.smf.midi_part import MIDI
 from station.music.grace_strokes import with_graces
+from station.music.loudness_marks import LoudnessMark
 from station.music.score import Note, Score
 from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange, TempoMap
@@ -388,3 +390,41 @@ def test_a_flam_closer_than_a_lesson_may_say_is_written_as_the_usual_one() -> No
     """5 ms apart at 20 beats a minute: a lesson says 10 ms at the least."""
     notes = [Note(0, Piece.SNARE, velocity=1), Note(176, Piece.SNARE, velocity=1)]
     assert transcribe(DrumPart(Score.from_notes(notes, TempoMap.constant(20))), "x").lesson.score.is_grace.sum() <= 1
+
+
+def groove(bar: int, fill: bool = False, late_ms: int = 0) -> list[Note]:
+    """A bar of rock, or a fill of sixteenths that ends it; every other stroke so many ms late."""
+    hats = [Note(i * EIGHTH, Piece.HIHAT, Zone.BOW, velocity=80, openness=0.0) for i in range(4 if fill else 8)]
+    kicks = [Note(beat * QUARTER, Piece.KICK, velocity=80) for beat in (0, 2)]
+    snares = [
+        snare(QUARTER),
+        *([snare(2 * QUARTER + i * SIXTEENTH) for i in range(8)] if fill else [snare(3 * QUARTER)]),
+    ]
+    notes = sorted([*hats, *kicks, *snares], key=lambda note: (note.tick, note.piece))
+    late = [(i + bar) % 2 * late_ms * MS for i in range(len(notes))]
+    return [replace(n, tick=bar * WHOLE + n.tick + by) for n, by in zip(notes, late, strict=True)]
+
+
+def test_the_bars_of_a_takes_groove_are_told() -> None:
+    notes = [note for bar in range(8) for note in groove(bar, fill=bar % 4 == 3, late_ms=9)]
+    part = DrumPart(Score.from_notes(notes, TEMPO), is_played=True)
+    told = [remark for remark in transcribe(part, "x").remarks if "groove" in remark]
+    assert told == ["one groove: bars 1–3, 5–7 play bar 1, but for 2 strokes at most; not bars 4, 8"]
+
+
+def test_of_what_a_program_wrote_no_groove_is_told() -> None:
+    part = DrumPart(Score.from_notes([note for bar in range(8) for note in groove(bar)], TEMPO))
+    assert transcribe(part, "x").remarks == ()
+
+
+def test_a_long_piece_is_as_hard_as_two_of_its_bars() -> None:
+    """Its fills, a bar in eight, are no more what is mostly played than they would be in a book."""
+    song = [note for bar in range(32) for note in groove(bar, fill=bar % 8 == 7)]
+    assert lesson_from(*song).level == lesson_from(*groove(0), *groove(1)).level == 1
+
+
+def test_loudness_marks_that_are_left_out_are_told() -> None:
+    """In bars 1 and 2, of which the grid says none."""
+    marks = (LoudnessMark(0, "p"), LoudnessMark(WHOLE, "f"))
+    score = replace(Score.from_notes([*groove(0), *groove(1)], TEMPO), loudness=marks)
+    assert "loudness marks and hairpins left out: bars 1, 2" in transcribe(DrumPart(score), "x").remarks
