@@ -3,6 +3,7 @@
 import pytest
 
 from station.core.errors import BadInput
+from station.music.formats.ascii_tab.tab_reader import read_tab
 from station.music.formats.clone_hero.clone_hero_format import read_chart_part
 from station.music.formats.smf.midi_part import read_midi_part
 from tests.fakes.smf_bytes import event, file, header, tempo, track
@@ -36,6 +37,11 @@ def test_a_midi_file_of_as_many_tracks_as_are_read() -> None:
 def test_a_midi_file_whose_tempo_never_rests() -> None:
     with pytest.raises(BadInput, match="60,000 changes of tempo"):
         read_midi_part(file(*(tempo(1, 300_000 + i) for i in range(60_000)), _SNARE), "x.mid")
+
+
+def test_a_tab_of_more_lines_than_a_life_of_tabs() -> None:
+    with pytest.raises(BadInput, match="60,000 lines"):
+        read_tab(b"HH|x-x-|\n" * 60_000, "x.tab")
 
 
 def test_program_changes_without_end_in_one_track_and_in_several() -> None:

@@ -8,6 +8,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from station.core.errors import BadInput
 from station.music.formats.ascii_tab.tab_letters import LABELS, LineMeaning, label_key
 from station.music.formats.ascii_tab.tab_lines import TabBar, bars_of, refuse_unknown_label, tab_line
 from station.music.tempo import MAX_BPM, MIN_BPM
@@ -44,6 +45,8 @@ _LOOSE_X = re.compile(r"\bX\b[^A-Za-z\n]{1,6}[^\n]{0,80}\b(?:loose|open|slosh)",
 
 _MOST_WORDS = 300
 """Characters of a line in which a name, a tempo or a meter is looked for (our choice: no screen shows more of one)."""
+_MOST_LINES = 50_000
+"""Our choice: 2000 bars, each in a system of its own with every drum there is, read in less than a second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +88,8 @@ class TabText:
 def tab_text(text: str, source: str) -> TabText:
     """The systems of `text` in their order; raises `BadInput` for a tab line whose label or letters are unknown."""
     lines = text.expandtabs().splitlines()
+    if len(lines) > _MOST_LINES:
+        raise BadInput(source, "", f"{len(lines):,} lines; expected at most {_MOST_LINES:,}")
     loose_x = any(_LOOSE_X.search(line[:_MOST_WORDS]) for line in lines)
     found, waiting, system = TabText(loose_x=loose_x), TabSystem(), TabSystem()
 
@@ -95,7 +100,6 @@ def tab_text(text: str, source: str) -> TabText:
             waiting = TabSystem()
         system = TabSystem()
 
-    lines = text.expandtabs().splitlines()
     for number, line in enumerate(lines[(top := _heading(lines, found)) :], top + 1):
         if (row := _row(line, number, source)) is not None:
             if row.label in system.labels:
