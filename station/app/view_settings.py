@@ -15,7 +15,7 @@ from station.core.named_view import NamedView
 from station.core.settings import LARGEST_PANELS, SMALLEST_PANELS, Settings, settings_path
 from station.render.camera import Camera
 from station.render.gpu.moving_parts import DoublePlace
-from station.render.notation.score_view import ScoreForm
+from station.render.notation.screen.score_view import ScoreForm
 from station.render.palette import Theme
 
 SLOTS = 8

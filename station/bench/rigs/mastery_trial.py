@@ -18,7 +18,7 @@ import numpy as np
 from station.bench.rigs.mastery_tutors import TUTORS, Tutor, TutorRequest
 from station.core.units import s_from_ns
 from station.drills.library import find_lesson
-from station.drills.mastery.pass_facts import PassResult, measure_pass
+from station.drills.mastery.pass_measures.pass_facts import PassResult, measure_pass
 from station.drills.mastery.practice_steps import PracticeItem, item_of
 from station.drills.mastery.rules import DEFAULT_RULES
 from station.drills.mastery.tempo_ladder import TOP_PCT

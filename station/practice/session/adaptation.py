@@ -19,7 +19,7 @@ from station.drills.lesson import Lesson
 from station.drills.mastery.equipment_faults import rewired
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.next_pass import begin, fix_tempo, new_item, next_step, veto
-from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
+from station.drills.mastery.pass_measures.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.practice_steps import PassKind, PracticeStep, item_of
 from station.drills.mastery.rules import Rules
 from station.drills.mastery.verdict import Grade, judge

@@ -6,10 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.music.score import Score
-from station.render.notation.held_rolls import held_until
 from station.render.notation.spelling.written_rhythm import written_ticks
 from station.render.notation.staff import FOOT_PIECES
-from station.render.notation.tremolo import measured_cells
+from station.render.notation.voice.held_rolls import held_until
+from station.render.notation.voice.tremolo import measured_cells
 
 
 @dataclass(frozen=True, slots=True)

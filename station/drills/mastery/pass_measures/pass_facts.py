@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
-from station.drills.mastery.asked_parts import Part
-from station.drills.mastery.part_facts import NoteFacts, PartResult, part_result
-from station.drills.mastery.pass_spread import Flags, leaning, steady_strokes
+from station.drills.mastery.pass_measures.asked_parts import Part
+from station.drills.mastery.pass_measures.part_facts import NoteFacts, PartResult, part_result
+from station.drills.mastery.pass_measures.pass_spread import Flags, leaning, steady_strokes
 from station.music.judgement import Label
 from station.music.passages import Swung, slots, swung
 from station.music.performance import Performance

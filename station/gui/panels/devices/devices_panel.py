@@ -30,9 +30,9 @@ from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.trigger_filter import HeldBack
 from station.devices.monitor import MonitorLine, suspected
 from station.gui import theme
-from station.gui.panels.calibration_part import CalibrationPart
-from station.gui.panels.pads_part import PadsPart
-from station.gui.panels.velocity_part import VelocityPart
+from station.gui.panels.devices.calibration_part import CalibrationPart
+from station.gui.panels.devices.pads_part import PadsPart
+from station.gui.panels.devices.velocity_part import VelocityPart
 from station.gui.widgets import plots
 from station.render import palette
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from station.core.units import PPQ
 from station.music.beat_groups import beat_groups
-from station.music.formats.music_xml.note_spelling import (
+from station.music.formats.music_xml.writing.note_spelling import (
     CLOSE,
     Span,
     Value,
@@ -15,7 +15,7 @@ from station.music.formats.music_xml.note_spelling import (
     spans_of,
     values,
 )
-from station.music.formats.music_xml.stroke_cells import StrokeCell, apart
+from station.music.formats.music_xml.writing.stroke_cells import StrokeCell, apart
 from station.music.tempo import MeterChange
 
 QUARTER, HALF = 4, 2

@@ -9,10 +9,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from station.music.formats.music_xml.bar_writing import SpelledBar, spelled_bar
-from station.music.formats.music_xml.direction_writing import SWING_TYPES
-from station.music.formats.music_xml.stroke_cells import StrokeCell, cells_of
-from station.music.formats.music_xml.strokes_reading import PlayedBar
+from station.music.formats.music_xml.reading.strokes_reading import PlayedBar
+from station.music.formats.music_xml.writing.bar_writing import SpelledBar, spelled_bar
+from station.music.formats.music_xml.writing.direction_writing import SWING_TYPES
+from station.music.formats.music_xml.writing.stroke_cells import StrokeCell, cells_of
 from station.music.score import Note, Score
 from station.music.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
 from station.music.tempo import MeterChange

@@ -9,12 +9,12 @@ from xml.etree.ElementTree import Element
 from station.core.errors import BadInput
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart, PartSection
-from station.music.formats.music_xml.bar_reading import BarReader
-from station.music.formats.music_xml.direction_reading import VELOCITY_OF_MARK
 from station.music.formats.music_xml.mxl_container import score_text
-from station.music.formats.music_xml.note_reading import NoteReader
-from station.music.formats.music_xml.part_choice import FilePart, drum_parts, parts_of
-from station.music.formats.music_xml.strokes_reading import PlayedBar, strokes_of
+from station.music.formats.music_xml.reading.bar_reading import BarReader
+from station.music.formats.music_xml.reading.direction_reading import VELOCITY_OF_MARK
+from station.music.formats.music_xml.reading.note_reading import NoteReader
+from station.music.formats.music_xml.reading.part_choice import FilePart, drum_parts, parts_of
+from station.music.formats.music_xml.reading.strokes_reading import PlayedBar, strokes_of
 from station.music.formats.music_xml.written_bars import STOP, LostMarks, WrittenBar, short_meter
 from station.music.formats.playing_order import playing_order
 from station.music.formats.safe_xml import parse_xml, text_of

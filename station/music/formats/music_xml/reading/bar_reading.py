@@ -7,9 +7,9 @@ from xml.etree.ElementTree import Element
 from station.core.errors import BadInput
 from station.core.pieces import HAND_PIECES, Limb
 from station.core.units import PPQ
-from station.music.formats.music_xml.direction_reading import DirectionReader
-from station.music.formats.music_xml.note_reading import NoteReader, accent_whole_chord
-from station.music.formats.music_xml.time_reading import meter_of
+from station.music.formats.music_xml.reading.direction_reading import DirectionReader
+from station.music.formats.music_xml.reading.note_reading import NoteReader, accent_whole_chord
+from station.music.formats.music_xml.reading.time_reading import meter_of
 from station.music.formats.music_xml.written_bars import NUMBER, LostMarks, WrittenBar, WrittenNote
 from station.music.formats.playing_order import MOST_BARS
 from station.music.formats.safe_xml import text_of

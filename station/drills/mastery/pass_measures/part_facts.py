@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
-from station.drills.mastery.asked_parts import Part
-from station.drills.mastery.pass_spread import LEAST_FREEDOM, Flags, Floats, leaning
+from station.drills.mastery.pass_measures.asked_parts import Part
+from station.drills.mastery.pass_measures.pass_spread import LEAST_FREEDOM, Flags, Floats, leaning
 from station.music.score import Score
 from station.scoring.analysis.timing_spread import slope
 

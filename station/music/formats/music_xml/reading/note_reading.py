@@ -19,7 +19,7 @@ from station.core.pieces import (
     Zone,
 )
 from station.core.units import PPQ
-from station.music.formats.music_xml.part_choice import FilePart
+from station.music.formats.music_xml.reading.part_choice import FilePart
 from station.music.formats.music_xml.written_bars import LostMarks, WrittenNote
 from station.music.formats.music_xml.xml_instruments import XmlInstrument, instrument_id, pitch_number, placed_strike
 from station.music.formats.safe_xml import text_of

@@ -14,9 +14,10 @@ from station.core.pieces import HAND_PIECES, Piece
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import WrittenFile
-from station.music.formats.music_xml.bar_writing import SpelledBar
-from station.music.formats.music_xml.direction_writing import Direction, directions_of
-from station.music.formats.music_xml.element_writing import (
+from station.music.formats.music_xml.reading.time_reading import MOST_BEATS, MOST_UNIT
+from station.music.formats.music_xml.writing.bar_writing import SpelledBar
+from station.music.formats.music_xml.writing.direction_writing import Direction, directions_of
+from station.music.formats.music_xml.writing.element_writing import (
     VoiceSetting,
     add_bar_rest,
     add_chord,
@@ -25,9 +26,8 @@ from station.music.formats.music_xml.element_writing import (
     strike_of_note,
     xml_text,
 )
-from station.music.formats.music_xml.part_losses import losses_of
-from station.music.formats.music_xml.swung_bars import BarFrame, WrittenVoices, can_be_said, written_voices
-from station.music.formats.music_xml.time_reading import MOST_BEATS, MOST_UNIT
+from station.music.formats.music_xml.writing.part_losses import losses_of
+from station.music.formats.music_xml.writing.swung_bars import BarFrame, WrittenVoices, can_be_said, written_voices
 from station.music.formats.music_xml.written_bars import short_meter
 from station.music.formats.music_xml.xml_instruments import XmlInstrument, instrument_of
 from station.music.formats.playing_order import MOST_BARS

@@ -7,7 +7,7 @@ from xml.etree.ElementTree import Element
 
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
-from station.music.formats.music_xml.element_writing import child, number_text, xml_text
+from station.music.formats.music_xml.writing.element_writing import child, number_text, xml_text
 from station.music.loudness_marks import GROW
 from station.music.swing import STRAIGHT, Swing
 from station.music.tempo import TempoChange

@@ -13,7 +13,7 @@ from station.core.labels import piece_name
 from station.core.pieces import Limb, Piece
 from station.music.judgement import Label
 from station.music.score import Score
-from station.render.notation.judgement_marks import ON_TIME_MS, draw_dynamics, off_db, timing_colour
+from station.render.notation.screen.judgement_marks import ON_TIME_MS, draw_dynamics, off_db, timing_colour
 from station.render.notation.staff import PLACES
 from station.render.palette import EXTRA, INK, INK_FAINT, INK_SOFT, MISSED, NIGHT, WRONG, with_opacity
 from station.render.snapshot import PENDING, Snapshot

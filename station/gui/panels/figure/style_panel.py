@@ -17,8 +17,8 @@ from station.app.style.style_options import PIECES, StyleOptions
 from station.app.window_state import State
 from station.core.labels import name_of
 from station.gui import theme
-from station.gui.panels.lanes_editor import LanesEditor
-from station.gui.panels.styles_head import StylesHead
+from station.gui.panels.figure.lanes_editor import LanesEditor
+from station.gui.panels.figure.styles_head import StylesHead
 from station.motion.kinematics.figure import figure_names, load_figure
 from station.motion.kit.kit import kit_names, load_kit
 from station.motion.motion_plan import bar_places

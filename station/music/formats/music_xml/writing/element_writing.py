@@ -9,9 +9,9 @@ from xml.etree.ElementTree import Element, SubElement
 from station.core.note_map import NoteMeaning
 from station.core.pieces import HALF_OPEN, OPEN, USUAL_FEET, Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.music.formats.music_xml.bar_writing import Chord
-from station.music.formats.music_xml.note_reading import FULL_VELOCITY
-from station.music.formats.music_xml.stroke_cells import StrokeCell
+from station.music.formats.music_xml.reading.note_reading import FULL_VELOCITY
+from station.music.formats.music_xml.writing.bar_writing import Chord
+from station.music.formats.music_xml.writing.stroke_cells import StrokeCell
 from station.music.formats.music_xml.xml_instruments import (
     PIECES,
     XmlInstrument,

@@ -16,16 +16,16 @@ from station.render.notation.beams import (
     draw_flags,
     draw_tuplet,
 )
-from station.render.notation.chord_pen import Chord, ChordPen
-from station.render.notation.held_rolls import draw_tie, tie_way
 from station.render.notation.rests import draw_rest, rest_edge
 from station.render.notation.spelling.bar_spelling import spell_bar
 from station.render.notation.spelling.beaming import beam_runs, beam_spans
 from station.render.notation.spelling.note_values import BeatGroup, Stroke, TimedValue, Tuplet
 from station.render.notation.staff import height
 from station.render.notation.staff_rows import flag_room, stem_end
-from station.render.notation.tremolo import draw_slashes
-from station.render.notation.written_strokes import WrittenStrokes
+from station.render.notation.voice.chord_pen import Chord, ChordPen
+from station.render.notation.voice.held_rolls import draw_tie, tie_way
+from station.render.notation.voice.tremolo import draw_slashes
+from station.render.notation.voice.written_strokes import WrittenStrokes
 
 _TUPLET_OFF = {-1: 0.4, 1: 1.4}
 """How far a tuplet's number has its baseline from what its chords reach to."""

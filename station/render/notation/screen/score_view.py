@@ -17,10 +17,10 @@ from station.music.score import Score
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
 from station.render.notation import note_shapes
 from station.render.notation.engraving import Engraver
-from station.render.notation.free_strip import strip_paper, strip_shapes
 from station.render.notation.head_places import heads_x
-from station.render.notation.highway import LINE_SHARE, NAMES_SHARE, SHOWN_S, Highway, lane_height, lanes
-from station.render.notation.judgement_marks import draw_dynamics, draw_mark, off_db
+from station.render.notation.screen.free_strip import strip_paper, strip_shapes
+from station.render.notation.screen.highway import LINE_SHARE, NAMES_SHARE, SHOWN_S, Highway, lane_height, lanes
+from station.render.notation.screen.judgement_marks import draw_dynamics, draw_mark, off_db
 from station.render.notation.staff import PLACES, height
 from station.render.notation.staff_rows import staff_rows
 from station.render.palette import BRAND, EXTRA, PANEL_EDGE, PAPER, PAPER_LOW, with_opacity
