@@ -13,7 +13,7 @@ from typing import assert_never
 from station.app.actions.phase_actions import ChooseTriggers, OpenMotion, PhaseAction, PlayMotion, SeekMotion
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S, ns_from_s
-from station.practice.session.listening import Listening, stretch
+from station.practice.session.cues.listening import Listening, stretch
 from station.scenes.phase_film import cues_of
 from station.scenes.phase_view import WalkingScene, trace_of
 from station.sync.phase.model_file import load_model

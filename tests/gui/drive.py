@@ -25,8 +25,8 @@ from station.app.actions.practice_actions import Dismiss, EndSession
 from station.app.actions.settings_actions import SetView
 from station.app.help_topics import topic_of
 from station.app.room_state import RoomState, Stage
-from station.app.settings_store import SettingsStore
-from station.app.view_settings import view_settings_of
+from station.app.settings.settings_store import SettingsStore
+from station.app.settings.view_settings import view_settings_of
 from station.app.window_state import State
 from station.core.measured_latency import load_calibration
 from station.core.named_view import NamedView

@@ -22,7 +22,7 @@ from station.drills.transcription.strokes.diddle_finder import with_diddles
 from station.drills.transcription.strokes.letters import as_letter, unified
 from station.drills.transcription.strokes.loudness_levels import with_dynamics
 from station.drills.transcription.strokes.ornament_finder import FoundOrnaments, found_ornaments
-from station.drills.transcription.strokes.reach import within_reach
+from station.drills.transcription.strokes.playable_strokes import within_reach
 from station.drills.transcription.strokes.ringing import with_lengths
 from station.drills.transcription.strokes.steady_dynamics import steady_dynamics
 from station.drills.transcription.timing.grid_times import GridTimes, quantised_times

@@ -6,7 +6,7 @@ from typing import TypeVar
 
 from imgui_bundle import imgui
 
-from station.app.view_settings import INSETS, ViewSettings
+from station.app.settings.view_settings import INSETS, ViewSettings
 from station.gui import theme
 from station.gui.widgets.slots import Use, popup_grid, slot_rows
 from station.render.camera import VIEW_NAMES

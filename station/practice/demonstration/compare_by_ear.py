@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.performance import Performance
 from station.practice.records.previous_session import PreviousSession
-from station.practice.session.click_pattern import PLAIN, click_cues
-from station.practice.session.listening import RING_NS, Listening, played_cues, stretch
+from station.practice.session.cues.click_pattern import PLAIN, click_cues
+from station.practice.session.cues.listening import RING_NS, Listening, played_cues, stretch
+from station.practice.session.cues.stroke_cues import demonstration_cues, moved_by
 from station.practice.session.session import SessionResult
-from station.practice.session.stroke_cues import demonstration_cues, moved_by
 
 BREATH_NS = 250 * NS_PER_MS
 """How long before the bar it begins; our choice: as early as a stroke is judged."""

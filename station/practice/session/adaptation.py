@@ -28,7 +28,7 @@ from station.engine.engine import KEYBOARD
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
-from station.practice.session.click_pattern import PLAIN, Gap
+from station.practice.session.cues.click_pattern import PLAIN, Gap
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import (
     MAX_TEMPO_BPM,

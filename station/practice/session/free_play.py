@@ -20,10 +20,10 @@ from station.devices.capture.replay import replay, transport_zeros_ns
 from station.engine.messages import CUE_DTYPE, Command, EngineEvent, Play, Stop
 from station.music.performance import Performance
 from station.music.tempo import TempoChange, TempoMap
-from station.practice.session.click_pattern import ClickPattern, click_cues
+from station.practice.session.cues.click_pattern import ClickPattern, click_cues
+from station.practice.session.cues.listening import RING_NS, Listening, played_cues, stretch
 from station.practice.session.device_latency import Latency
 from station.practice.session.engine_state import EngineState
-from station.practice.session.listening import RING_NS, Listening, played_cues, stretch
 
 LEAD_IN_NS = 300 * NS_PER_MS
 """How long after the start the first click is heard; as in a session."""

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
 from station.music.score import Score
-from station.practice.session.click_pattern import PLAIN, click_cues, count_in, counting, leads_ns
+from station.practice.session.cues.click_pattern import PLAIN, click_cues, count_in, counting, leads_ns
 from station.practice.session.plan import Plan
 
 SILENT_BARS = 2

@@ -23,7 +23,7 @@ from station.scoring.analysis.loudness import level_db
 from station.scoring.analysis.sparse_model import CONSTANT, Column, Effect, Explained, explain
 from station.scoring.analysis.timing_spread import asynchrony_ms, standard_error, timed_notes
 from station.scoring.matching.alignment import Alignment, Reference
-from station.scoring.matching.grace_strokes import main_of_grace
+from station.scoring.matching.played_graces import main_of_grace
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]

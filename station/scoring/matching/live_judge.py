@@ -12,7 +12,7 @@ not want goes to a waiting note of another piece close by, until that note's own
 Where the student turns out to be elsewhere, `move` judges the last hits anew. When they go back, what they played
 before counts until they pass it again; then the new hit does, and the old one was played again, as in the end.
 
-How far a hit may lie from where its note is due is the final alignment's rule (`reach`, `assignment`), told by the
+How far a hit may lie from where its note is due is the final alignment's rule (`note_reach`, `assignment`), told by the
 matches so far (`running_lean`). Times are ns on the score's axis; asynchronies are real time, by the pace.
 """
 
@@ -35,8 +35,8 @@ from station.scoring.matching.click_offset import common_bias_ns
 from station.scoring.matching.ignored_hits import Unwritten
 from station.scoring.matching.match_classes import match_classes
 from station.scoring.matching.note_lane import Lane
+from station.scoring.matching.note_reach import LEAST_REACH_NS, reach_of
 from station.scoring.matching.pairing import least_cost
-from station.scoring.matching.reach import LEAST_REACH_NS, reach_of
 from station.scoring.matching.running_lean import RunningLean
 
 _MEMORY = 2

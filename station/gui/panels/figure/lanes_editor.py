@@ -13,7 +13,7 @@ from station.core.labels import name_of
 from station.gui import theme
 from station.gui.widgets import plots
 from station.gui.widgets.lane_frame import LaneFrame
-from station.motion.style.lanes import drawn, value_at, with_moved, with_point, without_point
+from station.motion.style.automation_lanes import drawn, value_at, with_moved, with_point, without_point
 from station.motion.style.style import Automation, range_of
 from station.music.score import Score
 from station.render import palette

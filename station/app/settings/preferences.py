@@ -5,7 +5,7 @@ Every habit is a setting of the same name; `Preferences` changes them, and learn
 
 from dataclasses import dataclass, replace
 
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.core.labels import name_of
 from station.core.settings import Settings
 from station.engine.messages import EngineEvent

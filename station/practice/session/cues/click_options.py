@@ -2,7 +2,7 @@
 
     CLICK = WORD, WORD, …        WORD = KEY=VALUE | count
 
-Source of the keys: `station.practice.session.click_pattern.ClickPattern`, whose fields they are.
+Source of the keys: `station.practice.session.cues.click_pattern.ClickPattern`, whose fields they are.
 """
 
 from collections.abc import Callable, Mapping
@@ -12,7 +12,7 @@ from types import MappingProxyType
 from station.core.counts import is_count
 from station.core.errors import BadInput
 from station.music.swing import MAX_RATIO, MIN_RATIO, Swing
-from station.practice.session.click_pattern import (
+from station.practice.session.cues.click_pattern import (
     MAX_SUBDIVISIONS,
     PLAIN,
     ClickBeats,

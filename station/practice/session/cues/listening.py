@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_S
 from station.engine.messages import CUE_DTYPE, Bus, Command, EngineEvent, Play, Started, Stop
 from station.music.performance import Performance
-from station.practice.session.click_pattern import leads_ns
+from station.practice.session.cues.click_pattern import leads_ns
 
 SOON_NS = NS_PER_S // 5
 """How long after the request the first sound comes: time for the cues to reach the sound card; our choice."""
