@@ -219,7 +219,7 @@ class Trial:
             hit_label=truth.hit_label,
             asynchrony_ns=asynchrony,
             hit_score_ns=hits["at_ns"],
-            stretch=np.zeros(len(hits), np.int64),
+            segment=np.zeros(len(hits), np.int64),
             reference=Reference.CLICK,
             sd_ms=None,
         )

@@ -46,7 +46,7 @@ class Phase(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A stretch of the timeline: the `index`-th (from 0) demonstration or pass, or the count-in before it."""
+    """A part of the timeline: the `index`-th (from 0) demonstration or pass, or the count-in before it."""
 
     phase: Phase
     index: int

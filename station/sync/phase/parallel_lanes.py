@@ -1,8 +1,8 @@
 """Many samples at once: the recursion of `PhaseTracker` run in lanes side by side, with the same result.
 
-A sample's phase depends on the one before, so the signal is cut into stretches, one a lane. All lanes but the first
+A sample's phase depends on the one before, so the signal is cut into segments, one a lane. All lanes but the first
 begin a little early, where their sample fits best: trackers of one signal draw together within a fraction of a period,
-so that a lane has mostly joined its neighbour's way when its own stretch begins. Where it has not (somebody stands
+so that a lane has mostly joined its neighbour's way when its own segment begins. Where it has not (somebody stands
 still, other motion), it is run again from where its neighbour ended, until all of them agree.
 """
 
@@ -57,8 +57,8 @@ class Lanes:
 
     def __init__(self, objective: Objective, templates: Templates, cadence: CadenceRule) -> None:
         self._objective, self._templates, self._cadence = objective, templates, cadence
-        self._stretch, self._early = FOLLOWING if cadence.feedback else STEADY
-        self.worth = WORTH * (self._stretch + self._early)
+        self._segment, self._early = FOLLOWING if cadence.feedback else STEADY
+        self.worth = WORTH * (self._segment + self._early)
         self._below = int(np.abs(objective.offsets).max()) + 1
         self._goes_round = 2 * self._below + 1 > objective.count
         above = self._below + ceil(cadence.fastest) + 1
@@ -73,8 +73,8 @@ class Lanes:
 
     def ways(self, seen: Seen, place: float, pace: float) -> Iterator[Way]:
         """The way through n ≥ 1 samples, bit by bit, from a place from 0 to n_m and a pace before the first."""
-        begins = np.arange(0, len(seen), self._stretch)
-        found = np.zeros((len(Way._fields), self._stretch, len(begins)))
+        begins = np.arange(0, len(seen), self._segment)
+        found = np.zeros((len(Way._fields), self._segment, len(begins)))
         states = self._warmed(seen, begins, place, pace)
         self._along(seen, begins, found, slice(None), states)
         while len(late := self._not_joined(found, states)):
@@ -87,7 +87,7 @@ class Lanes:
             left -= some.shape[1]
 
     def _warmed(self, seen: Seen, begins: Whole, place: float, pace: float) -> FloatArray:
-        """The states with which the lanes begin, as far as the ends of the stretches before them tell."""
+        """The states with which the lanes begin, as far as the ends of the segments before them tell."""
         states = np.zeros((_STATES, len(begins)))
         states[0], states[1] = place, pace
         if len(begins) == 1:
@@ -106,9 +106,9 @@ class Lanes:
         return best
 
     def _along(self, seen: Seen, begins: Whole, found: FloatArray, lanes: Whole | slice, begin: FloatArray) -> None:
-        """Run lanes through their stretches, and write their ways down; beyond the end the last sample stays."""
+        """Run lanes through their segments, and write their ways down; beyond the end the last sample stays."""
         states: FloatArray | tuple[FloatArray, ...] = begin
-        for sample in range(self._stretch):
+        for sample in range(self._segment):
             step = self._step(seen.at(np.minimum(begins[lanes] + sample, len(seen) - 1)), states)
             states = step[:_STATES]
             for row, values in zip(found, step, strict=True):

@@ -34,7 +34,7 @@ def played_cues(performance: Performance) -> NDArray[np.void]:
     return cues[np.argsort(cues["at_ns"], kind="stable")]
 
 
-def stretch(cues: NDArray[np.void], start_ns: int, end_ns: int) -> NDArray[np.void]:
+def cues_between(cues: NDArray[np.void], start_ns: int, end_ns: int) -> NDArray[np.void]:
     """The cues in [`start_ns`, `end_ns`), from 0 on; a counted word is where its beat is, and begins before it."""
     beats = cues["at_ns"] + leads_ns(cues)
     inside = cues[(beats >= start_ns) & (beats < end_ns)].copy()
