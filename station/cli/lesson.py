@@ -19,6 +19,7 @@ from station.cli.options.option_fields import (
     said,
     whole_number,
 )
+from station.core.counts import counted
 from station.core.disk.files import write_whole
 from station.core.errors import BadInput
 from station.music.formats.format_table import writer_for
@@ -84,12 +85,8 @@ def _check(options: PathsOptions) -> int:
     faults, count = check_files(options.paths)
     for fault in faults:
         write(str(fault))
-    say(f"{_counted(count, 'file')}: {_counted(len(faults), 'fault') if faults else 'no fault'}")
+    say(f"{counted(count, 'file')}: {counted(len(faults), 'fault') if faults else 'no fault'}")
     return 2 if faults else 0
-
-
-def _counted(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def _new(options: NewOptions) -> int:

@@ -27,6 +27,12 @@ def piece_name(piece: Piece) -> str:
     return _NAMES.get(piece, word(piece))
 
 
+LIMB_LETTERS: Mapping[Limb, str] = MappingProxyType(
+    {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L", Limb.RIGHT_FOOT: "R", Limb.LEFT_FOOT: "L"}
+)
+"""Its side, as sticking has it."""
+
+
 def limb_name(limb: Limb) -> str:
     """The limb as a drummer says it."""
     return word(limb).replace("_", " ")

@@ -91,6 +91,7 @@ class Ornament(IntEnum):
     ROLL = 4
 
 
+OTHER_HAND: Mapping[Limb, Limb] = MappingProxyType({Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND})
 HAND_PIECES = frozenset(Piece) - {Piece.KICK, Piece.HIHAT_PEDAL}
 CYMBALS = frozenset({Piece.RIDE, Piece.RIDE_2, Piece.CRASH_1, Piece.CRASH_2, Piece.SPLASH, Piece.CHINA})
 CHOKEABLE = CYMBALS | {Piece.HIHAT}

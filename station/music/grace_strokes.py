@@ -7,7 +7,7 @@ own, with the ornament DIDDLE, or ROLL where several follow each other.
 
 from dataclasses import dataclass, replace
 
-from station.core.pieces import Dynamic, Limb, Ornament
+from station.core.pieces import OTHER_HAND, Dynamic, Limb, Ornament
 from station.music.score import Note
 
 MIN_VELOCITY, MAX_VELOCITY = 1, 127
@@ -15,8 +15,6 @@ MIN_VELOCITY, MAX_VELOCITY = 1, 127
 
 FLAM_RANGE_MS, DRAG_RANGE_MS = (10, 80), (20, 120)
 """The spacings that a lesson may say (wider than HUMANS: a teacher may ask for an open flam; our choice)."""
-
-OTHER_HAND = {Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND}
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import TOMS, Articulation, Limb, Ornament, Piece
+from station.core.pieces import OTHER_HAND, TOMS, Articulation, Limb, Ornament, Piece
 from station.core.units import NS_PER_MS, PPQ
 from station.music.score import Score
 
@@ -36,7 +36,6 @@ _DOUBLE_REACH = 1.5
 """The other hand is beside a double if it strikes within so many of its intervals: triplets mix with eighths."""
 _OF_TWO = (Ornament.DIDDLE, Ornament.ROLL)
 """The ornaments whose letter plays two strokes, but for the buzz, a roll that is one."""
-_OTHER_HAND = {int(Limb.RIGHT_HAND): int(Limb.LEFT_HAND), int(Limb.LEFT_HAND): int(Limb.RIGHT_HAND)}
 _BOTH_HANDS = -2
 """Stands for a limb where the hands strike together."""
 
@@ -226,7 +225,7 @@ def double_interval_ms(score: Score) -> float:
 
 def _beside_other_hand(hand: NDArray[np.int8], at_ns: NDArray[np.int64], first: int) -> bool:
     """Whether the other hand strikes alone before stroke `first` or after the next, about as near as these two are."""
-    other = _OTHER_HAND.get(int(hand[first]))
+    other = OTHER_HAND.get(hand[first])
     reach = _DOUBLE_REACH * (at_ns[first + 1] - at_ns[first])
     before, after = first - 1, first + 2
     near_before = before >= 0 and hand[before] == other and at_ns[first] - at_ns[before] <= reach

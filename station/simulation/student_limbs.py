@@ -11,13 +11,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import CYMBALS, Limb, Piece
+from station.core.pieces import CYMBALS, OTHER_HAND, USUAL_FEET, Limb, Piece
 from station.music.passages import TIMEKEEPERS
 from station.music.score import Score
 
 _RIGHT_HAND_PIECES = CYMBALS.union(TIMEKEEPERS)
-_OTHER_HAND = {Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND}
-_FOOT = {Piece.KICK: Limb.RIGHT_FOOT, Piece.HIHAT_PEDAL: Limb.LEFT_FOOT}
 
 
 _KEPT_SCORES = 256
@@ -37,7 +35,7 @@ def limbs_of(score: Score) -> NDArray[np.int8]:
             busy, busy_tick = Limb.UNKNOWN, tick
         limb = Limb(int(limbs[row]))
         if limb is Limb.UNKNOWN:
-            limb = _FOOT[piece] if piece in _FOOT else _free_hand(piece, busy, last)
+            limb = USUAL_FEET[piece] if piece in USUAL_FEET else _free_hand(piece, busy, last)
         if limb.is_hand:
             last = busy = limb
         limbs[row] = limb
@@ -47,6 +45,6 @@ def limbs_of(score: Score) -> NDArray[np.int8]:
 
 def _free_hand(piece: Piece, busy: Limb, last: Limb) -> Limb:
     """The hand for `piece` when `busy` strikes in the same slot (or `UNKNOWN`) and `last` struck before it."""
-    if busy in _OTHER_HAND:
-        return _OTHER_HAND[busy]
-    return Limb.RIGHT_HAND if piece in _RIGHT_HAND_PIECES else _OTHER_HAND[last]
+    if busy in OTHER_HAND:
+        return OTHER_HAND[busy]
+    return Limb.RIGHT_HAND if piece in _RIGHT_HAND_PIECES else OTHER_HAND[last]

@@ -14,7 +14,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import CYMBALS, Articulation, Dynamic, Limb, Ornament, Piece
+from station.core.pieces import CYMBALS, OTHER_HAND, Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.toml.toml_places import KeyPath
 from station.drills.grid.grid import Bar
 from station.drills.grid.stroke_settings import StrokeSettings
@@ -29,7 +29,7 @@ from station.drills.grid.tab_symbols import (
     family_of,
     not_a_letter,
 )
-from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY, OTHER_HAND
+from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY
 from station.music.score import NOTE_DTYPE
 from station.music.swing import STRAIGHT, Swing
 from station.music.tempo import MeterChange

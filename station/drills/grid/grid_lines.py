@@ -5,13 +5,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from station.core.expected import LINE, expects, later
-from station.core.pieces import Limb, Piece, word
+from station.core.pieces import USUAL_FEET, Limb, Piece, word
 from station.core.toml.schema import Fields, Reader, checked_values, optional, table_like
 from station.core.toml.toml_faults import Faults, wrong
 from station.core.toml.toml_places import KeyPath
 from station.drills.grid.cell_strokes import GridLine
 from station.drills.grid.sticking_line import STICKING
-from station.drills.grid.tab_symbols import FOOT_OF, LIMB_TABLES, LINE_PIECES
+from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +68,7 @@ LINES: Fields = {
 def lines_of_table(values: Mapping[str, Any], path: KeyPath, faults: Faults) -> list[RawLine]:
     """The lines of pieces of the table at `path`, then those under limb tables; faults count from that table."""
     found = [
-        RawLine(GridLine(piece, FOOT_OF.get(piece, Limb.UNKNOWN), (*path, key)), values[key])
+        RawLine(GridLine(piece, USUAL_FEET.get(piece, Limb.UNKNOWN), (*path, key)), values[key])
         for key, piece in LINE_PIECES.items()
         if values[key] is not None
     ]

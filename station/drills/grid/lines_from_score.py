@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.errors import BadInput
-from station.core.pieces import Articulation, Limb, Ornament, Piece, word
+from station.core.pieces import USUAL_FEET, Articulation, Limb, Ornament, Piece, word
 from station.drills.grid.grid_writer import GridMark, LineText
 from station.drills.grid.sticking_line import BOTH, HANDS, RIGHT_FIRST, STICKING
-from station.drills.grid.tab_symbols import ALIASES, BEYOND, FOOT_OF, LETTER_OF, LINE_ORDER, TabSymbol, family_of
+from station.drills.grid.tab_symbols import ALIASES, BEYOND, LETTER_OF, LINE_ORDER, TabSymbol, family_of
 from station.music.grace_strokes import Graces
 from station.music.score import Note, Score
 
@@ -82,7 +82,7 @@ def lines_of(by_bar: Mapping[int, Sequence[WrittenStroke]], first_bar: int, last
     lines: dict[str, LineText] = {}
     sticking = LineText(STICKING, {}, [])
     for together in by_tick.values():
-        hands = [s for s in together if not (s.is_beyond or _is_foot(s.note.limb) or s.note.piece in FOOT_OF)]
+        hands = [s for s in together if not (s.is_beyond or _is_foot(s.note.limb) or s.note.piece in USUAL_FEET)]
         said = _sticking_letter(hands)
         bar = together[0].bar - first_bar
         if said:
@@ -171,7 +171,7 @@ def _sticking_letter(hands: Sequence[WrittenStroke]) -> str:
 def _line_name(note: Note, *, said_below: bool) -> str:
     """`snare`, or `left_hand.snare` where neither custom nor the sticking line says the limb."""
     name = _SHORT_NAME.get(note.piece, word(note.piece))
-    if said_below or note.limb in (Limb.UNKNOWN, FOOT_OF.get(note.piece)):
+    if said_below or note.limb in (Limb.UNKNOWN, USUAL_FEET.get(note.piece)):
         return name
     return f"{word(note.limb)}.{name}"
 

@@ -177,9 +177,6 @@ LINE_ORDER: tuple[Piece, ...] = (
 LIMB_TABLES: Mapping[str, Limb] = MappingProxyType({word(limb): limb for limb in Limb if limb is not Limb.UNKNOWN})
 """`right_hand.snare = …` says the limb of every stroke of a line."""
 
-FOOT_OF: Mapping[Piece, Limb] = MappingProxyType({Piece.KICK: Limb.RIGHT_FOOT, Piece.HIHAT_PEDAL: Limb.LEFT_FOOT})
-"""Who plays the pedals unless a limb table says otherwise."""
-
 _HINTS: Mapping[tuple[TabFamily, str], str] = MappingProxyType(
     {
         (TabFamily.KICK, "x"): "the hi-hat foot has its own line, hihat_pedal",

@@ -6,6 +6,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
+from station.core.counts import counted
 from station.core.expected import TEXT, expects
 from station.core.named_view import NamedView
 from station.core.pieces import word
@@ -96,12 +97,12 @@ def _cue(raw: object, shape: GridShape) -> GridCue:
         faults.add(("beat",), "words, a camera and a style come with a bar; beat is for tempo_bpm and tempo_to_bpm")
     bar, beat, time = values["bar"] or 1, values["beat"] or 1, values["time"]
     if shape.is_sure and bar > shape.bars:
-        faults.add(("bar",), f"the grid has {_counted(shape.bars, 'bar')}, found {bar}")
+        faults.add(("bar",), f"the grid has {counted(shape.bars, 'bar')}, found {bar}")
     if shape.is_sure and time is not None and time > shape.times:
-        faults.add(("time",), f"the grid is played {_counted(shape.times, 'time')}, found {time}")
+        faults.add(("time",), f"the grid is played {counted(shape.times, 'time')}, found {time}")
     meter = shape.meters[min(bar, shape.bars) - 1]
     if shape.is_sure and beat > meter.beats:
-        faults.add(("beat",), f"bar {bar} is a {meter} bar of {_counted(meter.beats, 'beat')}, found {beat}")
+        faults.add(("beat",), f"bar {bar} is a {meter} bar of {counted(meter.beats, 'beat')}, found {beat}")
     to_quarters = _quarters(shape.beat_ticks, faults)
     tempo_bpm, tempo_to_bpm = (to_quarters(key, values[key]) for key in ("tempo_bpm", "tempo_to_bpm"))
     faults.check()
@@ -122,10 +123,6 @@ def _quarters(beat_ticks: int, faults: Faults) -> Callable[[str, float | None], 
         return bpm
 
     return quarters
-
-
-def _counted(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def _no_two_tempi(cues: Iterable[GridCue], faults: Faults) -> None:

@@ -7,6 +7,7 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.counts import counted
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.grid.tab_symbols import BEYOND
 from station.drills.lesson import Lesson
@@ -41,27 +42,27 @@ def remarks_on(
         yield f"loudness marks and hairpins left out: {_bars(mains, (mark.tick for mark in mains.loudness))}"
     yield from _on_times(times, mains)
     if steadied:
-        yield f"{_counted(steadied, 'stroke')} made as loud as the others of their place in the groove"
+        yield f"{counted(steadied, 'stroke')} made as loud as the others of their place in the groove"
     if times.spread_ms:
         yield from _on_groove(lesson.score)
     if lesson.is_swung:
         yield f"swing {lesson.swing.ratio:.3g}:1 of {_unit(lesson.swing)}"
     found = {"flam": ornaments.flams, "drag": ornaments.drags, "buzz": ornaments.buzzes}
     if any(found.values()):
-        yield f"found {', '.join(_counted(count, name) for name, count in found.items() if count)}"
+        yield f"found {', '.join(counted(count, name) for name, count in found.items() if count)}"
     if ornaments.bounces:
         yield (
-            f"{_counted(ornaments.bounces, 'stroke')} left out that only doubled another: "
+            f"{counted(ornaments.bounces, 'stroke')} left out that only doubled another: "
             f"of the same drum, at the same moment or far softer within {BOUNCE_MS:g} ms"
         )
     if reach.merged:
-        yield f"{_counted(reach.merged, 'stroke')} fell into one cell with a louder one"
+        yield f"{counted(reach.merged, 'stroke')} fell into one cell with a louder one"
     if reach.plain:
         bars = _bars(lesson.score, (note.tick for note in reach.plain))
-        yield f"{_counted(len(reach.plain), 'ornament')} without grace strokes, for which no hand is free: {bars}"
+        yield f"{counted(len(reach.plain), 'ornament')} without grace strokes, for which no hand is free: {bars}"
     if reach.beyond:
         bars = _bars(lesson.score, lesson.beyond["tick"])
-        yield f"{_counted(len(reach.beyond), 'stroke')} beyond two hands and two feet, written {BEYOND}: {bars}"
+        yield f"{counted(len(reach.beyond), 'stroke')} beyond two hands and two feet, written {BEYOND}: {bars}"
 
 
 def _on_meter(before: Score, after: Score) -> Iterator[str]:
@@ -79,7 +80,7 @@ def _on_tempo(before: Score, after: Score) -> Iterator[str]:
     if within or len(new.tempos) < len(old.tempos):
         changes = len(new.tempos) - 1
         said = f"{changes} at bar lines" if changes else f"one tempo, {new.tempos[0].tempo_bpm:.4g}"
-        yield f"{_counted(len(old.tempos) - 1, 'change')} of tempo written as {said}"
+        yield f"{counted(len(old.tempos) - 1, 'change')} of tempo written as {said}"
 
 
 def _on_times(times: GridTimes, mains: Score) -> Iterator[str]:
@@ -88,7 +89,7 @@ def _on_times(times: GridTimes, mains: Score) -> Iterator[str]:
         side = "late" if times.lean_ms > 0 else "early"
         lean = f", the take as a whole {abs(times.lean_ms):.0f} ms {side}" if abs(times.lean_ms) >= _TOLD_MS else ""
         count = int(np.count_nonzero(moved >= _TOLD_MS))
-        yield f"{_counted(count, 'stroke')} moved onto the grid, by at most {farthest:.0f} ms{lean}"
+        yield f"{counted(count, 'stroke')} moved onto the grid, by at most {farthest:.0f} ms{lean}"
 
 
 def _shifts_ms(times: GridTimes, mains: Score) -> NDArray[np.float64]:
@@ -145,8 +146,3 @@ def _bars(score: Score, ticks: Iterable[int]) -> str:
     bars = sorted({int(bar) + 1 for bar in score.tempo_map.bars_at(np.array(list(ticks), np.int64))})
     where = ", ".join(map(str, bars[:_BARS_NAMED])) + (" …" if len(bars) > _BARS_NAMED else "")
     return f"bar{'s' if len(bars) > 1 else ''} {where}"
-
-
-def _counted(count: int, noun: str) -> str:
-    """The count and the noun, "1 flam" or "2 buzzes"."""
-    return f"{count} {noun}{'' if count == 1 else 'es' if noun.endswith('z') else 's'}"

@@ -13,13 +13,12 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import HAND_PIECES, Limb, Ornament, Piece
+from station.core.pieces import HAND_PIECES, OTHER_HAND, Limb, Ornament, Piece
 from station.drills.grid.sticking_line import RIGHT_FIRST
 from station.drills.lesson import Lesson
 from station.drills.writing.lesson_form import FormGrid, LessonForm
 from station.motion.kit.kit import Kit, load_kit
 from station.motion.sticking.limbs import limbs_and_reasons
-from station.music.grace_strokes import OTHER_HAND
 from station.music.score import Score
 
 _KEEPS_TIME = "the ostinato's hand"

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import Articulation, Limb, Piece, Zone
+from station.core.pieces import OTHER_HAND, Articulation, Limb, Piece, Zone
 from station.core.units import NS_PER_S
 from station.music.score import Score
 from station.simulation.sticks.swing_spec import StickStrokeSpec, StrokeKind, height_for, speed_for_velocity
@@ -23,7 +23,6 @@ FREE_S = 0.18
 SPEED_FOR_VELOCITY = 1.25
 """A velocity that is 1 % higher needs a tip about 1.25 % faster: `speed_for_velocity` from 40 to 112, in logarithms."""
 _HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
-_OTHER = {Limb.RIGHT_HAND: Limb.LEFT_HAND, Limb.LEFT_HAND: Limb.RIGHT_HAND}
 _HANDS_OF = {
     "R": (Limb.RIGHT_HAND,),
     "L": (Limb.LEFT_HAND,),
@@ -117,12 +116,12 @@ def as_played_by(player: PlayerSpec, strokes: Sequence[StickStrokeSpec], seed: i
         force = float(np.exp(rng.normal(0, player.force_share)))
         speed = stroke.speed_m_s * force**SPEED_FOR_VELOCITY
         height = height_for(speed) if stroke.height_m is None else stroke.height_m
-        wrong = rng.uniform() < player.wrong_sticking and _is_free(_OTHER[stroke.limb], stroke.at_s, ordered)
+        wrong = rng.uniform() < player.wrong_sticking and _is_free(OTHER_HAND[stroke.limb], stroke.at_s, ordered)
         played.append(
             replace(
                 stroke,
                 at_s=stroke.at_s + float(lean[index] + rng.normal(0, player.motor_s)),
-                limb=_OTHER[stroke.limb] if wrong else stroke.limb,
+                limb=OTHER_HAND[stroke.limb] if wrong else stroke.limb,
                 speed_m_s=speed,
                 height_m=height * float(np.exp(rng.normal(0, player.force_share))),
             )

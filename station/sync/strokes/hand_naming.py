@@ -16,13 +16,11 @@ from statistics import fmean, median, pstdev
 import numpy as np
 
 from station.core.events import Hit, StickStroke
-from station.core.pieces import HAND_PIECES, Limb, Piece
+from station.core.pieces import HAND_PIECES, USUAL_FEET, Limb, Piece
 from station.core.units import NS_PER_MS
 from station.sync.strokes.stick_offsets import offset_candidates
 from station.sync.strokes.stroke_matching import GATE_MS, Matching, Stroke, Weigh, match
 
-FOOT_OF = {Piece.KICK: Limb.RIGHT_FOOT, Piece.HIHAT_PEDAL: Limb.LEFT_FOOT}
-"""Who plays what no stick plays, where the kit tells no limb."""
 SURE = 0.97
 """From this probability on a hand is named: 99 % of the named shall be right, and most are far surer; our choice."""
 WIDEST_MS, NARROWEST_MS = 6.0, 0.7
@@ -58,7 +56,7 @@ def limb_of(hit: Hit, stroke: StickStroke | None) -> Limb:
     """Who played a hit that `stroke` made, None where nobody can tell."""
     if hit.limb is not Limb.UNKNOWN:
         return hit.limb
-    return FOOT_OF.get(hit.piece, Limb.UNKNOWN) if stroke is None else stroke.limb
+    return USUAL_FEET.get(hit.piece, Limb.UNKNOWN) if stroke is None else stroke.limb
 
 
 def strokes_of_hits(hits: Sequence[Hit], strokes: Sequence[StickStroke]) -> tuple[StickStroke | None, ...]:

@@ -6,8 +6,8 @@ from dataclasses import replace
 from functools import lru_cache
 from types import MappingProxyType
 
-from station.core.pieces import TOMS, Articulation, Dynamic, Limb, Ornament, Piece, Zone
-from station.drills.grid.tab_symbols import FOOT_OF, SYMBOLS, TabFamily, TabSymbol, family_of
+from station.core.pieces import TOMS, USUAL_FEET, Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.drills.grid.tab_symbols import SYMBOLS, TabFamily, TabSymbol, family_of
 from station.music.score import Note
 
 
@@ -99,6 +99,6 @@ def _as_most(note: Note, ways: Counter[tuple[Zone, Articulation]]) -> Note:
 
 def _able(note: Note) -> Limb:
     """The note's limb if it can play that piece, else who does by custom."""
-    if note.piece in FOOT_OF:
-        return FOOT_OF[note.piece] if note.limb is Limb.UNKNOWN or note.limb.is_hand else note.limb
+    if note.piece in USUAL_FEET:
+        return USUAL_FEET[note.piece] if note.limb is Limb.UNKNOWN or note.limb.is_hand else note.limb
     return note.limb if note.limb.is_hand else Limb.UNKNOWN

@@ -17,7 +17,7 @@ from itertools import pairwise
 from math import inf, log
 from statistics import median
 
-from station.core.pieces import TOMS, Articulation, Ornament, Piece, Zone
+from station.core.pieces import DRUMS, Articulation, Ornament, Piece, Zone
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.transcription.strokes.close_pairs import Neighbours, is_two_of_a_run, neighbours
 from station.drills.transcription.strokes.press_rolls import FEWEST, Roll, hands_strokes
@@ -59,7 +59,6 @@ _RUN_TICKS = (PPQ // 8, PPQ // 12)
 """Strokes that lie exactly on these cells of an exact score are written strokes, not grace strokes."""
 _FEWEST = 3
 """Strokes of a buzz."""
-_DRUMS = (Piece.SNARE, *TOMS)
 _EXACT_MS = 0.1
 """Grace strokes so near to a whole number of milliseconds, in a whole file, were written by a program (our choice)."""
 _EXACT_SHARE = 0.02
@@ -138,7 +137,7 @@ def _begins_a_drag(three: Sequence[_Stroke]) -> bool:
 
 def _line(piece: Piece, line: list[_Stroke], score: Score) -> list[_Stroke]:
     """The main strokes of one piece."""
-    if piece not in _DRUMS:
+    if piece not in DRUMS:
         return line
     return [found for segment in _segments(_with_drags(line), score) for found in segment]
 

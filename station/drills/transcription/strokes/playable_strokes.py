@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
-from station.core.pieces import HALF_OPEN, Articulation, Limb, Ornament, Piece
-from station.drills.grid.tab_symbols import BEYOND_SYMBOLS, FOOT_OF, family_of
+from station.core.pieces import HALF_OPEN, USUAL_FEET, Articulation, Limb, Ornament, Piece
+from station.drills.grid.tab_symbols import BEYOND_SYMBOLS, family_of
 from station.drills.transcription.strokes.two_feet import with_both_feet
 from station.motion.feasibility.playable import MAX_HANDS, unplayable_rows
 from station.music.grace_strokes import Graces, with_graces
@@ -72,7 +72,7 @@ def _mark(note: Note) -> Note:
         note.piece,
         symbol.zone,
         articulation=symbol.articulation,
-        limb=FOOT_OF.get(note.piece, Limb.UNKNOWN),
+        limb=USUAL_FEET.get(note.piece, Limb.UNKNOWN),
         openness=symbol.openness,
         swing_ticks=note.swing_ticks,
     )
@@ -107,8 +107,8 @@ def _at_once(notes: Sequence[Note]) -> _Asked:
     asked: _Asked = {}
     for _, group in groupby(enumerate(notes), key=lambda pair: pair[1].tick):
         together = list(group)
-        feet = [(i, n) for i, n in together if n.piece in FOOT_OF]
-        hands = sorted(((i, n) for i, n in together if n.piece not in FOOT_OF), key=lambda p: _importance(p[1]))
+        feet = [(i, n) for i, n in together if n.piece in USUAL_FEET]
+        hands = sorted(((i, n) for i, n in together if n.piece not in USUAL_FEET), key=lambda p: _importance(p[1]))
         hands = hands[:MAX_HANDS]
         if len(hands) == MAX_HANDS:
             hands = [(i, _alone(n)) for i, n in hands]

@@ -13,11 +13,10 @@ from types import MappingProxyType
 from xml.etree.ElementTree import Element
 
 from station.core.note_map import GENERAL_MIDI, NoteMeaning, general_midi_note
-from station.core.pieces import CLOSED, CYMBALS, HALF_OPEN, OPEN, TOMS, Articulation, Piece, Zone
+from station.core.pieces import CHOKEABLE, CLOSED, DRUMS, HALF_OPEN, OPEN, Articulation, Piece, Zone
 from station.music.formats.safe_xml import text_of
 
-_CYMBALS = CYMBALS | {Piece.HIHAT}
-_DRUMS = frozenset({Piece.KICK, Piece.SNARE, *TOMS})
+_DRUMS = DRUMS | {Piece.KICK}
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,7 +239,7 @@ def _refined(strike: NoteMeaning, words: str) -> NoteMeaning:
 
 def _named_zones(piece: Piece) -> frozenset[Zone]:
     """The zones of `piece` that a name may say."""
-    return _OF_DRUMS if piece in _DRUMS else _OF_CYMBALS if piece in _CYMBALS else frozenset()
+    return _OF_DRUMS if piece in _DRUMS else _OF_CYMBALS if piece in CHOKEABLE else frozenset()
 
 
 def _worded_openness(words: str, usual: float | None) -> float | None:

@@ -7,11 +7,10 @@ only where all other strokes have one length: in most files it is an accident of
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import TOMS, Articulation, Piece
+from station.core.pieces import DRUMS, Articulation
 
 _LONGER = 2
 """So many times as long as a stroke a held note is at least (our choice)."""
-_BUZZING = (Piece.SNARE, *TOMS)
 
 
 def held_notes(
@@ -25,7 +24,7 @@ def held_notes(
 
     All other strokes are of one length, and a drum that has no such stroke is held each time until its next one.
     """
-    may_buzz: NDArray[np.bool_] = np.isin(pieces, _BUZZING) & (articulations == Articulation.NORMAL)
+    may_buzz: NDArray[np.bool_] = np.isin(pieces, sorted(DRUMS)) & (articulations == Articulation.NORMAL)
     others = lasts[~may_buzz] if not may_buzz.all() else lasts[lasts == lasts.min(initial=0)]
     if not len(others) or others.min() != others.max():
         return np.zeros(len(ticks), np.bool_)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.labels import piece_name
+from station.core.labels import LIMB_LETTERS, piece_name
 from station.core.pieces import Limb, Piece
 from station.music.judgement import Label
 from station.music.score import Score
@@ -37,7 +37,6 @@ _BEAT_LINE, _GROUP_LINE = 0.09, 0.18
 """How strong the lines of beats are, and of the first beats of groups; bar lines are stronger still (our choice)."""
 _LEAST_LANES = 4
 """With fewer pieces the lanes grow no taller (our choice: notes stay notes)."""
-_LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L", Limb.RIGHT_FOOT: "R", Limb.LEFT_FOOT: "L"}
 
 
 def lanes(score: Score) -> list[Piece]:
@@ -126,7 +125,7 @@ class Highway:
     def _letter(self, i: int) -> str:
         limbs = self.snapshot.limbs
         limb = Limb(int(self.snapshot.score.notes["limb"][i] if limbs is None else limbs[i]))
-        return _LETTERS.get(limb, "")
+        return LIMB_LETTERS.get(limb, "")
 
 
 def _colour(row: np.void | None, label: Label | None) -> Colour:

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.pieces import TOMS, Articulation, Piece
+from station.core.pieces import DRUMS, Articulation
 from station.core.units import NS_PER_MS
 from station.music import passages
 from station.music.judgement import Label
@@ -29,7 +29,6 @@ from station.scoring.matching.ignored_hits import BUZZ_REACH_NS
 
 Indices = NDArray[np.int64]
 
-DRUMS = (Piece.SNARE, *TOMS)
 SLOWEST_MS = 250.0
 """Beyond, one hand plays singles at ease (HUMANS: 5–7 strokes a second at most) and nothing rolls (our choice)."""
 LEAST_STROKES = 5
@@ -97,7 +96,7 @@ def open_rolls(score: Score, performance: Performance, alignment: Alignment) -> 
 def open_roll_runs(score: Score) -> list[Indices]:
     """The rows of each open roll, in order."""
     notes, runs = score.notes, []
-    for piece in DRUMS:
+    for piece in sorted(DRUMS):
         own = np.flatnonzero((notes["piece"] == piece) & ~score.is_grace & (notes["articulation"] != Articulation.BUZZ))
         gaps = np.diff(score.onset_ns[own]) / NS_PER_MS
         changes = np.abs(np.diff(gaps)) > _EVENLY * gaps[:-1]

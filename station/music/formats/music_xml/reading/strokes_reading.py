@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 
-from station.core.pieces import USUAL_FEET, Articulation, Dynamic, Limb, Ornament, Piece
+from station.core.pieces import OTHER_HAND, USUAL_FEET, Articulation, Dynamic, Limb, Ornament, Piece
 from station.music.formats.music_xml.second_strokes import SecondStrokes
 from station.music.formats.music_xml.written_bars import WrittenNote
-from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY, OTHER_HAND, Graces
+from station.music.grace_strokes import MAX_VELOCITY, MIN_VELOCITY, Graces
 from station.music.score import Note
 from station.music.swing import STRAIGHT, Swing
 from station.music.tempo import MeterChange

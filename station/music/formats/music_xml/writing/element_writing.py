@@ -6,8 +6,20 @@ from fractions import Fraction
 from types import MappingProxyType
 from xml.etree.ElementTree import Element, SubElement
 
+from station.core.labels import LIMB_LETTERS
 from station.core.note_map import NoteMeaning
-from station.core.pieces import HALF_OPEN, OPEN, USUAL_FEET, Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.core.pieces import (
+    HALF_OPEN,
+    OPEN,
+    OTHER_HAND,
+    USUAL_FEET,
+    Articulation,
+    Dynamic,
+    Limb,
+    Ornament,
+    Piece,
+    Zone,
+)
 from station.core.units import PPQ
 from station.music.formats.music_xml.reading.note_reading import FULL_VELOCITY
 from station.music.formats.music_xml.writing.bar_writing import Chord
@@ -19,14 +31,12 @@ from station.music.formats.music_xml.xml_instruments import (
     nearest_openness,
     plain_strike,
 )
-from station.music.grace_strokes import OTHER_HAND
 from station.music.score import Note
 
 TYPES: Mapping[int, str] = MappingProxyType(
     {1: "whole", 2: "half", 4: "quarter", 8: "eighth", **{2**k: f"{2**k}th" for k in range(4, 9)}, 32: "32nd"}
 )
 _GRACE_TYPES = {Ornament.FLAM: "eighth", Ornament.DRAG: "16th"}
-_LETTERS = {Limb.RIGHT_HAND: "R", Limb.LEFT_HAND: "L", Limb.RIGHT_FOOT: "R", Limb.LEFT_FOOT: "L"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,7 +231,7 @@ def _openness_sign(played: Note) -> tuple[str, dict[str, str]] | None:
 
 def _letter(played: Note) -> str | None:
     """The letter of the hand, and of a foot where it is not the usual one."""
-    return None if USUAL_FEET.get(played.piece) is played.limb else _LETTERS.get(played.limb)
+    return None if USUAL_FEET.get(played.piece) is played.limb else LIMB_LETTERS.get(played.limb)
 
 
 def _add_grace(measure: Element, grace: Note, cell: StrokeCell, setting: VoiceSetting) -> None:

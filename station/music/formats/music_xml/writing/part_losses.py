@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from functools import cache
 
-from station.core.pieces import CHOKEABLE, Articulation, Limb, Ornament, Piece, Zone
+from station.core.pieces import CHOKEABLE, OTHER_HAND, Articulation, Limb, Ornament, Piece, Zone
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import Feature, Loss
 from station.music.formats.music_xml.reading.direction_reading import VELOCITY_OF_MARK
@@ -12,7 +12,7 @@ from station.music.formats.music_xml.writing.element_writing import strike_of_no
 from station.music.formats.music_xml.writing.stroke_cells import DOUBLES, StrokeCell, is_roll, second_strokes
 from station.music.formats.music_xml.writing.swung_bars import WrittenVoices, can_be_said
 from station.music.formats.music_xml.xml_instruments import XmlInstrument, instrument_of, nearest_openness
-from station.music.grace_strokes import OTHER_HAND, Graces
+from station.music.grace_strokes import Graces
 from station.music.loudness_marks import FADE, GROW
 from station.music.score import Note
 from station.music.swing import STRAIGHT
