@@ -64,6 +64,10 @@ _MOST_DECIMALS = 9
 """So many tell all tempi of whole microseconds apart."""
 
 
+METER_UNITS = (1, 2, 4, 8, 16, 32, 64, 128)
+"""The notes that a meter of a file may count in (our choice: down to the shortest that programs print)."""
+
+
 @dataclass(frozen=True, slots=True)
 class MeterChange:
     """From `tick` on, bars have `beats` beats of 1/`unit` note. A change in mid-bar starts a new bar there.

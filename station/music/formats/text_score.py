@@ -28,7 +28,7 @@ from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Orname
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import MusicFormat
 from station.music.score import Note, Score
-from station.music.tempo import MeterChange, TempoChange, TempoMap
+from station.music.tempo import METER_UNITS, MeterChange, TempoChange, TempoMap
 
 MOST_BYTES = 8 << 20
 """No text score is longer (our choice: hours of music)."""
@@ -56,7 +56,6 @@ _NUMBERS: dict[str, tuple[type[int] | type[float], float]] = {
 }
 """What a number is and its greatest value; a grace stroke a second early is none any more (our choice)."""
 _PLAYERS = {True: (Limb.RIGHT_HAND, Limb.LEFT_HAND), False: (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)}
-_UNITS = (1, 2, 4, 8, 16, 32, 64, 128)
 _SLOWEST_US = 10**9
 """Microseconds a quarter note, far slower than MIDI files can say (our choice)."""
 _PLACE = re.compile(r"([0-9]{1,6}):([0-9]{1,3})(?:\+([0-9]{1,9})/([0-9]{1,9}))?")
@@ -166,7 +165,7 @@ class _Reader:
             place, value = self.directive(words, "meter BAR:BEAT BEATS/UNIT")
             self.tempo_map = TempoMap.build([], changes)
             match = re.fullmatch(r"([0-9]{1,3})/([0-9]{1,3})", value.text)
-            if not match or int(match[1]) == 0 or int(match[2]) not in _UNITS:
+            if not match or int(match[1]) == 0 or int(match[2]) not in METER_UNITS:
                 raise self.fault(value, "expected a meter such as 4/4 or 6/8")
             changes.append(MeterChange(self.tick(place), int(match[1]), int(match[2])))
         return TempoMap.build([], changes)

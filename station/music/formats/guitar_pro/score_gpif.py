@@ -13,42 +13,32 @@ from types import MappingProxyType
 from xml.etree.ElementTree import Element
 
 from station.core.errors import BadInput
-from station.core.note_map import strike_of
 from station.core.pieces import Dynamic
 from station.core.units import PPQ
-from station.music.formats.guitar_pro.tab_kit import OF_ELEMENT, TAB_KIT
-from station.music.formats.guitar_pro.tab_song import (
-    METER_UNITS,
-    TabBar,
-    TabBeat,
-    TabNote,
-    TabSong,
+from station.music.formats.guitar_pro.gpif_elements import (
+    DrumTrack,
+    decimal,
+    is_for_drums,
+    master_bar,
+    number_of_articulation,
+    number_of_note,
+    tuplet_of,
+    whole,
+    with_graces,
 )
-from station.music.formats.guitar_pro.tab_words import (
-    FEEL_OF,
-    STRAIGHT_FEEL,
-    bpm_to_us,
-    checked_meter,
-    signs_of,
-    within,
-)
+from station.music.formats.guitar_pro.tab_song import TabBar, TabBeat, TabNote, TabSong
+from station.music.formats.guitar_pro.tab_words import bpm_to_us, checked_meter, within
 from station.music.formats.playing_order import MOST_BARS
 from station.music.formats.safe_xml import parse_xml, text_of
-from station.music.tempo import MeterChange
+from station.music.tempo import METER_UNITS, MeterChange
 
-_DRUM_CHANNEL = 9
 _NONE = "-1"
 _DEFAULT_BPM = 120.0
-_MOST_NUMBER = 127
-_MOST_DIGITS = 6
 _MOST_DOTS = 3
-_MOST_PASSES = 32
 _MOST_DRUM_BEATS = 50_000
 """Beats and notes of the drum tracks as they are written (our choice: 1,000 bars of sixteenths, two notes each)."""
 _MOST_NOTES = 32
 """Notes of one beat that are read; more than a kit has."""
-_MOST_IN_TUPLET = 64
-"""Our choice; sums of fractions stay short."""
 _HEAVY_ACCENT, _ACCENT = 0x04, 0x08
 
 _VELOCITIES = {name: 15 + 16 * i for i, name in enumerate(("PPP", "PP", "P", "MP", "MF", "F", "FF", "FFF"))}
@@ -76,15 +66,6 @@ _SIMILE_BARS = {"Simple": 1, "FirstOfDouble": 2, "SecondOfDouble": 2}
 def read_gpif(data: bytes, source: str) -> TabSong:
     """The drums of a `score.gpif`; raises `BadInput`."""
     return _Song(parse_xml(data, source, ("GPIF",)), source).read()
-
-
-@dataclass(frozen=True, slots=True)
-class _DrumTrack:
-    """A drum track: its `column` among the bars of a master bar, and what number each articulation is."""
-
-    name: str
-    column: int
-    numbers: tuple[int, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,20 +113,20 @@ class _Song:
 
     # --- tracks -------------------------------------------------------------------------------------------------------
 
-    def _drum_tracks(self) -> Iterator[_DrumTrack]:
+    def _drum_tracks(self) -> Iterator[DrumTrack]:
         by_id = {track.get("id", ""): track for track in self.root.findall("Tracks/Track")}
         order = [by_id[i] for i in text_of(self.root, "MasterTrack/Tracks").split() if i in by_id]
         column = 0
         for track in order or by_id.values():
-            if _is_for_drums(track):
+            if is_for_drums(track):
                 articulations = track.findall("InstrumentSet/Elements/Element/Articulations/Articulation")
-                numbers = tuple(_number_of(a) for a in articulations)
-                yield _DrumTrack(text_of(track, "Name") or "?", column, numbers)
+                numbers = tuple(number_of_articulation(a) for a in articulations)
+                yield DrumTrack(text_of(track, "Name") or "?", column, numbers)
             column += max(len(track.findall("Staves/Staff")), 1)
 
     # --- bars ---------------------------------------------------------------------------------------------------------
 
-    def _track_bars(self, track: _DrumTrack) -> Iterator[TabBar]:
+    def _track_bars(self, track: DrumTrack) -> Iterator[TabBar]:
         """The bars of one track with what the master bars say over them."""
         tempos = self._tempos()
         us = bpm_to_us(_DEFAULT_BPM, self.source, 0)
@@ -157,13 +138,13 @@ class _Song:
             changes = [(round(share * meter.bar_ticks), rate) for share, rate in sorted(tempos.get(i, []))]
             bar_tempos = (*([] if changes and changes[0][0] == 0 else [(0, us)]), *changes)
             us = bar_tempos[-1][1]
-            bar = _master_bar(master, meter)
+            bar = master_bar(master, meter)
             yield replace(bar, beats=tuple(within(content[-1], meter)), tempos=bar_tempos)
 
     def _meter(self, master: Element, i: int, beats: Sequence[TabBeat]) -> MeterChange:
         """The meter of a bar; of an upbeat as long as its content."""
         count, _, unit = text_of(master, "Time", "4/4").partition("/")
-        meter = checked_meter(_whole(count), _whole(unit), self.source, i)
+        meter = checked_meter(whole(count), whole(unit), self.source, i)
         length = max((b.tick + b.length_ticks for b in beats), default=0)
         if i or self.root.find("MasterTrack/Anacrusis") is None or not 0 < length < meter.bar_ticks:
             return meter
@@ -176,11 +157,11 @@ class _Song:
         for automation in self.root.findall("MasterTrack/Automations/Automation"):
             if text_of(automation, "Type") != "Tempo":
                 continue
-            bar = _whole(text_of(automation, "Bar"))
+            bar = whole(text_of(automation, "Bar"))
             value, _, beat = text_of(automation, "Value").partition(" ")
-            quarters = _BEAT_OF_TEMPO.get(_whole(beat), Fraction(1))
-            us = bpm_to_us(_decimal(value) * float(quarters), self.source, bar)
-            found.setdefault(bar, []).append((min(max(_decimal(text_of(automation, "Position")), 0.0), 1.0), us))
+            quarters = _BEAT_OF_TEMPO.get(whole(beat), Fraction(1))
+            us = bpm_to_us(decimal(value) * float(quarters), self.source, bar)
+            found.setdefault(bar, []).append((min(max(decimal(text_of(automation, "Position")), 0.0), 1.0), us))
         return found
 
     def _lost(self) -> Iterator[str]:
@@ -193,7 +174,7 @@ class _Song:
 
     # --- beats --------------------------------------------------------------------------------------------------------
 
-    def _bar_beats(self, track: _DrumTrack, master: Element, i: int) -> tuple[tuple[TabBeat, ...], int]:
+    def _bar_beats(self, track: DrumTrack, master: Element, i: int) -> tuple[tuple[TabBeat, ...], int]:
         """The beats of all voices of a bar, and how many bars before it stands what it repeats."""
         ids = text_of(master, "Bars").split()
         if track.column >= len(ids):
@@ -203,7 +184,7 @@ class _Song:
         beats = [beat for v in voices for beat in self._voice_beats(track, self._find(self.voices, v, "voice", i), i)]
         return tuple(beats), _SIMILE_BARS.get(text_of(bar, "SimileMark"), 0)
 
-    def _voice_beats(self, track: _DrumTrack, voice: Element, i: int) -> Iterator[TabBeat]:
+    def _voice_beats(self, track: DrumTrack, voice: Element, i: int) -> Iterator[TabBeat]:
         at, graces = Fraction(0), []  # type: Fraction, list[int]
         for beat_id in text_of(voice, "Beats").split():
             beat = self._beat(track, beat_id, i)
@@ -215,11 +196,11 @@ class _Song:
                 continue
             if beat.notes:
                 start, end = round(at * PPQ), round((at + beat.quarters) * PPQ)
-                notes = tuple(_with_graces(beat.notes, graces)) if graces else beat.notes
+                notes = tuple(with_graces(beat.notes, graces)) if graces else beat.notes
                 yield TabBeat(start, max(end - start, 1), notes, beat.is_tuplet)
             at, graces = at + beat.quarters, []
 
-    def _beat(self, track: _DrumTrack, beat_id: str, i: int) -> _Beat:
+    def _beat(self, track: DrumTrack, beat_id: str, i: int) -> _Beat:
         """A beat for one track; bars that are alike share theirs, so each is read once."""
         key = (track.column, beat_id)
         if key not in self.known_beats:
@@ -248,118 +229,23 @@ class _Song:
         if name not in _QUARTERS:
             raise BadInput(self.source, f"bar {i + 1}", f"a note value of {name[:20]!r}")
         dots = rhythm.find("AugmentationDot")
-        count = 0 if dots is None else min(_whole(dots.get("count", "1")), _MOST_DOTS)
+        count = 0 if dots is None else min(whole(dots.get("count", "1")), _MOST_DOTS)
         quarters = _QUARTERS[name] * (2 - Fraction(1, 2**count))
-        ratio = _tuplet(rhythm.find("PrimaryTuplet")) * _tuplet(rhythm.find("SecondaryTuplet"))
+        ratio = tuplet_of(rhythm.find("PrimaryTuplet")) * tuplet_of(rhythm.find("SecondaryTuplet"))
         return quarters * ratio, ratio != 1
 
-    def _note(self, track: _DrumTrack, beat: Element, note: Element) -> TabNote:
+    def _note(self, track: DrumTrack, beat: Element, note: Element) -> TabNote:
         velocity = _VELOCITIES.get(text_of(beat, "Dynamic", _USUAL_DYNAMIC), _VELOCITIES[_USUAL_DYNAMIC])
-        accent = _whole(text_of(note, "Accent", "0"))
+        accent = whole(text_of(note, "Accent", "0"))
         is_ghost = text_of(note, "AntiAccent").lower() == "normal"
         dynamic = (
             Dynamic.ACCENT if accent & (_ACCENT | _HEAVY_ACCENT) else (Dynamic.GHOST if is_ghost else Dynamic.NORMAL)
         )
         tie = note.find("Tie")
         return TabNote(
-            _number(track, note),
+            number_of_note(track, note),
             velocity,
             dynamic,
             tremolo_ticks=_TREMOLO_TICKS.get(text_of(beat, "Tremolo"), 0),
             is_tied=tie is not None and tie.get("destination", "").lower() == "true",
         )
-
-
-# --- what single elements say ----------------------------------------------------------------------------------------
-
-
-def _is_for_drums(track: Element) -> bool:
-    """By its kind of instrument, by General MIDI's table (GP 6), or by its channel."""
-    general_midi = track.find("GeneralMidi")
-    table = "" if general_midi is None else general_midi.get("table", "")
-    channels = {text_of(track, f"{kind}/PrimaryChannel") for kind in ("MidiConnection", "GeneralMidi")}
-    kind = text_of(track, "InstrumentSet/Type")
-    return kind == "drumKit" or table == "Percussion" or str(_DRUM_CHANNEL) in channels
-
-
-def _number_of(articulation: Element) -> int:
-    """The percussion number of an articulation: its first input number, which tells a rim shot from a stroke.
-
-    Where that is of another piece than its output number, as in kits of the user's own, the output counts.
-    """
-    output = _whole(text_of(articulation, "OutputMidiNumber"))
-    first = _whole((text_of(articulation, "InputMidiNumbers").split() or [""])[0])
-    if 0 < first <= _MOST_NUMBER and strike_of(first, TAB_KIT).piece is strike_of(output, TAB_KIT).piece:
-        return first
-    return min(output, _MOST_NUMBER)
-
-
-def _number(track: _DrumTrack, note: Element) -> int:
-    properties = {p.get("name", ""): p for p in note.findall("Properties/Property")}
-    values = {
-        name: _whole(text_of(properties[name], child)) if name in properties else None
-        for name, child in (("Element", "Element"), ("Variation", "Variation"), ("Midi", "Number"), ("Fret", "Fret"))
-    }
-    index = text_of(note, "InstrumentArticulation")
-    if index:
-        place = _whole(index)
-        return track.numbers[place] if place < len(track.numbers) else min(place, _MOST_NUMBER)
-    if values["Element"] is not None:
-        pair = (values["Element"], values["Variation"] or 0)
-        return OF_ELEMENT.get(pair, OF_ELEMENT.get((pair[0], 0), 0))
-    return min(values["Midi"] or values["Fret"] or 0, _MOST_NUMBER)
-
-
-def _master_bar(master: Element, meter: MeterChange) -> TabBar:
-    """What a master bar says of repeats, jumps, feel and section."""
-    repeat = master.find("Repeat")
-    closes = repeat is not None and repeat.get("end", "").lower() == "true"
-    passes = [_whole(word) for word in text_of(master, "AlternateEndings").split()]
-    directions = [e.text or "" for kind in ("Target", "Jump") for e in master.findall(f"Directions/{kind}")]
-    name = " ".join(filter(None, (text_of(master, "Section/Letter"), text_of(master, "Section/Text"))))
-    return TabBar(
-        meter,
-        signs=signs_of(
-            directions,
-            repeat_from=repeat is not None and repeat.get("start", "").lower() == "true",
-            repeat_times=min(max(_whole(repeat.get("count", "2")), 2), 255) if closes and repeat is not None else 0,
-            endings=frozenset(n for n in passes if 1 <= n <= _MOST_PASSES),
-        ),
-        feel=FEEL_OF.get(_small(text_of(master, "TripletFeel")), STRAIGHT_FEEL),
-        section=" ".join(name.split()),
-    )
-
-
-def _with_graces(notes: Sequence[TabNote], graces: Sequence[int]) -> Iterator[TabNote]:
-    """The notes of a beat, each grace note with the note of its own drum, else with the first."""
-    pieces = [strike_of(note.number, TAB_KIT).piece for note in notes]
-    of_note: list[list[int]] = [[] for _ in notes]
-    for number in graces:
-        piece = strike_of(number, TAB_KIT).piece
-        of_note[pieces.index(piece) if piece in pieces else 0].append(number)
-    return (replace(note, graces=tuple(own)) for note, own in zip(notes, of_note, strict=True))
-
-
-def _tuplet(tuplet: Element | None) -> Fraction:
-    """How much shorter a tuplet's notes are; it stands in attributes or in elements."""
-    if tuplet is None:
-        return Fraction(1)
-    enters, times = (_whole(tuplet.get(name.lower(), "") or text_of(tuplet, name)) for name in ("Num", "Den"))
-    return Fraction(times, enters) if all(1 <= n <= _MOST_IN_TUPLET for n in (enters, times)) else Fraction(1)
-
-
-def _small(text: str | None) -> str:
-    return "".join((text or "").split()).lower()
-
-
-def _whole(word: str) -> int:
-    """A whole number, 0 where there is none."""
-    return int(word) if word.isascii() and word.isdigit() and len(word) <= _MOST_DIGITS else 0
-
-
-def _decimal(word: str) -> float:
-    """A number, 0 where there is none."""
-    try:
-        return float(word) if len(word) <= 24 else 0.0
-    except ValueError:
-        return 0.0

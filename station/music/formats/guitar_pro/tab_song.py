@@ -15,7 +15,6 @@ MOST_TAB_BEATS, MOST_TAB_NOTES = 50_000, 60_000
 """Beats and notes of all tracks together, about 20 µs each to read (our choice: 400 bars of ten tracks)."""
 MOST_TAB_STROKES = 40_000
 """Strokes as they are played (our choice: an hour of 11 a second)."""
-METER_UNITS = (1, 2, 4, 8, 16, 32, 64, 128)
 MOST_METER_BEATS = 64
 SLOWEST_TAB_BPM, FASTEST_TAB_BPM = 1.0, 2000.0
 """What a file may say (our choice: Guitar Pro offers 30 to 600)."""

@@ -8,14 +8,13 @@ from station.core.errors import BadInput
 from station.core.units import PPQ
 from station.music.formats.guitar_pro.tab_song import (
     FASTEST_TAB_BPM,
-    METER_UNITS,
     MOST_METER_BEATS,
     SLOWEST_TAB_BPM,
     TabBeat,
 )
 from station.music.formats.playing_order import AL_FINE, TO_THE_END, BarSigns
 from station.music.swing import TRIPLETS, Swing
-from station.music.tempo import MeterChange, TempoChange
+from station.music.tempo import METER_UNITS, MeterChange, TempoChange
 
 _DOTTED = 3.0
 _8TH, _16TH = PPQ // 2, PPQ // 4

@@ -5,11 +5,11 @@ from math import lcm
 from xml.etree.ElementTree import Element
 
 from station.core.errors import BadInput
-from station.music.tempo import MeterChange
+from station.music.tempo import METER_UNITS, MeterChange
 
-MOST_BEATS, MOST_UNIT = 128, 128
+MOST_BEATS = 128
 """Of a bar that is read (our choice: far beyond what is printed)."""
-_UNITS = {str(2**k) for k in range(MOST_UNIT.bit_length())}
+_UNITS = {str(unit) for unit in METER_UNITS}
 
 
 def meter_of(time: Element, source: str, place: str) -> MeterChange:

@@ -14,7 +14,7 @@ from station.core.pieces import HAND_PIECES, Piece
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import WrittenFile
-from station.music.formats.music_xml.reading.time_reading import MOST_BEATS, MOST_UNIT
+from station.music.formats.music_xml.reading.time_reading import MOST_BEATS
 from station.music.formats.music_xml.writing.bar_writing import SpelledBar
 from station.music.formats.music_xml.writing.direction_writing import Direction, directions_of
 from station.music.formats.music_xml.writing.element_writing import (
@@ -33,7 +33,7 @@ from station.music.formats.music_xml.xml_instruments import XmlInstrument, instr
 from station.music.formats.playing_order import MOST_BARS
 from station.music.score import Score
 from station.music.swing import Swing
-from station.music.tempo import MeterChange
+from station.music.tempo import METER_UNITS, MeterChange
 
 _HEAD = (
     '<?xml version="1.0" encoding="UTF-8"?>\n<!DOCTYPE score-partwise PUBLIC "-//Recordare//DTD MusicXML 4.0 Partwise'
@@ -62,7 +62,7 @@ def write_music_xml(part: DrumPart) -> WrittenFile:
 def _check(part: DrumPart) -> None:
     title = part.score.title or "part"
     for meter in part.score.tempo_map.meters:
-        if meter.unit & (meter.unit - 1) or meter.unit > MOST_UNIT or meter.beats > MOST_BEATS:
+        if meter.unit not in METER_UNITS or meter.beats > MOST_BEATS:
             raise BadInput(title, "", f"MusicXML has no meter {meter}")
     if part.score.bar_count > MOST_BARS:
         raise BadInput(title, "", f"has more than {MOST_BARS:,} bars")
