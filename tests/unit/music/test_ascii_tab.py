@@ -146,9 +146,12 @@ def test_what_comes_back_of_every_lesson_is_what_is_kept() -> None:
         part = part_of(lesson)
         written = write_tab(part)
         back, lost = read_tab(written.data, lesson.name), {loss.feature for loss in written.lost}
-        before, after = (s.notes[s.notes["lead_ms"] == 0] for s in (part.score.as_written, back.score))
+        before, after = (s.notes[s.notes["lead_ms"] == 0] for s in (part.score, back.score))
         if not lost & {Feature.TIMES, Feature.DYNAMICS}:
             assert before[columns].tolist() == after[columns].tolist(), lesson.name
+        if Feature.SWING not in lost:
+            assert part.swing == back.swing, lesson.name
+            assert (part.score.notes["tick"] == back.score.notes["tick"]).all() or lost & {Feature.TIMES}, lesson.name
         if Feature.TEMPO not in lost:
             assert part.score.tempo_map.tempos == back.score.tempo_map.tempos, lesson.name
         if Feature.SECTIONS not in lost:
@@ -160,6 +163,24 @@ def test_swing_that_begins_later_is_told_too() -> None:
     """Its first part is straight, and so is the swing that the whole part has."""
     told = {loss.feature: loss.text for loss in write_tab(part_of(find_lesson("latin-jazz-1"))).lost}
     assert told == dict.fromkeys((Feature.TIMES, Feature.SWING), "swing is written straight")
+
+
+@pytest.mark.parametrize(
+    ("name", "line"), [("jazz-ride-1", "Swing 2:1 of eighths"), ("hip-hop-2", "Swing 1.6:1 of sixteenths")]
+)
+def test_swing_is_written_in_words(name: str, line: str) -> None:
+    part = part_of(find_lesson(name))
+    written = write_tab(part)
+    assert line in written.data.decode().splitlines()
+    assert not {loss.feature for loss in written.lost} & {Feature.TIMES, Feature.SWING}
+    back = read_tab(written.data, "a.tab")
+    assert back.swing == part.swing
+    assert sorted(back.score.notes["tick"]) == sorted(part.score.notes["tick"])
+
+
+def test_bars_of_no_section_are_told_by_their_numbers() -> None:
+    told = [loss.text for loss in write_tab(part_of(find_lesson("funk-fill-1"))).lost]
+    assert "bar 5 belongs to no section; in the file it stands in 'fill'" in told
 
 
 def test_no_line_is_wider_than_a_mail() -> None:

@@ -245,7 +245,7 @@ def _score(bars: Sequence[_Bar], title: str, swing: Swing) -> Score:
 def _note(stroke: _Stroke, bar: MeterChange, swing: Swing) -> Note:
     """The stroke of a bar; `swing` moves it unless its line has triplets or other tuplets there."""
     struck, written = stroke.struck, round(stroke.at * bar.bar_ticks)
-    swing = swing if _is_plain(stroke.cell * bar.bar_ticks) else Swing()
+    swing = swing if is_plain(stroke.cell * bar.bar_ticks) else Swing()
     played = swing.swung(written, bar)
 
     def lasting(share: Fraction) -> int:
@@ -267,8 +267,8 @@ def _note(stroke: _Stroke, bar: MeterChange, swing: Swing) -> Note:
     )
 
 
-def _is_plain(cell_ticks: Fraction) -> bool:
-    """Whether a cell is a note value without a tuplet: a whole note parted in two, four, eight and so on."""
+def is_plain(cell_ticks: Fraction) -> bool:
+    """Whether swing moves cells of this length: all but those of tuplets, a whole note halved again and again."""
     parts = Fraction(4 * PPQ) / cell_ticks
     return parts.denominator == 1 and parts.numerator & (parts.numerator - 1) == 0
 

@@ -5,8 +5,9 @@ All patterns look through lines that `tidy` made short, so that none takes long.
 
 import re
 
+from station.core.units import PPQ
 from station.music.formats.words_of_swing import swing_in_words
-from station.music.swing import Swing
+from station.music.swing import MAX_RATIO, MIN_RATIO, Swing
 from station.music.tempo import MAX_BPM, MIN_BPM
 
 MOST_WORDS = 300
@@ -18,6 +19,10 @@ _TEMPO = re.compile(
     rf"|(?:tempo\s*[:=]?\s*)?\b(?:q|quarter(?: notes?)?|1/4)\s*=\s*{_NUMBER}(?:\s*bpm)?"
     rf"|{_NUMBER}\s*bpm",
     re.IGNORECASE,
+)
+SWUNG_CELLS = {"eighths": PPQ // 2, "sixteenths": PPQ // 4, "32nds": PPQ // 8}
+_SWING_IN_NUMBERS = re.compile(
+    rf"\bswing ([0-9]{{1,2}}(?:\.[0-9]{{1,9}})?) ?: ?1(?: of)? ({'|'.join(SWUNG_CELLS)})\b", re.IGNORECASE
 )
 _METER = re.compile(r"(?<![0-9/])([0-9]{1,2})\s*/\s*(1|2|4|8|16|32)(?![0-9/])")
 _ABOUT_TIME = re.compile(
@@ -56,7 +61,9 @@ _KEY = re.compile(r"\s*(?:\S\s*[-–=:]\s|(?:key|legend)\b|(?:bar|measure)s? ?[0
 """A line of the key of letters, "f - flam", or the word above it, or numbers of bars: no name of a part."""
 _TITLE = re.compile(r"([^|:=]{1,60})$")
 _BY = re.compile(r"\s*(?:(?:tabbed|transcribed|written|arranged|played|drums) )?by:?\s+(.{1,60}?)\s*$", re.IGNORECASE)
-_BAND = re.compile(r"(?:(?:[A-Z0-9][\w'.!-]*|&|and|of|the) ?){1,6}")
+_OF_A_NAME = re.compile(r"[A-Z0-9][\w'.!-]*|&|and|of|the")
+_MOST_OF_A_NAME = 6
+"""Words of a band's name (our choice: longer lines are sentences)."""
 
 
 def tidy(line: str) -> str:
@@ -82,7 +89,9 @@ def author_in(line: str, is_alone: bool) -> str:
     """Who a line right below the title names, "by Ada" or, where the line is alone there, a band's name."""
     if said := _BY.match(line):
         return said[1]
-    return line if is_alone and _BAND.fullmatch(line) and not _PART.match(line) and not says_time(line) else ""
+    words = line.split()
+    is_name = bool(words) and len(words) <= _MOST_OF_A_NAME and all(_OF_A_NAME.fullmatch(word) for word in words)
+    return line if is_alone and is_name and not _PART.match(line) and not says_time(line) else ""
 
 
 def part_name(line: str) -> str:
@@ -113,10 +122,23 @@ def meter_in(line: str) -> tuple[int, int] | None:
 
 def swing_in(line: str) -> Swing | None:
     """The swing that a line, or what commas part of it, asks for."""
+    if found := _SWING_IN_NUMBERS.search(line):
+        return Swing(float(found[1]), SWUNG_CELLS[found[2].lower()]) if _is_played(float(found[1])) else None
     for words in re.split(r"[,;()|]|[-–—:] | [-–—]", line.lower()):
         if swing := swing_in_words(words.strip(_RULES + ".!")):
             return swing
     return None
+
+
+def swing_in_numbers(swing: Swing) -> str:
+    """The words from which `swing_in` reads just this swing; empty where there are none."""
+    cells = next((cells for cells, ticks in SWUNG_CELLS.items() if ticks == swing.unit_ticks), "")
+    words = f"Swing {swing.ratio:.6g}:1 of {cells}"
+    return words if cells and swing.stands_in_words and swing_in(words) == swing else ""
+
+
+def _is_played(ratio: float) -> bool:
+    return MIN_RATIO <= ratio <= MAX_RATIO
 
 
 def says_time(line: str) -> bool:
