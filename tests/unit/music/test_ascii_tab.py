@@ -454,3 +454,16 @@ def test_a_text_whose_first_lines_are_known_in_part_is_tablature() -> None:
     """So that the message names the line, and not the formats that a text may be in."""
     assert is_tab(b"Words\n\nRide |x---x-x-|\nQqq  |----o---|\nZzz  |o---o---|\n")
     assert not is_tab(b"Words | and more\nof them | here\n")
+
+
+def test_a_hat_that_finds_no_hand_is_the_foots() -> None:
+    text = "Tempo: 70\n12/8\nR |x-xx-xx-xx-x|\nS |---o-----o--|\nB |o-----o-----|\nH |---x-----x--|\n"
+    part = read(text)
+    assert ticks(part, Piece.HIHAT_PEDAL) == [3 * EIGHTH, 9 * EIGHTH]
+    assert part.lost == ("line 6: read as the hi-hat of the foot, for both hands are busy at its strokes",)
+
+
+def test_a_hat_beside_a_ride_in_other_cells_is_the_hands() -> None:
+    part = read("Rd|--------x-x-x-x-|\nHH|x-x-x-x---------|\nSD|----o-------o---|\n")
+    assert not ticks(part, Piece.HIHAT_PEDAL)
+    assert len(ticks(part, Piece.HIHAT)) == 4

@@ -15,6 +15,7 @@ from station.core.errors import BadInput
 from station.core.pieces import CHOKEABLE, HALF_OPEN, Articulation, Dynamic, Piece
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart, PartSection
+from station.music.formats.ascii_tab.hat_of_the_foot import with_hat_of_the_foot
 from station.music.formats.ascii_tab.tab_beats import in_whole_bars
 from station.music.formats.ascii_tab.tab_letters import CHOKE, LETTERS, RESTS, TabStroke
 from station.music.formats.ascii_tab.tab_lines import TabBar
@@ -96,7 +97,8 @@ class _Reader:
         for typed in text.systems:
             stated = typed.meter or stated
             system, said = in_whole_bars(typed, stated)
-            self.lost.update(dict.fromkeys(said))
+            system, heard = with_hat_of_the_foot(system)
+            self.lost.update(dict.fromkeys((*said, *heard)))
             count = max(len(row.bars) for row in system.rows)
             beats = stated[0] if stated else _counted(system.count)
             bars = [self.bar(system, k, stated, beats) for k in range(min(count, _MOST_BARS + 1))]
