@@ -354,6 +354,7 @@ def names(part: DrumPart) -> list[str]:
         ("1st Verse", "1st Verse"),
         ("--- Chorus ---", "Chorus"),
         ("Verse 1 - with ghost notes", "Verse 1"),
+        ("Verse 1 [play 4x]", "Verse 1"),
     ],
 )
 def test_names_of_parts_as_people_write_them(line: str, name: str) -> None:
@@ -381,7 +382,7 @@ def test_a_title_among_rules_or_beside_its_tempo(line: str, title: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "words", ["q = 160", "♩ = 160", "quarter note = 160", "Tempo: quarter = 160", "160 BPM", "1/4 = 160"]
+    "words", ["q = 160", "♩ = 160", "quarter note = 160", "Tempo: quarter = 160", "160 BPM", "1/4 = 160", "4/4 @ 160"]
 )
 def test_the_tempo_as_people_write_it(words: str) -> None:
     part = read(f"A Tune\n{words}\n\n{GROOVE}")
@@ -467,3 +468,16 @@ def test_a_hat_beside_a_ride_in_other_cells_is_the_hands() -> None:
     part = read("Rd|--------x-x-x-x-|\nHH|x-x-x-x---------|\nSD|----o-------o---|\n")
     assert not ticks(part, Piece.HIHAT_PEDAL)
     assert len(ticks(part, Piece.HIHAT)) == 4
+
+
+def test_a_title_between_rules() -> None:
+    part = read(f"--------\n A TUNE\n by: Ada\n 4/4 @ 82\n--------\n\n{GROOVE}\n            [x8]\n")
+    assert (part.score.title, part.author, names(part)) == ("A TUNE", "Ada", [])
+    assert round(60e6 / part.score.tempo_map.tempos[0].us_per_quarter) == 82
+    assert part.score.bar_count == 8
+
+
+def test_a_part_that_is_the_same_as_another_is_told() -> None:
+    part = read(f"A Tune\nTempo: 96\n\nVerse 1 [play 4x]\n{GROOVE}\nVerse 2: same as verse 1\n\n{GROOVE}")
+    assert [(s.name, s.first_bar, s.last_bar) for s in part.sections] == [("Verse 1", 0, 4)]
+    assert part.lost == ("line 9: 'Verse 2: same as verse 1' is not carried out",)

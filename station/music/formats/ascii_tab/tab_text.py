@@ -150,7 +150,7 @@ def _heading(lines: Sequence[str], found: TabText, waiting: TabSystem) -> int:
 
     A line right above tablature is the name of a part, and so is one that is called as parts are.
     """
-    top = next((i for i, line in enumerate(lines) if line.strip()), len(lines))
+    top = next((i for i, line in enumerate(lines) if any(map(str.isalnum, line))), len(lines))
     below = lines[top + 1 : top + 2]
     if (
         not below
@@ -184,7 +184,7 @@ def _read_words(line: str, number: int, found: TabText, waiting: TabSystem) -> N
     found.swing = swing_in(line) or found.swing
     if name := part_name(line):
         waiting.section, waiting.times = name, times_in(line)
-    elif asks_for_order(line):
+    if asks_for_order(line):
         found.unheeded.append((number, line))
 
 

@@ -15,7 +15,7 @@ MOST_WORDS = 300
 
 _NUMBER = r"([0-9]{2,4}(?:\.[0-9]{1,9})?)"
 _TEMPO = re.compile(
-    rf"(?:\b(?:tempo|bpm|speed)|♩)\s*[:=]?\s*{_NUMBER}"
+    rf"(?:\b(?:tempo|bpm|speed)|♩|@)\s*[:=]?\s*{_NUMBER}"
     rf"|(?:tempo\s*[:=]?\s*)?\b(?:q|quarter(?: notes?)?|1/4)\s*=\s*{_NUMBER}(?:\s*bpm)?"
     rf"|{_NUMBER}\s*bpm",
     re.IGNORECASE,
@@ -34,12 +34,13 @@ _TIMES = re.compile(
     re.IGNORECASE,
 )
 _MOST_TIMES = 64
-_AGAIN = re.compile(r"[\s(]*(?:repeat|play|[x×]\s*[0-9]|[0-9]+\s*(?:[x×]|times)|twice)", re.IGNORECASE)
+_AGAIN = re.compile(r"[\s(\[]*(?:repeat|play|[x×]\s*[0-9]|[0-9]+\s*(?:[x×]|times)|twice)", re.IGNORECASE)
 _ASKS_FOR_ORDER = re.compile(
     r"\brepeat|\bplay\b.*\bagain\b|\b(?:go|back)\b.* to\b"
     r"|\bd\.? ?[cs]\.(?:\s|$)|\bda capo\b|\bdal segno\b|\b(?:to|al) coda\b",
     re.IGNORECASE,
 )
+_SAME = re.compile(r"\bsame as\b|\bas above\b|\bsimile\b", re.IGNORECASE)
 _IN_BRACKETS = re.compile(r"\s*\[(?=[^\]|]{0,39}[A-Za-z])([^\]|]{1,40})\]")
 _RULES = " \t=*~#_-"
 _PLAIN_NAME = re.compile(r"\s*([A-Za-z][A-Za-z0-9 '/-]{0,30}):?\s*(?:\([\s0-9]*\))?:?\s*$")
@@ -51,7 +52,7 @@ _KIND = (
 _COUNTED = r"(?:(?:[0-9]{1,2}(?:st|nd|rd|th)|first|second|third|last|final|main) )?"
 _PART = re.compile(rf"\s*(?:{_COUNTED}{_KIND}\b|[a-h]\s*(?:$|[(:]))", re.IGNORECASE)
 _NAME_AND_REMARK = re.compile(
-    rf"\s*({_COUNTED}{_KIND}(?: (?:[0-9]{{1,2}}|[a-h]|i{{1,3}}|iv))?)\s*(?:$|[(:,]|[-–—] )", re.IGNORECASE
+    rf"\s*({_COUNTED}{_KIND}(?: (?:[0-9]{{1,2}}|[a-h]|i{{1,3}}|iv))?)\s*(?:$|[(\[:,]|[-–—] )", re.IGNORECASE
 )
 _SHORT_AND_NAME = re.compile(
     rf"\s*[A-Za-z][0-9]?\s*[:=)-]\s*({_COUNTED}{_KIND}(?: [0-9a-h]{{1,2}})?)\s*:?\s*$", re.IGNORECASE
@@ -96,6 +97,8 @@ def author_in(line: str, is_alone: bool) -> str:
 
 def part_name(line: str) -> str:
     """What a line calls the part of the song below it; empty where it names none."""
+    if (says_again(line) and times_in(line) > 1) or _SAME.search(line):
+        return ""
     if found := _IN_BRACKETS.match(line):
         return tidy(found[1])
     named = _TIMES.sub("", line).strip(_RULES)
@@ -159,4 +162,4 @@ def says_again(line: str) -> bool:
 
 def asks_for_order(line: str) -> bool:
     """Whether it speaks of what is played next, in words that are for a person."""
-    return bool(_ASKS_FOR_ORDER.search(line))
+    return bool(_ASKS_FOR_ORDER.search(_TIMES.sub("", line)) or _SAME.search(line))
