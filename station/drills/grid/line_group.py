@@ -108,4 +108,5 @@ def joined_strokes(
     bars = range(len(starts))
     unsure = frozenset(bar for bar in bars if not are_all or any(line.is_unsure(bar) for line in lines))
     asked, beyond = parted(strokes)
-    return [*beyond, *apply_sticking(zip(starts, under.bars, strict=False), asked, under.reporter(faults), unsure)]
+    below = zip(starts, under.bars, strict=False)
+    return [*beyond, *apply_sticking(below, clock, asked, under.reporter(faults), unsure)]

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from types import MappingProxyType
 
 from station.core.pieces import TOMS, Limb, Piece, word
-from station.drills.grid.cell_strokes import WrittenCell
+from station.drills.grid.cell_strokes import BarClock, WrittenCell
 from station.drills.grid.grid import Bar
 from station.drills.grid.tab_symbols import RESTS
 
@@ -38,33 +38,36 @@ RIGHT_FIRST: tuple[Piece, ...] = (
 
 def apply_sticking(
     bars: Iterable[tuple[int, Bar]],
+    clock: BarClock,
     strokes: Iterable[WrittenCell],
     report: Callable[[int, str], None],
     unsure_bars: frozenset[int],
 ) -> list[WrittenCell]:
     """The strokes with the hands that the line says, its bars each with the tick of its start; faults go to `report`.
 
+    A letter stands for what is played at its moment: a swung eighth may be written as the last of three cells.
     `unsure_bars` are those (from 0) in which another line is at fault: there a missing stroke is no fault.
     """
     by_tick: dict[int, list[WrittenCell]] = {}
     others: list[WrittenCell] = []
     for stroke in strokes:
         if Limb(stroke.limb) in HANDS.values() or stroke.limb is Limb.UNKNOWN:
-            by_tick.setdefault(stroke.place.straight, []).append(stroke)
+            by_tick.setdefault(stroke.place.played, []).append(stroke)
         else:
             others.append(stroke)
     for number, (start, bar) in enumerate(bars):
         for cell in bar.cells:
             if cell.letter in RESTS:
                 continue
-            here = by_tick.get(start + cell.tick, [])
+            tick = clock.place(start + cell.tick, cell.swings).played
+            here = by_tick.get(tick, [])
             if len(here) > len(HANDS):
                 continue  # nobody can play it, whoever's hands they are: `motion.feasibility` says so
             lacking, fault = _lacking(cell.letter, here), _fault(cell.letter, here)
             if fault or (lacking and number not in unsure_bars):
                 report(cell.char, fault or lacking)
             elif not lacking:
-                by_tick[start + cell.tick] = _with_hands(cell.letter, here)
+                by_tick[tick] = _with_hands(cell.letter, here)
     return [*others, *(s for here in by_tick.values() for s in here)]
 
 

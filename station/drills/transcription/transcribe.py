@@ -29,7 +29,6 @@ from station.drills.transcription.timing.grid_times import GridTimes, quantised_
 from station.drills.transcription.timing.meter_finder import with_heard_meter
 from station.drills.transcription.timing.stated_swing import readable, stated_times
 from station.drills.transcription.timing.tempo_steps import steady
-from station.drills.writing.lesson_form import LessonForm
 from station.drills.writing.lesson_writer import as_written
 from station.music.drum_part import DrumPart, PartSection
 from station.music.grace_strokes import with_graces
@@ -111,16 +110,8 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         velocities=velocities,
     )
     form = found_form(lesson, part.sections)
-    read = _read_back(replace(lesson, level=_level(lesson)), form)
+    read = as_written(with_sticking(replace(lesson, level=_level(lesson)), form), form)
     return Transcribed(read, tuple(remarks_on(ornaments, whole, mains, reach, read, steadied)))
-
-
-def _read_back(lesson: Lesson, form: LessonForm) -> Lesson:
-    """The lesson as it is read from its text, without hands where a line of them cannot say which they are."""
-    try:
-        return as_written(with_sticking(lesson, form), form)
-    except BadInput:
-        return as_written(lesson, form)
 
 
 def _heard_times(mains: Score, part: DrumPart) -> GridTimes:

@@ -79,3 +79,9 @@ def test_a_fault_elsewhere_is_not_blamed_on_the_sticking() -> None:
 def test_but_a_letter_without_a_stroke_in_a_sound_bar_is_named_all_the_same() -> None:
     found = faults(text_of('snare = "oo-- | ooo"\nsticking = "RLR- | RLRL"'))
     assert [(f.line, f.column) for f in found] == [(4, 17), (5, 15)]
+
+
+def test_a_swung_eighth_may_be_written_as_the_last_of_three_cells() -> None:
+    lines = 'ride = "x-x x-x x-x x-x"\nsticking = "RL RL RL RL"'
+    assert [limb for _, limb in limbs(f"swing_ratio = 2\n{lines}")] == [R, L] * 4
+    assert "says a hand" in faults(text_of(lines))[0].text

@@ -216,6 +216,13 @@ def test_a_take_without_a_click_that_runs_away_comes_back(by: float) -> None:
     assert strokes(found.score) == strokes(written)
 
 
+@pytest.mark.parametrize("by", [0.98, 1.02])
+def test_a_short_take_at_another_tempo_comes_back(by: float) -> None:
+    written = score_of(ROCK, 3, TempoMap.constant(110))  # 39 strokes; the last lie 130 ms off
+    found = quantised_times(slowed(played(written, 11), by), is_played=True)
+    assert strokes(found.score) == strokes(written)
+
+
 def test_a_beat_that_wanders_is_followed() -> None:
     written = score_of(ROCK, 16, TempoMap.constant(110))
     take = played(written, 12)
