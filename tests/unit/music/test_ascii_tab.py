@@ -12,6 +12,7 @@ from station.music.formats.ascii_tab.tab_reader import read_tab
 from station.music.formats.ascii_tab.tab_text import is_tab
 from station.music.formats.ascii_tab.tab_writer import write_tab
 from station.music.formats.music_format import Feature
+from station.music.swing import Swing
 
 EIGHTH, SIXTEENTH = PPQ // 2, PPQ // 4
 
@@ -145,9 +146,12 @@ def test_what_comes_back_of_every_lesson_is_what_is_kept() -> None:
         part = part_of(lesson)
         written = write_tab(part)
         back, lost = read_tab(written.data, lesson.name), {loss.feature for loss in written.lost}
-        before, after = (s.notes[s.notes["lead_ms"] == 0] for s in (part.score.as_written, back.score))
+        before, after = (s.notes[s.notes["lead_ms"] == 0] for s in (part.score, back.score))
         if not lost & {Feature.TIMES, Feature.DYNAMICS}:
             assert before[columns].tolist() == after[columns].tolist(), lesson.name
+        if Feature.SWING not in lost:
+            assert part.swing == back.swing, lesson.name
+            assert (part.score.notes["tick"] == back.score.notes["tick"]).all() or lost & {Feature.TIMES}, lesson.name
         if Feature.TEMPO not in lost:
             assert part.score.tempo_map.tempos == back.score.tempo_map.tempos, lesson.name
         if Feature.SECTIONS not in lost:
@@ -159,6 +163,24 @@ def test_swing_that_begins_later_is_told_too() -> None:
     """Its first part is straight, and so is the swing that the whole part has."""
     told = {loss.feature: loss.text for loss in write_tab(part_of(find_lesson("latin-jazz-1"))).lost}
     assert told == dict.fromkeys((Feature.TIMES, Feature.SWING), "swing is written straight")
+
+
+@pytest.mark.parametrize(
+    ("name", "line"), [("jazz-ride-1", "Swing 2:1 of eighths"), ("hip-hop-2", "Swing 1.6:1 of sixteenths")]
+)
+def test_swing_is_written_in_words(name: str, line: str) -> None:
+    part = part_of(find_lesson(name))
+    written = write_tab(part)
+    assert line in written.data.decode().splitlines()
+    assert not {loss.feature for loss in written.lost} & {Feature.TIMES, Feature.SWING}
+    back = read_tab(written.data, "a.tab")
+    assert back.swing == part.swing
+    assert sorted(back.score.notes["tick"]) == sorted(part.score.notes["tick"])
+
+
+def test_bars_of_no_section_are_told_by_their_numbers() -> None:
+    told = [loss.text for loss in write_tab(part_of(find_lesson("funk-fill-1"))).lost]
+    assert "bar 5 belongs to no section; in the file it stands in 'fill'" in told
 
 
 def test_no_line_is_wider_than_a_mail() -> None:
@@ -309,3 +331,153 @@ def test_a_tab_says_the_tempo_as_people_do() -> None:
 def test_an_endless_line_is_read_at_once(line: str) -> None:
     """Patterns that try each blank again take minutes, and 5,000 digits are no number."""
     assert read(f"{line}\nHH|x-x-x-x-|\nSD|--o---o-|\n").score.bar_count >= 1
+
+
+# --- words that people write round their tabs ------------------------------------------------------------------------
+
+
+GROOVE = "HH|x-x-x-x-x-x-x-x-|\nSD|----o-------o---|\nBD|o-------o-------|\n"
+
+
+def names(part: DrumPart) -> list[str]:
+    return [section.name for section in part.sections]
+
+
+@pytest.mark.parametrize(
+    ("line", "name"),
+    [
+        ("Intro (bass plays alone):", "Intro"),
+        ("V: verse", "verse"),
+        ("C: chorus x2", "chorus"),
+        ("Ending: hit crash and stop", "Ending"),
+        ("2nd ending:", "2nd ending"),
+        ("1st Verse", "1st Verse"),
+        ("--- Chorus ---", "Chorus"),
+        ("Verse 1 - with ghost notes", "Verse 1"),
+        ("Verse 1 [play 4x]", "Verse 1"),
+    ],
+)
+def test_names_of_parts_as_people_write_them(line: str, name: str) -> None:
+    assert names(read(f"A Tune\nTempo: 96\n\n{line}\n{GROOVE}")) == [name]
+
+
+def test_what_is_said_under_the_title_names_no_part() -> None:
+    part = read(f"Seven Steps\nThe Grey Coats\n\nLegend:\nC = crash\n\nIntro\n{GROOVE}")
+    assert (part.score.title, part.author, names(part)) == ("Seven Steps", "The Grey Coats", ["Intro"])
+
+
+@pytest.mark.parametrize(
+    ("line", "title"),
+    [
+        ('=== "My Tune" style groove ===     163 bpm', '"My Tune" style groove'),
+        ("*** A TUNE ***", "A TUNE"),
+        ("A drum tab, 12/8 blues, bpm=70", "A drum tab, 12/8 blues"),
+        ("Slow Blues (tempo 70)", "Slow Blues"),
+        ("Fast thing. 200bpm, 4/4", "Fast thing."),
+        ("163 bpm - A Tune (live)", "A Tune (live)"),
+    ],
+)
+def test_a_title_among_rules_or_beside_its_tempo(line: str, title: str) -> None:
+    assert read(f"{line}\n\n{GROOVE}").score.title == title
+
+
+@pytest.mark.parametrize(
+    "words", ["q = 160", "♩ = 160", "quarter note = 160", "Tempo: quarter = 160", "160 BPM", "1/4 = 160", "4/4 @ 160"]
+)
+def test_the_tempo_as_people_write_it(words: str) -> None:
+    part = read(f"A Tune\n{words}\n\n{GROOVE}")
+    assert round(60e6 / part.score.tempo_map.tempos[0].us_per_quarter) == 160
+    assert not part.lost
+
+
+def test_swing_in_words_swings_the_eighths() -> None:
+    """2:1: the second eighth of a beat stands where its third triplet does."""
+    part = read("A Tune\ntempo 160, swing 8ths\n\nRd|x---x-x-x---x-x-|\nBD|o---------------|\n")
+    assert part.swing == Swing(2.0, PPQ // 2)
+    assert ticks(part, Piece.RIDE) == [0, PPQ, PPQ + 2 * PPQ // 3, 2 * PPQ, 3 * PPQ, 3 * PPQ + 2 * PPQ // 3]
+    assert part.score.notes["swing_ticks"].max() == 2 * PPQ // 3 - PPQ // 2
+
+
+def test_triplets_under_a_swing_mark_stay_where_they_are() -> None:
+    part = read("A Tune\nTempo: 90\nSwing\n\nHH|x-xx-xx-xx-x|\nSD|---o-----o--|\n")
+    assert ticks(part, Piece.HIHAT)[:3] == [0, 2 * PPQ // 3, PPQ]
+    assert not part.score.notes["swing_ticks"].any()
+
+
+def test_what_the_text_asks_to_repeat_and_nobody_does_is_told() -> None:
+    part = read(f"A Tune\nTempo: 96\n\nVerse\n{GROOVE}\nthen repeat everything\n\nD.C. al Fine\n")
+    assert [line for line in part.lost if "line 9" in line or "line 11" in line] == [
+        "line 9: 'then repeat everything' is not carried out",
+        "line 11: 'D.C. al Fine' is not carried out",
+    ]
+
+
+def test_a_line_that_asks_to_repeat_names_no_part() -> None:
+    part = read(f"A Tune\nTempo: 96\n\nVerse\n{GROOVE}\nrepeat V 3 times then go to C\n\nC: chorus\n{GROOVE}")
+    assert [(s.name, s.first_bar, s.last_bar) for s in part.sections] == [("Verse", 0, 2), ("chorus", 3, 3)]
+
+
+# --- lines that people write otherwise -------------------------------------------------------------------------------
+
+
+def test_lines_without_any_bar_line() -> None:
+    part = read("C1-x---------------\nHH---x-x-x-x-x-x-x-\nSD-----o-------o---\nBD-o-----o-o-------\n")
+    assert ticks(part, Piece.SNARE) == [PPQ, 3 * PPQ]
+    assert ticks(part, Piece.HIHAT) == [k * EIGHTH for k in range(1, 8)]
+
+
+@pytest.mark.parametrize(
+    ("label", "piece"),
+    [
+        ("Snr", Piece.SNARE),
+        ("BDr", Piece.KICK),
+        ("BD1", Piece.KICK),
+        ("BD2", Piece.KICK),
+        ("TT1", Piece.TOM_1),
+        ("HT1", Piece.TOM_1),
+        ("Bass Dr.", Piece.KICK),
+        ("Ride Bell", Piece.RIDE),
+        ("Hi Hat Foot", Piece.HIHAT_PEDAL),
+        ("HH Pedal", Piece.HIHAT_PEDAL),
+        ("Cym", Piece.CRASH_1),
+    ],
+)
+def test_more_names_of_drums(label: str, piece: Piece) -> None:
+    assert ticks(read(f"Sp|----------------|\n{label}|x-------x-------|\n"), piece) == [0, 2 * PPQ]
+
+
+def test_a_drum_that_nobody_knows_is_named_with_what_is_known() -> None:
+    with pytest.raises(BadInput, match=r"line 2: no drum is called 'Gong' here; expected one such as BD, SD, HH"):
+        read("HH|x-x-x-x-|\nGong|x-------|\n")
+
+
+def test_a_text_whose_first_lines_are_known_in_part_is_tablature() -> None:
+    """So that the message names the line, and not the formats that a text may be in."""
+    assert is_tab(b"Words\n\nRide |x---x-x-|\nQqq  |----o---|\nZzz  |o---o---|\n")
+    assert not is_tab(b"Words | and more\nof them | here\n")
+
+
+def test_a_hat_that_finds_no_hand_is_the_foots() -> None:
+    text = "Tempo: 70\n12/8\nR |x-xx-xx-xx-x|\nS |---o-----o--|\nB |o-----o-----|\nH |---x-----x--|\n"
+    part = read(text)
+    assert ticks(part, Piece.HIHAT_PEDAL) == [3 * EIGHTH, 9 * EIGHTH]
+    assert part.lost == ("line 6: read as the hi-hat of the foot, for both hands are busy at its strokes",)
+
+
+def test_a_hat_beside_a_ride_in_other_cells_is_the_hands() -> None:
+    part = read("Rd|--------x-x-x-x-|\nHH|x-x-x-x---------|\nSD|----o-------o---|\n")
+    assert not ticks(part, Piece.HIHAT_PEDAL)
+    assert len(ticks(part, Piece.HIHAT)) == 4
+
+
+def test_a_title_between_rules() -> None:
+    part = read(f"--------\n A TUNE\n by: Ada\n 4/4 @ 82\n--------\n\n{GROOVE}\n            [x8]\n")
+    assert (part.score.title, part.author, names(part)) == ("A TUNE", "Ada", [])
+    assert round(60e6 / part.score.tempo_map.tempos[0].us_per_quarter) == 82
+    assert part.score.bar_count == 8
+
+
+def test_a_part_that_is_the_same_as_another_is_told() -> None:
+    part = read(f"A Tune\nTempo: 96\n\nVerse 1 [play 4x]\n{GROOVE}\nVerse 2: same as verse 1\n\n{GROOVE}")
+    assert [(s.name, s.first_bar, s.last_bar) for s in part.sections] == [("Verse 1", 0, 4)]
+    assert part.lost == ("line 9: 'Verse 2: same as verse 1' is not carried out",)

@@ -1,8 +1,8 @@
 """One line of tablature: its label, wherever people put it, and the cells of its bars.
 
 `HH|x-x-|` and `HH: x-x-`, but also `HH-x-x-|` or `HH x-x-|` without the first bar line, `|x-x-| HH` with the label
-behind, and `Hi-hat  x-x-x-x-` without a bar line. Cells may be parted by blanks to be read, `x-x- x-x-`; where a line
-has no other rest, its blanks are the rests.
+behind, and `Hi-hat  x-x-x-x-` or `HH-x-x-x-x-` without a bar line. Cells may be parted by blanks to be read,
+`x-x- x-x-`; where a line has no other rest, its blanks are the rests.
 """
 
 import re
@@ -15,9 +15,10 @@ from station.music.formats.ascii_tab.tab_letters import LABELS, RESTS, TAB_CHARA
 _LABEL = r"[A-Za-z][A-Za-z0-9 /_.-]{0,13}?"
 _BEFORE = re.compile(rf"\s*({_LABEL})\s*[|:]{{1,3}}(.*)$")
 _DASHED = re.compile(rf"\s*({_LABEL})-(?=[^ |:]+\|)")
-_SPACED = re.compile(rf"\s*({_LABEL})\s+(?=[-.=_xXoOgfFdDbBcshHrRzZ#@]+\|)")
+_SPACED = re.compile(rf"\s*({_LABEL})\s+(?=[-.=_xXoOgfFdDbBcshHrRzZ#@]{{4,}}\|)")
 _WORD = re.compile(r"[A-Za-z]{3,}")
 _BEHIND = re.compile(rf"\s*[|:]{{1,2}}(.{{6,}})\|[|:]?\s*({_LABEL})\s*$")
+_DASHED_BARE = re.compile(rf"\s*({_LABEL})-([^ |:]{{8,}})\s*$")
 _WITHOUT_BAR_LINES = re.compile(rf"\s*({_LABEL})(?::\s*|\s+)((?=[^ ]*-)[^ |:]{{6,}})\s*$")
 _KNOWN = 0.8
 """A line of fewer known letters is words (our choice)."""
@@ -25,6 +26,7 @@ _SHORTEST_BAR = 4
 """Cells of a bar that nobody closed: shorter ones are the typist's dashes (our choice)."""
 _BLANK = " "
 _AGAIN = "%"
+_USUAL_LABELS = "BD, SD, HH, Hf, Rd, C1, T1, T2, FT, Sp, Cn or Cb"
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +69,8 @@ def found_line(line: str) -> FoundLine | None:
             return FoundLine(found[1], found.start(2), _end_of_cells(line, found.start(2)))
         behind = _BEHIND.match(line)
         return FoundLine(behind[2], behind.start(1), behind.end(1)) if behind else None
+    if (dashed := _DASHED_BARE.match(line)) and label_key(dashed[1]) in LABELS:
+        return FoundLine(dashed[1], dashed.start(2) - (len(dashed[2]) % _SHORTEST_BAR > 0), dashed.end(2))
     bare = _WITHOUT_BAR_LINES.match(line)
     return FoundLine(bare[1], bare.start(2), bare.end(2)) if bare else None
 
@@ -98,11 +102,18 @@ def _is_a_word(letters: str) -> bool:
 def refuse_unknown_label(line: str, number: int, source: str) -> None:
     """Raises `BadInput` for a line that looks like tablature in all but its label: it is no comment."""
     found = found_line(line)
+    if found and is_like_tab(line):
+        fault = f"no drum is called {found.label!r} here; expected one such as {_USUAL_LABELS}"
+        raise BadInput(source, f"line {number}", fault)
+
+
+def is_like_tab(line: str) -> bool:
+    """Whether a line looks like tablature in all but its label, which no drum has."""
+    found = found_line(line)
     if not found or "|" not in line or found.is_known:
-        return
+        return False
     cells = line[found.start : found.end]
-    if "-" in cells and re.fullmatch(r"[|:\-xXoO.]{6,}\s*", cells):
-        raise BadInput(source, f"line {number}", f"no drum is called {found.label!r} here")
+    return "-" in cells and bool(re.fullmatch(r"[|:\-xXoO.]{6,}\s*", cells))
 
 
 def bars_of(line: str, found: FoundLine) -> Iterator[TabBar]:

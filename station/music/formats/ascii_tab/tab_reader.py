@@ -15,6 +15,7 @@ from station.core.errors import BadInput
 from station.core.pieces import CHOKEABLE, HALF_OPEN, Articulation, Dynamic, Piece
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart, PartSection
+from station.music.formats.ascii_tab.hat_of_the_foot import with_hat_of_the_foot
 from station.music.formats.ascii_tab.tab_beats import in_whole_bars
 from station.music.formats.ascii_tab.tab_letters import CHOKE, LETTERS, RESTS, TabStroke
 from station.music.formats.ascii_tab.tab_lines import TabBar
@@ -22,6 +23,7 @@ from station.music.formats.ascii_tab.tab_text import TabRow, TabSystem, TabText,
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.stroke_velocities import usual_velocity
+from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 
 MOST_BYTES = 1 << 20
@@ -64,6 +66,7 @@ def read_tab(data: bytes, source: str) -> DrumPart:
     if not found.systems:
         raise BadInput(source, "", "no line of tablature in it, such as HH|x-x-x-x-|")
     reader = _Reader(source, found.loose_x)
+    reader.lost.update((f"line {number}: {words!r} is not carried out", None) for number, words in found.unheeded)
     bars = list(islice(reader.bars(found), _MOST_BARS + 1))
     played = list(islice(_written_out(bars), _MOST_BARS + 1))
     if len(played) > _MOST_BARS:
@@ -71,9 +74,10 @@ def read_tab(data: bytes, source: str) -> DrumPart:
     if not any(bar.tempo_bpm for bar in bars):
         reader.lost[f"no tempo in it: {_USUAL_BPM:g} beats a minute"] = None
     words = found.words
-    score = _score(played, words.get("title", ""))
+    score = _score(played, words.get("title", ""), found.swing)
     sections = tuple(_sections(played))
-    return DrumPart(score, words.get("author", ""), words.get("about", ""), sections=sections, lost=tuple(reader.lost))
+    author, about = words.get("author", ""), words.get("about", "")
+    return DrumPart(score, author, about, None, found.swing, sections, lost=tuple(reader.lost))
 
 
 # --- bars -------------------------------------------------------------------------------------------------------------
@@ -93,7 +97,8 @@ class _Reader:
         for typed in text.systems:
             stated = typed.meter or stated
             system, said = in_whole_bars(typed, stated)
-            self.lost.update(dict.fromkeys(said))
+            system, heard = with_hat_of_the_foot(system)
+            self.lost.update(dict.fromkeys((*said, *heard)))
             count = max(len(row.bars) for row in system.rows)
             beats = stated[0] if stated else _counted(system.count)
             bars = [self.bar(system, k, stated, beats) for k in range(min(count, _MOST_BARS + 1))]
@@ -226,7 +231,7 @@ def _written_out(bars: Sequence[_Bar]) -> Iterator[_Bar]:
             start = k + 1
 
 
-def _score(bars: Sequence[_Bar], title: str) -> Score:
+def _score(bars: Sequence[_Bar], title: str, swing: Swing) -> Score:
     tick, notes, meters = 0, list[Note](), list[MeterChange]()
     first = next((bar.tempo_bpm * counted_quarters(*bar.meter) for bar in bars if bar.tempo_bpm), _USUAL_BPM)
     tempos = [TempoChange.from_bpm(0, first)]
@@ -234,16 +239,23 @@ def _score(bars: Sequence[_Bar], title: str) -> Score:
         meters.append(MeterChange(tick, *bar.meter))
         if bar.tempo_bpm:
             tempos.append(TempoChange.from_bpm(tick, bar.tempo_bpm * counted_quarters(*bar.meter)))
-        notes += [row for s in bar.strokes for row in with_graces(_note(s, tick, meters[-1].bar_ticks))]
+        notes += [row for s in bar.strokes for row in with_graces(_note(s, meters[-1], swing))]
         tick += meters[-1].bar_ticks
     return Score.from_notes(notes, TempoMap.build(tempos, meters), tick, title)
 
 
-def _note(stroke: _Stroke, start: int, bar_ticks: int) -> Note:
-    struck = stroke.struck
+def _note(stroke: _Stroke, bar: MeterChange, swing: Swing) -> Note:
+    """The stroke of a bar; `swing` moves it unless its line has triplets or other tuplets there."""
+    struck, written = stroke.struck, round(stroke.at * bar.bar_ticks)
+    swing = swing if is_plain(stroke.cell * bar.bar_ticks) else Swing()
+    played = swing.swung(written, bar)
+
+    def lasting(share: Fraction) -> int:
+        return swing.swung(min(written + round(share * bar.bar_ticks), bar.bar_ticks), bar) - played
+
     is_buzz = struck.articulation is Articulation.BUZZ
     return Note(
-        start + round(stroke.at * bar_ticks),
+        bar.tick + played,
         stroke.piece,
         struck.zone,
         usual_velocity(struck.dynamic),
@@ -251,9 +263,16 @@ def _note(stroke: _Stroke, start: int, bar_ticks: int) -> Note:
         struck.dynamic,
         openness=struck.openness,
         ornament=struck.ornament,
-        duration_ticks=round(stroke.cell * bar_ticks) if is_buzz else 0,
-        choke_ticks=round(stroke.choke * bar_ticks) if stroke.choke else 0,
+        duration_ticks=lasting(stroke.cell) if is_buzz else 0,
+        choke_ticks=lasting(stroke.choke) if stroke.choke else 0,
+        swing_ticks=played - written,
     )
+
+
+def is_plain(cell_ticks: Fraction) -> bool:
+    """Whether swing moves cells of this length: all but those of tuplets, a whole note halved again and again."""
+    parts = Fraction(4 * PPQ) / cell_ticks
+    return parts.denominator == 1 and parts.numerator & (parts.numerator - 1) == 0
 
 
 def _sections(bars: Sequence[_Bar]) -> Iterator[PartSection]:

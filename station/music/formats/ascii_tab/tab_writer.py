@@ -1,18 +1,20 @@
 """Writing drum tablature: systems of at most four bars, a count above them, and a key of the letters that need one."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from fractions import Fraction
 from math import gcd
 from types import MappingProxyType
 
 from station.core.pieces import CHOKEABLE, Articulation, Dynamic, Ornament, Piece
 from station.music.drum_part import DrumPart
 from station.music.formats.ascii_tab.tab_letters import CHOKE, LETTERS, OWN_LABELS, TabStroke
-from station.music.formats.ascii_tab.tab_reader import MOST_BYTES, counted_quarters, read_tab
+from station.music.formats.ascii_tab.tab_reader import MOST_BYTES, counted_quarters, is_plain, read_tab
 from station.music.formats.ascii_tab.tab_text import is_tab
+from station.music.formats.ascii_tab.words_of_tabs import swing_in_numbers
 from station.music.formats.music_format import Feature, Loss, MusicFormat, WrittenFile
 from station.music.score import Note, Score
-from station.music.swing import STRAIGHT
+from station.music.swing import Swing
 
 _WIDEST = 76
 """Characters a line: what a terminal and a mail show (our choice)."""
@@ -24,10 +26,11 @@ _KEY = {"f": "flam", "d": "drag", "b": "buzz roll", "g": "ghost", "#": "choke", 
 
 _KEEPS: Mapping[Feature, str] = MappingProxyType(
     {
-        Feature.TIMES: "in up to 96 cells a bar; swing is written straight, and told",
+        Feature.TIMES: "in up to 96 cells a bar",
         Feature.PIECES: "",
         Feature.METERS: "",
         Feature.TEMPO: "changes at bar lines",
+        Feature.SWING: "of the whole piece",
         Feature.DYNAMICS: "where the piece has a letter for it",
         Feature.CROSS_STICKS: "of the snare",
         Feature.RIM_SHOTS: "of the snare",
@@ -49,6 +52,7 @@ class _Lines:
     bar: int
     cells: Mapping[Piece, str]
     count: str
+    lost: tuple[Loss, ...] = ()
 
     @property
     def width(self) -> int:
@@ -59,15 +63,52 @@ class _Lines:
 def write_tab(part: DrumPart) -> WrittenFile:
     """The part as a text of drum tablature, in UTF-8."""
     lost: dict[Loss, None] = {}
-    if part.score.notes["swing_ticks"].any():
-        ratio = f" of {part.swing.ratio:.3g} : 1" if part.swing.ratio != STRAIGHT else ""
-        text = f"swing{ratio} is written straight"
-        lost |= {Loss(Feature.TIMES, text): None, Loss(Feature.SWING, text): None}
-    score = part.score.as_written
-    bars = [_bar(score, k, lost) for k in range(score.bar_count)]
+    bars, swing = _swung_bars(part), swing_in_numbers(part.swing)
+    if bars is None or not swing:
+        bars, swing = [_bar(part.score.as_written, k) for k in range(part.score.bar_count)], ""
+        lost |= _swing_lost(part)
+    lost |= dict.fromkeys(loss for bar in bars for loss in bar.lost)
     _tell_gaps(part, lost)
-    lines = [*_head(part), *_key(bars), *_systems(part, bars, lost)]
+    lines = [*_head(part), *([swing] if swing else []), *_key(bars), *_systems(part, bars, lost)]
     return WrittenFile(("\n".join(lines) + "\n").encode(), tuple(lost))
+
+
+def _swing_lost(part: DrumPart) -> dict[Loss, None]:
+    if not part.score.notes["swing_ticks"].any():
+        return {}
+    ratio = f" of {part.swing.ratio:.3g}:1" if part.swing.stands_in_words else ""
+    text = f"swing{ratio} is written straight"
+    return {Loss(Feature.TIMES, text): None, Loss(Feature.SWING, text): None}
+
+
+def _swung_bars(part: DrumPart) -> list[_Lines] | None:
+    """The bars under the words for the part's swing; None where one of them would not come back as it sounds.
+
+    A bar with tuplets of its own is written as it sounds, its swing in tuplets too: the reader leaves it alone.
+    """
+    found, written = list[_Lines](), part.score.as_written
+    for k in range(part.score.bar_count):
+        bars = (_bar(score, k) for score in (written, part.score))
+        bar = next((bar for bar in bars if _comes_back(part, bar)), None)
+        if bar is None:
+            return None
+        found.append(bar)
+    return found
+
+
+def _comes_back(part: DrumPart, lines: _Lines) -> bool:
+    """Whether the strokes of a bar, in cells swung by the part's swing, sound when they did."""
+    tempo_map = part.score.tempo_map
+    start = tempo_map.bar_start(lines.bar)
+    bar = replace(tempo_map.meter_at(start), tick=start)
+    cell = Fraction(bar.bar_ticks, len(lines.count))
+    swing = part.swing if is_plain(cell) else Swing()
+    rows = part.score.notes[(part.score.bar == lines.bar) & ~part.score.is_grace]
+    for piece, cells in lines.cells.items():
+        sounding = {swing.swung(round(i * cell), bar) for i, letter in enumerate(cells) if letter not in {"-", CHOKE}}
+        if sounding != set((rows["tick"][rows["piece"] == piece] - start).tolist()):
+            return False
+    return True
 
 
 def _tell_gaps(part: DrumPart, lost: dict[Loss, None]) -> None:
@@ -75,7 +116,11 @@ def _tell_gaps(part: DrumPart, lost: dict[Loss, None]) -> None:
     ends = [*(section.first_bar for section in part.sections[1:]), part.score.bar_count]
     for section, end in zip(part.sections, ends, strict=False):
         if section.last_bar + 1 != end:
-            lost[Loss(Feature.SECTIONS, f"bars {section.last_bar + 2}-{end} come to {section.name!r}")] = None
+            first = section.last_bar + 2
+            bars = f"bar {first} belongs" if first == end else f"bars {first}–{end} belong"
+            stands = "it stands" if first == end else "they stand"
+            text = f"{bars} to no section; in the file {stands} in {section.name!r}"
+            lost[Loss(Feature.SECTIONS, text)] = None
 
 
 def _head(part: DrumPart) -> Iterator[str]:
@@ -142,7 +187,8 @@ def _words(part: DrumPart, bar: int, lost: dict[Loss, None]) -> Iterator[str]:
 # --- a bar ------------------------------------------------------------------------------------------------------------
 
 
-def _bar(score: Score, bar: int, lost: dict[Loss, None]) -> _Lines:
+def _bar(score: Score, bar: int) -> _Lines:
+    lost = dict[Loss, None]()
     start, end = score.tempo_map.bar_start(bar), score.tempo_map.bar_start(bar + 1)
     meter = score.tempo_map.meter_at(start)
     first, last = score.notes["tick"].searchsorted([start, end])
@@ -162,7 +208,8 @@ def _bar(score: Score, bar: int, lost: dict[Loss, None]) -> _Lines:
         at = note.tick + note.choke_ticks
         if _is_choked(note) and at < end and rows[note.piece][_cell(at - start, end - start, count)] == "-":
             rows[note.piece][_cell(at - start, end - start, count)] = CHOKE
-    return _Lines(bar, {piece: "".join(cells) for piece, cells in rows.items()}, _counting(meter.beats, count))
+    lines = {piece: "".join(cells) for piece, cells in rows.items()}
+    return _Lines(bar, lines, _counting(meter.beats, count), tuple(lost))
 
 
 def _finest_for(beats: int) -> int:

@@ -109,7 +109,9 @@ def _events(part: DrumPart, per_tick: int, lost: LostBars) -> Iterator[str]:
     for section, end in zip(part.sections, ends, strict=False):
         name = one_line(section.name)
         if section.last_bar + 1 != end:
-            lost.add(Feature.SECTIONS, f"{name!r} goes on to the next section or the end", section.last_bar + 1)
+            lost.add(
+                Feature.SECTIONS, f"of no section from here on; in the file {name!r} goes on", section.last_bar + 1
+            )
         yield f'{tempo_map.bar_start(section.first_bar) // per_tick} = E "section {name}"'
     yield f'{part.score.end_tick // per_tick} = E "end"'
 

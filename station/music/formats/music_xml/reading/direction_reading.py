@@ -11,9 +11,9 @@ from xml.etree.ElementTree import Element
 from station.core.pieces import Limb
 from station.core.units import PPQ
 from station.music.formats.music_xml.reading.note_reading import velocity_of
-from station.music.formats.music_xml.words_of_swing import swing_in_words
 from station.music.formats.music_xml.written_bars import NUMBER, STOP, LostMarks, WrittenBar
 from station.music.formats.safe_xml import text_of
+from station.music.formats.words_of_swing import swing_in_words
 from station.music.loudness_marks import FADE, GROW, USUAL
 from station.music.swing import MAX_RATIO, MIN_RATIO, STRAIGHT, Swing
 from station.music.tempo import TempoChange
