@@ -440,4 +440,4 @@ def test_loudness_marks_that_are_left_out_are_told() -> None:
     """In bars 1 and 2, of which the grid says none."""
     marks = (LoudnessMark(0, "p"), LoudnessMark(WHOLE, "f"))
     score = replace(Score.from_notes([*groove(0), *groove(1)], TEMPO), loudness=marks)
-    assert "loudness marks and hairpins left out: bars 1, 2" in transcribe(DrumPart(score), "x").remarks
+    assert "loudness marks and hairpins left out: bars 1–2" in transcribe(DrumPart(score), "x").remarks
