@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from operator import attrgetter
 from types import MappingProxyType
 
 from station.app.room_state import FreeRequest, LessonCard, SessionRequest
@@ -140,7 +141,8 @@ class Selection:
         kinds: dict[str, list[LessonCard]] = {}
         for card in self.lessons:
             kinds.setdefault(card.kind, []).append(card)
-        return [(kind.capitalize() or OWN, cards) for kind, cards in kinds.items()]
+        by_level = attrgetter("level")  # the newest of one's own come first within their level
+        return [(kind.capitalize() or OWN, sorted(cards, key=by_level)) for kind, cards in kinds.items()]
 
     def _by_part(self, course: Course) -> list[tuple[str, list[LessonCard]]]:
         known = {card.name: card for card in self.lessons}

@@ -20,8 +20,8 @@ class BarContents:
 
     `contents` has a number for each, the same for bars that sound and read alike, tempo and meter included. `cuts` are
     the bars before which the tempo or meter changes, `bound` those into which a buzz or a ringing cymbal goes on,
-    `crashes` those that begin with a crash, `fills` those that are played on toms. `has_pick_up`: the music begins in
-    the second half of the first bar.
+    `crashes` those that begin with a crash, `fills` those that are played on toms. `pick_up` is how many bars,
+    silent ones among them, come before the first whole one: where the music begins in the second half of a bar.
     """
 
     contents: tuple[int, ...]
@@ -29,7 +29,7 @@ class BarContents:
     bound: frozenset[int]
     crashes: frozenset[int]
     fills: frozenset[int]
-    has_pick_up: bool
+    pick_up: int
 
     @property
     def count(self) -> int:
@@ -59,8 +59,16 @@ def bar_contents(score: Score, beyond: NDArray[np.void]) -> BarContents:
         frozenset(bound),
         frozenset(bar for bar in range(len(rows)) if _begins_with_a_crash(rows[bar], starts[bar])),
         frozenset(bar for bar in range(len(rows)) if _is_fill(rows[bar])),
-        has_pick_up=bool(len(score) and len(rows) > 1 and 2 * int(score.notes["tick"][0]) >= starts[1]),
+        _pick_up(score, starts),
     )
+
+
+def _pick_up(score: Score, starts: list[int]) -> int:
+    if not len(score):
+        return 0
+    bar, tick = int(score.bar[0]), int(score.notes["tick"][0])
+    begins_late = 2 * (tick - starts[bar]) >= starts[bar + 1] - starts[bar]
+    return bar + 1 if begins_late and bar + 2 < len(starts) else 0
 
 
 def _by_bar(rows: NDArray[np.void], starts: list[int]) -> list[NDArray[np.void]]:

@@ -89,7 +89,7 @@ def _plain(name: str) -> str:
 
 def _new_parts(bars: BarContents) -> set[int]:
     """The bars that a crash opens, where crashes are rare, and the one after a pick-up."""
-    found = [0, 1] if bars.has_pick_up else [0]
+    found = sorted({0, bars.pick_up})
     for bar in sorted(bars.crashes):
         if bar - found[-1] >= _CRASH_APART:
             found.append(bar)
@@ -199,7 +199,7 @@ def _names(bars: BarContents, written: Sequence[_Block], models: Sequence["_Mode
 
 
 def _word(bars: BarContents, block: _Block) -> str:
-    if bars.has_pick_up and (block.first, block.bars) == (0, 1):
+    if block.first + block.bars <= bars.pick_up:
         return _PICK_UP
     return _FILL if _is_fill(bars, block) else ""
 

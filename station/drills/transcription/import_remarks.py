@@ -1,8 +1,7 @@
 """What an import tells the teacher: what was found and what was done, each in a sentence that says in which bars."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
-from itertools import groupby
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +13,10 @@ from station.drills.lesson import Lesson
 from station.drills.transcription.strokes.ornament_finder import BOUNCE_MS, FoundOrnaments
 from station.drills.transcription.strokes.playable_strokes import Reach
 from station.drills.transcription.timing.grid_times import GridTimes
+from station.music.bar_numbers import named_bars
 from station.music.score import Score
 from station.music.swing import Swing
 
-_BARS_NAMED = 8
-"""Bars that a remark names (our choice: what fits a line)."""
 _STROKES_APART = 2
 """A bar that differs from a groove by no more strokes is that groove: one that fell out and one more, or one that moved
 (our choice)."""
@@ -113,8 +111,8 @@ def _on_groove(score: Score) -> Iterator[str]:
         return
     model = bars.index(kinds[groups.index(groove)])
     others = [bar for bar in range(len(bars)) if bar not in set(groove)]
-    apart = f"; not bars {_ranges(others)}" if others else ""
-    yield f"one groove: bars {_ranges(groove)} play bar {model + 1}, but for {_STROKES_APART} strokes at most{apart}"
+    apart = f"; not {named_bars(others)}" if others else ""
+    yield f"one groove: {named_bars(groove)} play bar {model + 1}, but for {_STROKES_APART} strokes at most{apart}"
 
 
 def _strokes_by_bar(score: Score) -> list[frozenset[tuple[int, int]]]:
@@ -129,20 +127,11 @@ def _strokes_by_bar(score: Score) -> list[frozenset[tuple[int, int]]]:
     return list(map(frozenset, found))
 
 
-def _ranges(bars: Sequence[int]) -> str:
-    """Bars, from 0, as people write them, from 1: "1–3, 5"; no more than fit a line."""
-    runs = [[bar for _, bar in run] for _, run in groupby(enumerate(bars), key=lambda each: each[1] - each[0])]
-    said = [f"{run[0] + 1}–{run[-1] + 1}" if len(run) > 1 else f"{run[0] + 1}" for run in runs]
-    return ", ".join(said[:_BARS_NAMED]) + (" …" if len(said) > _BARS_NAMED else "")
-
-
 def _unit(swing: Swing) -> str:
     named = {PPQ // 2: "eighths", PPQ // 4: "sixteenths", PPQ // 8: "thirty-seconds"}
     return named.get(swing.unit_ticks, f"{swing.unit_ticks / PPQ:g} of a quarter note")
 
 
 def _bars(score: Score, ticks: Iterable[int]) -> str:
-    """The bars, from 1, in which these moments are, no more than fit a line."""
-    bars = sorted({int(bar) + 1 for bar in score.tempo_map.bars_at(np.array(list(ticks), np.int64))})
-    where = ", ".join(map(str, bars[:_BARS_NAMED])) + (" …" if len(bars) > _BARS_NAMED else "")
-    return f"bar{'s' if len(bars) > 1 else ''} {where}"
+    """The bars in which these moments are."""
+    return named_bars(score.tempo_map.bars_at(np.array(list(ticks), np.int64)).tolist())

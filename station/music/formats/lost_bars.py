@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, field
 
+from station.music.bar_numbers import named_bars
 from station.music.formats.music_format import Feature, Loss
 
 
@@ -25,4 +26,4 @@ class LostBars:
 def _with_bars(text: str, bars: set[int]) -> str:
     if not bars:
         return text
-    return f"bar{'s' if len(bars) > 1 else ''} {', '.join(str(bar + 1) for bar in sorted(bars))}: {text}"
+    return f"{named_bars(bars)}: {text}"

@@ -149,6 +149,13 @@ def test_lessons_are_listed_by_kind_those_of_ones_own_last() -> None:
     ]
 
 
+def test_lessons_of_a_kind_stand_by_level_each_level_once() -> None:
+    """Imports come to the front of one's own, whatever their level."""
+    easy, hard, later = (replace(ROCK, name=name, level=level) for name, level in (("a", 1), ("b", 4), ("c", 1)))
+    (group,) = Selection.of([later, hard, easy]).groups()
+    assert [card.name for card in group.cards] == ["c", "a", "b"]
+
+
 def test_a_search_leaves_out_kinds_and_parts_in_which_nothing_is_found() -> None:
     groove, roll = replace(ROCK, kind="grooves"), replace(PARADIDDLE, kind="rolls")
     course = Course("c", "C", "", "", 1, (CoursePart("One", ("rock-1",)), CoursePart("Two", ("paradiddle",))))

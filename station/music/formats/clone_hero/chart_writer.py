@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput
+from station.core.labels import piece_name
 from station.core.pieces import DRUMS, Articulation, Dynamic, Limb, Ornament, word
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
@@ -143,16 +144,16 @@ def _placed(score: Score, note: Note, lost: LostBars) -> tuple[Lane, bool] | Non
         return LANE_OF[note.piece]
     if note.piece in NEAR_LANE_OF:
         bar = int(score.tempo_map.bars_at(note.tick))
-        lost.add(Feature.PIECES, f"a chart has no {word(note.piece)}: it goes to the nearest lane", bar)
+        lost.add(Feature.PIECES, f"a chart has no {piece_name(note.piece)}: it goes to the nearest lane", bar)
         return NEAR_LANE_OF[note.piece]
-    _left_out(score, note, f"a chart has no {word(note.piece)}", lost)
+    _left_out(score, note, f"a chart has no {piece_name(note.piece)}", lost)
     return None
 
 
 def _left_out(score: Score, note: Note, text: str, lost: LostBars) -> None:
     bar = int(score.tempo_map.bars_at(note.tick))
     for feature in _OF_A_STROKE:
-        lost.add(feature, f"{text}: {word(note.piece)} is left out", bar)
+        lost.add(feature, f"{text}: {piece_name(note.piece)} is left out", bar)
 
 
 def _numbers(score: Score, note: Note, lane: Lane, is_cymbal: bool, lost: LostBars) -> Iterator[int]:

@@ -22,7 +22,8 @@ from station.music.formats.dtx.dtx_lanes import (
     TEMPO_NAMED,
 )
 from station.music.formats.dtx.dtx_reader import MOST_BYTES, meter_of, read_dtx
-from station.music.formats.music_format import Feature, Loss, MusicFormat, WrittenFile
+from station.music.formats.lost_bars import LostBars
+from station.music.formats.music_format import Feature, MusicFormat, WrittenFile
 from station.music.score import Note, Score
 from station.music.tempo import TempoChange
 
@@ -66,7 +67,7 @@ def write_dtx(part: DrumPart) -> WrittenFile:
     score = part.score
     if score.bar_count > _MOST_BARS:
         raise BadInput(score.title or "part", "", f"DTX numbers no more than {_MOST_BARS} bars")
-    lost: dict[Loss, None] = {}
+    lost = LostBars()
     chips = sorted(_chips(score, lost))
     if not chips:
         raise BadInput(score.title or "part", "", "DTX has no lane for any of its strokes")
@@ -76,32 +77,32 @@ def write_dtx(part: DrumPart) -> WrittenFile:
         places = [(c.tick, sounds[c.lane, c.percent]) for c in group]
         lines.append(_objects(score, bar, lane, places, lost))
     if score.closing_rest_bars:
-        lost[Loss(Feature.TIMES, "bars of rest at the end: a chart ends with the bar of its last chip")] = None
-    return WrittenFile("".join(f"{line}\r\n" for line in lines).encode(), tuple(lost))
+        lost.add(Feature.TIMES, "bars of rest at the end: a chart ends with the bar of its last chip")
+    return WrittenFile("".join(f"{line}\r\n" for line in lines).encode(), lost.told())
 
 
 # --- strokes ----------------------------------------------------------------------------------------------------------
 
 
-def _chips(score: Score, lost: dict[Loss, None]) -> Iterator[_Chip]:
+def _chips(score: Score, lost: LostBars) -> Iterator[_Chip]:
     pieces, places = set(score.notes["piece"].tolist()), set[tuple[int, int]]()
     second_alone = Piece.CRASH_2 in pieces and Piece.CRASH_1 not in pieces
     for note in score:
         piece = STAND_INS.get(note.piece, note.piece)
         if note.lead_ms:
-            lost[Loss(Feature.FLAMS, "grace strokes are left out")] = None
+            lost.add(Feature.FLAMS, "grace strokes are left out")
         elif piece not in LANE_OF:
             for feature in (Feature.PIECES, Feature.TIMES):
-                lost[Loss(feature, f"{piece_name(note.piece)} has no lane and is left out")] = None
+                lost.add(feature, f"{piece_name(note.piece)} has no lane and is left out")
         else:
             if piece is not note.piece:
-                lost[_of_piece(note.piece, f"is written as {piece_name(piece)}")] = None
+                _tell_of_piece(lost, note.piece, f"is written as {piece_name(piece)}")
             if piece is Piece.CRASH_2 and second_alone:
-                lost[_of_piece(piece, "is the only crash, and comes back as the first")] = None
+                _tell_of_piece(lost, piece, "is the only crash, and comes back as the first")
             bar = int(score.tempo_map.bars_at(note.tick))
             lane = _lane(note, piece, has_second=Piece.CRASH_2 in pieces)
             if (lane, note.tick) in places:
-                lost[Loss(Feature.TIMES, f"bar {bar + 1}: strokes of one lane at once are one")] = None
+                lost.add(Feature.TIMES, "strokes of one lane at once are one", bar)
             places.add((lane, note.tick))
             yield _Chip(bar, lane, note.tick, round(note.velocity * 100 / _FULL))
 
@@ -114,14 +115,14 @@ def _lane(note: Note, piece: Piece, has_second: bool) -> int:
     return CRASH if piece is Piece.CRASH_1 and not has_second else LANE_OF[piece]
 
 
-def _of_piece(piece: Piece, what: str) -> Loss:
-    return Loss(Feature.PIECES, f"{piece_name(piece)} {what}")
+def _tell_of_piece(lost: LostBars, piece: Piece, what: str) -> None:
+    lost.add(Feature.PIECES, f"{piece_name(piece)} {what}")
 
 
 # --- lines ------------------------------------------------------------------------------------------------------------
 
 
-def _head(part: DrumPart, lost: dict[Loss, None]) -> Iterator[str]:
+def _head(part: DrumPart, lost: LostBars) -> Iterator[str]:
     said = (
         ("TITLE", Feature.TITLE, part.score.title),
         ("ARTIST", Feature.AUTHOR, part.author),
@@ -129,7 +130,7 @@ def _head(part: DrumPart, lost: dict[Loss, None]) -> Iterator[str]:
     )
     for name, feature, text in said:
         if ";" in text:
-            lost[Loss(feature, f"{feature.value}: a comma for each semicolon, which would begin a comment")] = None
+            lost.add(feature, f"{feature.value}: a comma for each semicolon, which would begin a comment")
         if line := " ".join(text.replace(";", ",").split()):
             yield f"#{name}: {line}"
     yield f"#BPM: {_bpm(part.score.tempo_map.tempos[0])}"
@@ -141,20 +142,20 @@ def _sounds(sounds: Mapping[tuple[int, int], str]) -> Iterator[str]:
         yield f"#VOLUME{name}: {percent}"
 
 
-def _lengths(score: Score, lost: dict[Loss, None]) -> Iterator[str]:
+def _lengths(score: Score, lost: LostBars) -> Iterator[str]:
     before = 1.0
     for bar in range(score.bar_count):
         meter = score.tempo_map.meter_at(score.tempo_map.bar_start(bar))
         length = _bar_ticks(score, bar) / _WHOLE
         read = meter_of(length)
         if (read.beats, read.unit, ()) != (meter.beats, meter.unit, meter.groups):
-            lost[Loss(Feature.METERS, f"bar {bar + 1}: {meter} comes back as {read}")] = None
+            lost.add(Feature.METERS, f"{meter} comes back as {read}", bar)
         if length != before:
             yield f"#{_bar_name(bar)}{BAR_LENGTH:02X}: {length:.9g}"
         before = length
 
 
-def _tempos(score: Score, lost: dict[Loss, None]) -> Iterator[str]:
+def _tempos(score: Score, lost: LostBars) -> Iterator[str]:
     """The changes of tempo, each with a name."""
     changes = score.tempo_map.tempos[1:]
     named = list(dict.fromkeys(t.us_per_quarter for t in changes))
@@ -171,12 +172,12 @@ def _bpm(tempo: TempoChange) -> str:
     return f"{tempo.short_bpm():.9f}".rstrip("0").rstrip(".")
 
 
-def _objects(score: Score, bar: int, lane: int, places: Sequence[tuple[int, str]], lost: dict[Loss, None]) -> str:
+def _objects(score: Score, bar: int, lane: int, places: Sequence[tuple[int, str]], lost: LostBars) -> str:
     """One line of a bar, cut into the fewest places that hold `places`, the ticks and names of its chips."""
     start, length = score.tempo_map.bar_start(bar), _bar_ticks(score, bar)
     count = length // gcd(length, *(tick - start for tick, _ in places))
     if count > _FINEST:
-        lost[Loss(Feature.TIMES, f"bar {bar + 1}: finer than {_FINEST} places; moved to the nearest")] = None
+        lost.add(Feature.TIMES, f"finer than {_FINEST} places; moved to the nearest", bar)
         count = _FINEST
     cells = ["00"] * count
     for tick, name in places:

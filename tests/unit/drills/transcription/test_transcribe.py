@@ -138,6 +138,19 @@ def test_a_pick_up_has_a_grid_of_its_own() -> None:
     assert "times = 4" in text
 
 
+def test_a_pick_up_after_a_silent_bar_is_one() -> None:
+    """Many a sequencer's song begins with a bar of nothing: the two bars before the groove are its pick-up."""
+    grooves = [c for c in range(16, 48) if c % 8 not in (3, 6)]
+    text = lesson_from(*(snare(c * EIGHTH) for c in (14, 15, *grooves))).text
+    assert text.count('name = "pick-up') == 1
+    assert text.index("| - ") < text.index('name = "A"') < text.index("times = 4")
+
+
+def test_a_silent_bar_is_no_pick_up() -> None:
+    grooves = [c for c in range(8, 40) if c % 8 not in (3, 6)]
+    assert "pick-up" not in lesson_from(*(snare(c * EIGHTH) for c in grooves)).text
+
+
 def test_human_sixteenths_go_to_the_nearest() -> None:
     late = (12, -9, 15, 4)
     played = [snare(i * SIXTEENTH + late[i % 4] * MS) for i in range(4, 16)]
@@ -427,4 +440,4 @@ def test_loudness_marks_that_are_left_out_are_told() -> None:
     """In bars 1 and 2, of which the grid says none."""
     marks = (LoudnessMark(0, "p"), LoudnessMark(WHOLE, "f"))
     score = replace(Score.from_notes([*groove(0), *groove(1)], TEMPO), loudness=marks)
-    assert "loudness marks and hairpins left out: bars 1, 2" in transcribe(DrumPart(score), "x").remarks
+    assert "loudness marks and hairpins left out: bars 1–2" in transcribe(DrumPart(score), "x").remarks
