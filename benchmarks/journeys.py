@@ -6,8 +6,8 @@
 
 `station/bench/rigs/journeys/journeys.py` says what is played, `journey_truth.py` what an ear can know of it. The
 columns: F1 of the pairs below an oracle's who knows the way and the tempo, its median, its 95th percentile, and the
-share of takes that lie more than .03 below; turns (skips, repeats, stops …) that could be heard and start no stretch of
-ours; takes with a stretch that nobody began; notes on which the last live word is the final one, and hits on which it
+share of takes that lie more than .03 below; turns (skips, repeats, stops …) that could be heard and start no segment of
+ours; takes with a segment that nobody began; notes on which the last live word is the final one, and hits on which it
 is where notes that are alike count as one; the largest change of the score when the same take lies elsewhere in its
 file; lessons whose passes are told exactly, all, and those whose loop no shorter figure makes up. `--show` prints the
 true way of a take beside ours.
@@ -125,7 +125,7 @@ def _live(group: list[Result]) -> tuple[str, str]:
 
 
 def show(take: Take) -> str:
-    """The true way of a take, then ours, a line for each stretch."""
+    """The true way of a take, then ours, a line for each segment."""
     truth = Truth(take)
     alignment = align(take.score, take.performance, clocked=take.clocked)
     said = matched(alignment)
@@ -152,12 +152,12 @@ def show(take: Take) -> str:
             f"{'; or ' + ', '.join(others[:4]) if others else ''}{' ...' if len(others) > 4 else ''}"
         )
     lines.append("our way (where the slope breaks, a new line):")
-    for rows in _runs(alignment.stretch, alignment.hit_score_ns / NS_PER_S, at_s):
+    for rows in _runs(alignment.segment, alignment.hit_score_ns / NS_PER_S, at_s):
         first, last = tempo.ticks_at_ns(np.maximum(alignment.hit_score_ns[rows[[0, -1]]], 0)).tolist()
         off = np.median(alignment.hit_score_ns[rows] - take.true_ns[rows]) / NS_PER_S
         lines.append(
             f"  {at_s[rows[0]]:7.2f}-{at_s[rows[-1]]:7.2f} s  {_at(take, first)} -> {_at(take, last)}"
-            f"  stretch {alignment.stretch[rows[0]]}, {len(rows)} hits, {(said[rows] >= 0).sum()} matched,"
+            f"  segment {alignment.segment[rows[0]]}, {len(rows)} hits, {(said[rows] >= 0).sum()} matched,"
             f" {right[rows].sum()} right, {off:+.2f} s from the truth"
         )
     return "\n".join(lines)
@@ -173,10 +173,10 @@ _BREAK_S = 0.3
 """A jump of score time against real time by more than this is shown on a line of its own."""
 
 
-def _runs(stretch: np.ndarray, score_s: np.ndarray, at_s: np.ndarray) -> list[np.ndarray]:
+def _runs(segment: np.ndarray, score_s: np.ndarray, at_s: np.ndarray) -> list[np.ndarray]:
     steps = np.diff(score_s), np.diff(at_s)
     rate = np.median(steps[0][steps[1] > 0] / steps[1][steps[1] > 0]) if len(at_s) > 1 else 1.0
-    breaks = (np.diff(stretch) != 0) | (np.abs(steps[0] - rate * steps[1]) > _BREAK_S)
+    breaks = (np.diff(segment) != 0) | (np.abs(steps[0] - rate * steps[1]) > _BREAK_S)
     ends = [0, *(np.flatnonzero(breaks) + 1).tolist(), len(at_s)]
     return [np.arange(a, b) for a, b in pairwise(ends) if b > a]
 

@@ -100,7 +100,7 @@ def drummer_of(case: Case) -> Drummer:
 
 
 def examine(case: Case, most_s: float) -> Report:
-    """All checks of the first `most_s` seconds of `case`; of a longer score a stretch that its name chooses."""
+    """All checks of the first `most_s` seconds of `case`; of a longer score a segment that its name chooses."""
     began = perf_counter()
     try:
         drummer = drummer_of(case)

@@ -1,4 +1,4 @@
-"""A stretch of a performance as the examiner sees it: what docs/motion.md publishes, sampled at 1 kHz."""
+"""A segment of a performance as the examiner sees it: what docs/motion.md publishes, sampled at 1 kHz."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -82,7 +82,7 @@ class Take:
 
     @cached_property
     def strikes(self) -> "Strikes":
-        """The strikes of the stretch, in order of time."""
+        """The strikes of the segment, in order of time."""
         arrays = motion_arrays(self.drummer, np.array([self.start_s]))
         score = self.drummer.score
         times = arrays["strike_time_s"]

@@ -17,7 +17,7 @@ import verovio
 from station.drills.library import find_lesson
 from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart
-from station.music.formats.music_xml.music_xml_writer import write_music_xml
+from station.music.formats.music_xml.writing.music_xml_writer import write_music_xml
 from station.render.notation.page.sheet import MARGIN, SPACES, SheetWords, sheet
 from station.render.text.paper import Filled
 from station.scenes.sheets import lesson_labels

@@ -35,18 +35,18 @@ from station.drills.mastery.next_pass import new_item  # noqa: E402
 from station.drills.mastery.practice_steps import item_of  # noqa: E402
 from station.drills.mastery.probes import Probes  # noqa: E402
 from station.drills.mastery.reviews import Review  # noqa: E402
-from station.gui.panels.calibration_part import DROP_LABEL, MEASURE_LABEL  # noqa: E402
-from station.gui.panels.devices_panel import DEVICES  # noqa: E402
+from station.gui.panels.devices.calibration_part import DROP_LABEL, MEASURE_LABEL  # noqa: E402
+from station.gui.panels.devices.devices_panel import DEVICES  # noqa: E402
+from station.gui.panels.devices.pads_part import LEARN_LABEL as LEARN_PAD_LABEL  # noqa: E402
+from station.gui.panels.devices.sticks_panel import GESTURE_LABEL, STICKS  # noqa: E402
 from station.gui.panels.export_panel import EXPORT  # noqa: E402
+from station.gui.panels.figure.style_panel import FIGURE  # noqa: E402
 from station.gui.panels.hits_panel import HITS  # noqa: E402
 from station.gui.panels.import_panel import IMPORT  # noqa: E402
 from station.gui.panels.lessons_panel import FREE_LABEL  # noqa: E402
-from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL  # noqa: E402
 from station.gui.panels.phase_panel import PHASE  # noqa: E402
 from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
-from station.gui.panels.sticks_panel import GESTURE_LABEL, STICKS  # noqa: E402
-from station.gui.panels.style_panel import FIGURE  # noqa: E402
 from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
 from station.practice.records.memory import Memory  # noqa: E402
 from station.render.files.png_file import write_png  # noqa: E402

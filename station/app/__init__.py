@@ -1,6 +1,6 @@
 """What the window does, without the window: the state of the practice room and what changes it. No imgui.
 
 In: actions of the user, events of the engine, time. Out: one frozen view a frame, for `gui` to draw, and what is kept
-on disk. `controller` owns everything else here; `settings_store` alone writes the settings.
+on disk. `controller` owns everything else here; `settings` has what the user has set, and its one writer.
 Read `controller` first, then `actions.action` (all that a user can do) and `window_state` (all that is seen).
 """

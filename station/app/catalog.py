@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from station.app.lesson_cards import card
 from station.app.room_state import LessonCard
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.drills.course import Course
 from station.drills.lesson import Lesson

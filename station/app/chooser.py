@@ -11,7 +11,7 @@ from station.app.lesson_cards import request_of
 from station.app.room_state import LessonCard, Stage
 from station.app.selection import Selection
 from station.app.sessions.session_control import Launch, SessionControl
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.drills.reading.lesson_file import read_lesson
 from station.practice.control.tap_tempo import TapTempo as Taps
 

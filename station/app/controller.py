@@ -47,17 +47,17 @@ from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_editor import SticksEditor
 from station.app.equipment.sticks_view import SticksView
 from station.app.export import Exporter
-from station.app.first_start import answered, student_level
 from station.app.importer import Importer, told
 from station.app.phase_page import PhasePage, PhaseView
-from station.app.preferences import Preferences
 from station.app.room_state import Stage
 from station.app.sessions.pad_control import PadControl
 from station.app.sessions.session_control import Launch, SessionControl
-from station.app.settings_store import SettingsStore
+from station.app.settings.first_start import answered, student_level
+from station.app.settings.preferences import Preferences
+from station.app.settings.settings_store import SettingsStore
+from station.app.settings.view_settings import ViewSettings, view_settings_of, with_view_settings
 from station.app.style_editor import StyleEditor
 from station.app.toasts import Toasts
-from station.app.view_settings import ViewSettings, view_settings_of, with_view_settings
 from station.app.window_state import State
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceLost

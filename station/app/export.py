@@ -19,7 +19,7 @@ from typing import assert_never
 from station.app.actions.file_actions import CancelFilm, Export, ExportTake, FileAction, FilmTake
 from station.app.music_files.named_parts import load_part
 from station.app.music_files.part_export import bars_of, write_part
-from station.app.view_settings import ViewSettings
+from station.app.settings.view_settings import ViewSettings
 from station.app.worker_process import StartWork, Work, WorkerProcess
 from station.core.disk.files import growing, write_whole
 from station.core.errors import DeviceError, StationError

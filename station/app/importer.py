@@ -6,7 +6,7 @@ from typing import assert_never
 
 from station.app.actions.file_actions import CancelImport, Import, ImportAction
 from station.app.music_files.lesson_import import KeptLesson, keep_import
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.app.worker_process import StartWork, Work, WorkerProcess
 from station.core.errors import StationError
 from station.music.formats.groovescribe.groove_formats import is_groove_url

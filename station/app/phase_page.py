@@ -13,7 +13,7 @@ from typing import assert_never
 from station.app.actions.phase_actions import ChooseTriggers, OpenMotion, PhaseAction, PlayMotion, SeekMotion
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S, ns_from_s
-from station.practice.session.listening import Listening, stretch
+from station.practice.session.cues.listening import Listening, cues_between
 from station.scenes.phase_film import cues_of
 from station.scenes.phase_view import WalkingScene, trace_of
 from station.sync.phase.model_file import load_model
@@ -143,7 +143,7 @@ class PhasePage:
         from_s = start_s if self._at_s >= end_s else self._at_s
         cues = cues_of(self._opened.told.hits, 0.0)
         begin_ns, end_ns = ns_from_s(from_s), ns_from_s(end_s)
-        listening = Listening(stretch(cues, begin_ns, end_ns), end_ns - begin_ns, begin_ns)
+        listening = Listening(cues_between(cues, begin_ns, end_ns), end_ns - begin_ns, begin_ns)
         self._hear(listening)
         self._listening, self._at_s = listening, from_s
 

@@ -17,7 +17,7 @@ from station.app.actions.style_actions import (
     SaveStyle,
     StyleAction,
 )
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.app.style.style_library import StyleEntry, StyleLibrary
 from station.app.style.style_options import StyleOptions
 from station.core.errors import StationError

@@ -9,12 +9,12 @@ from station.app.equipment.sticks_view import SticksView
 from station.app.export import ExportView
 from station.app.importer import ImportView
 from station.app.phase_page import PhaseView
-from station.app.preferences import PracticePreferences
 from station.app.room_state import RoomState, ShownResult, Stage
 from station.app.selection import Selection
 from station.app.sessions.demo_player import PlayerView
+from station.app.settings.preferences import PracticePreferences
+from station.app.settings.view_settings import ViewSettings
 from station.app.style_editor import StyleView
-from station.app.view_settings import ViewSettings
 from station.core.settings import Settings
 from station.motion.sticking.hand_notes import Hands
 from station.music.score import Score

@@ -19,7 +19,7 @@ from station.cli.options.option_fields import Command, argument, choice, flag, o
 from station.core.errors import BadInput
 from station.core.settings import load_settings
 from station.core.units import NS_PER_MS
-from station.practice.session.click_pattern import Gap
+from station.practice.session.cues.click_pattern import Gap
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, LEVELS, Windows
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def run(options: AssessOptions) -> int:
     """Align, sum up, print."""
     from station.app.music_files.find_own_lesson import find_any_lesson
     from station.practice.records.session_report import assessment_text, feel_of, kit_facts, session_view
-    from station.practice.session.click_pattern import silences
+    from station.practice.session.cues.click_pattern import silences
     from station.scoring.align import align
     from station.scoring.analysis.summary import SummaryView, summarise
     from station.scoring.following.passes import times_played

@@ -59,7 +59,7 @@ class _Catalog:
 
 
 def _catalog() -> _Catalog:
-    from station.app.settings_store import SettingsStore
+    from station.app.settings.settings_store import SettingsStore
     from station.drills.lesson_row import row_of
     from station.drills.library import courses_in, lesson_rows, own_lessons, shipped_courses
     from station.practice.records.student_progress import student_progress

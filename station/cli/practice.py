@@ -8,7 +8,7 @@ from typing import Literal
 
 from station.app.equipment.diagnostics import has_screen
 from station.app.sessions.session_checks import check_settings
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.cli.console import print_json, say, write
 from station.cli.input.read_scores import bars_of_gap
 from station.cli.input.self_estimate_question import ask_first
@@ -40,8 +40,8 @@ from station.practice.records.session_files import TEXT_NAME
 from station.practice.records.session_report import practice_document, report_text, with_truth
 from station.practice.records.student_progress import student_progress
 from station.practice.session.backing_track import BackingRequest
-from station.practice.session.click_options import parse_click
-from station.practice.session.click_pattern import Gap
+from station.practice.session.cues.click_options import parse_click
+from station.practice.session.cues.click_pattern import Gap
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level

@@ -4,7 +4,7 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from station.app.equipment.diagnostics import has_screen
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.cli.options.option_fields import Command
 from station.cli.options.watch_options import WatchOptions
 from station.core.errors import DeviceError

@@ -48,7 +48,7 @@ class Settings:
     (`devices.stick_ports`), empty for none; `output` part of the sound device's name, empty
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
     sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click,
-    `click_pattern` what clicks (`practice.session.click_options`), `levels` of what sounds (`engine.level_words`),
+    `click_pattern` what clicks (`practice.session.cues.click_options`), `levels` of what sounds (`engine.level_words`),
     `guide` whether the demonstration plays along in the passes, `midi_out` part of the name of a MIDI output that gets
     it, empty for none; `own_sound` false where the kit's module sounds itself and the strokes of the student stay
     silent; latencies in milliseconds, subtracted from every hit (input) and added to every written time (output) on
@@ -60,13 +60,13 @@ class Settings:
     file, `figure` who demonstrates, a shipped drummer or a file, empty for the style's own, `stands` which kit stands
     before them, a shipped one or a file, empty for the lesson's, and `hands` whose hand leads: `right`, `left`, `open`,
     empty for as that kit is built (`practice.session.leading_hand`). `view`, `mirrored`, `inset` and `viewpoints`
-    are where the window looks from, `score` how it shows the score, `theme` its colours (`app.view_settings`),
+    are where the window looks from, `score` how it shows the score, `theme` its colours (`app.settings.view_settings`),
     `panel_scale` how many times as large as designed its panels are, `double` whether the student is shown as a second
     drummer, `double_beside` whether beside the demonstrator and not over them, `air_drums` whether strokes in the air
     are hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock,
     `sound_phase` whether that phase sounds the drill's strokes as it passes them, `course` names the course whose
     lessons are listed, empty for all; `welcomed` whether the questions of the first start were asked
-    (`app.first_start`).
+    (`app.settings.first_start`).
     """
 
     student: str = "student"

@@ -207,7 +207,3 @@ class Lesson:
         if len({section.name for section in self.sections}) < 2:
             return {}
         return {bar: s.name for s in self.sections if s.name for bar in range(s.first_bar, s.last_bar + 1)}
-
-    def swing_of_bar(self, bar: int) -> Swing:
-        """How `bar`, from 0, swings."""
-        return next((s.swing for s in self.sections if s.first_bar <= bar <= s.last_bar), self.swing)

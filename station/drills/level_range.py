@@ -1,7 +1,7 @@
 """The levels at which a lesson may be judged, and which of them holds: the one answer for window, terminal and report.
 
-A level belongs to a student and a lesson. It moves the pass mark (`mastery.pass_mark`) and the windows that are shown
-live, never the score, so that nobody who improves sees it fall.
+A level belongs to a student and a lesson. It moves the pass mark (`pass_measures.pass_mark`) and the windows that are
+shown live, never the score, so that nobody who improves sees it fall.
 """
 
 from collections.abc import Mapping

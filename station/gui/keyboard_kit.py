@@ -10,7 +10,7 @@ from types import MappingProxyType
 
 from imgui_bundle import imgui
 
-from station.app.view_settings import SLOTS
+from station.app.settings.view_settings import SLOTS
 from station.core.labels import piece_name
 from station.core.named_view import NamedView
 from station.core.pieces import Articulation, Piece, Zone

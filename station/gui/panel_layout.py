@@ -17,17 +17,16 @@ from station.app.window_state import State
 from station.core.units import ns_from_s
 from station.gui import theme
 from station.gui.panels import (
-    devices_panel,
     export_panel,
     graph_panel,
     hits_panel,
     import_panel,
     phase_panel,
     practice_panel,
-    sticks_panel,
-    style_panel,
 )
 from station.gui.panels.bars_panel import bars_panel
+from station.gui.panels.devices import devices_panel, sticks_panel
+from station.gui.panels.figure import style_panel
 from station.gui.panels.lessons_panel import LessonsPanel
 from station.gui.panels.panel import DockSide, Panel, panels_popup
 from station.gui.panels.playback_row import PlaybackRow

@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 
 from station.app.actions.action import Action, Notify
 from station.app.actions.settings_actions import KeepViewpoint, SetView
-from station.app.view_settings import ViewSettings
+from station.app.settings.view_settings import ViewSettings
 from station.gui.keyboard_kit import slot_pressed, view_pressed
 from station.gui.viewport import Viewport
 

@@ -20,7 +20,7 @@ from imgui_bundle import imgui
 from numpy.typing import NDArray
 
 from station.app.room_state import ShownResult
-from station.app.view_settings import ViewSettings
+from station.app.settings.view_settings import ViewSettings
 from station.core.errors import DeviceError
 from station.core.named_view import NamedView
 from station.gui import theme

@@ -12,9 +12,9 @@ from station.app.actions.file_actions import Import
 from station.app.actions.practice_actions import Begin, Leave, Pause, StrikeKey
 from station.app.actions.settings_actions import FinishFirstStart
 from station.app.controller import Controller
-from station.app.first_start import FirstAnswers
 from station.app.help_topics import topic_of
 from station.app.room_state import Stage
+from station.app.settings.first_start import FirstAnswers
 from station.app.window_state import State
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from station.core.pieces import Limb, Piece, word
 from station.motion.body.head_keys import head_curve
 from station.motion.body.idle_motion import BREATH_M, BREATH_RATE, Blinks
-from station.motion.body.reach import reaching
+from station.motion.body.lean_to_reach import reaching
 from station.motion.kinematics.arm import Contact
 from station.motion.kinematics.frame import FeetNow, HandNow, Rig
 from station.motion.kinematics.grip import Hold

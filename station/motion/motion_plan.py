@@ -18,7 +18,7 @@ from station.motion.body.gaze import GazeTargets, gaze_curve
 from station.motion.body.heels import heel_curves
 from station.motion.body.idle_motion import Blinks
 from station.motion.body.intensity import Intensity
-from station.motion.body.reach import reaching
+from station.motion.body.lean_to_reach import reaching
 from station.motion.feasibility.on_a_kit import InfeasibleDemand
 from station.motion.kinematics.body_solids import BodyPoints
 from station.motion.kinematics.figure import Figure

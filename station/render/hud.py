@@ -51,13 +51,11 @@ _CUES = {
 }
 
 
-def hud_shapes(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
-    """The shapes of the HUD for a picture area of `size` pixels (width, height above the score), origin top left."""
-    return np.concatenate([hud_lines(hud, atlas, size), hud_calls(hud, atlas, size)])
-
-
 def hud_lines(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
-    """Of the HUD what stands in the upper corners: letters alone, which change once a beat."""
+    """Of the HUD what stands in the upper corners: letters alone, which change once a beat.
+
+    The picture area has `size` pixels (width, height above the score), its origin top left.
+    """
     return _HudPage(hud, DrawList(atlas), size).lines()
 
 
@@ -88,7 +86,7 @@ _NAMES = ("Demonstrator", "You")
 
 
 def name_shapes(atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
-    """Who is who in two pictures side by side, and the line between them; `size` as for `hud_shapes`."""
+    """Who is who in two pictures side by side, and the line between them; `size` as for `hud_lines`."""
     draw_list, (width, height), k = DrawList(atlas), size, scale(size[1])
     draw_list.box((width / 2 - k, 0.0), (2 * k, height), INK_FAINT)
     for name, middle in zip(_NAMES, (0.25, 0.75), strict=True):

@@ -19,7 +19,7 @@ from station.render.gpu.edge_smoothing import EdgeSmoother
 from station.render.gpu.gl import RenderTarget, give_back
 from station.render.gpu.moving_parts import DoublePlace, frames_of
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
-from station.render.notation.score_view import ScoreForm, ScorePlace, ScoreView, shows_staff
+from station.render.notation.screen.score_view import ScoreForm, ScorePlace, ScoreView, shows_staff
 from station.render.palette import INK_FAINT, NIGHT, Theme, over_picture, themed
 from station.render.quality import QUALITIES, Quality
 from station.render.scene import Scene

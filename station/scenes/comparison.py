@@ -12,7 +12,7 @@ from station.core.events import Hit
 from station.core.pieces import Limb
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.motion.drummer import Drummer
-from station.motion.style.lanes import in_passes
+from station.motion.style.automation_lanes import in_passes
 from station.music.performance import Performance
 from station.practice.session.session import SessionResult
 from station.render.snapshot import BarNumbers, Hud, Snapshot, StudentShown, TimingCue

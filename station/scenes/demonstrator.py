@@ -8,7 +8,7 @@ from station.core.errors import BadInput
 from station.core.settings import Settings
 from station.drills.lesson import BarCue
 from station.motion.kinematics.figure import DEFAULT_FIGURE, Figure, figure_of, load_figure
-from station.motion.style.lanes import in_turn
+from station.motion.style.automation_lanes import in_turn
 from station.motion.style.style import ANYBODY, Style
 from station.motion.style.style_file import load_style
 

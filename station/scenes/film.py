@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from station.core.errors import DeviceError
 from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
-from station.motion.style.lanes import in_passes
+from station.motion.style.automation_lanes import in_passes
 from station.motion.style.style import Style
 from station.music.score import Score
 from station.render.picture import Shot

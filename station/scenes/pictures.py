@@ -9,7 +9,7 @@ from station.core.units import NS_PER_S
 from station.drills.directions import direction_at
 from station.drills.lesson import BarCue
 from station.motion.drummer import Drummer
-from station.motion.style.lanes import in_passes
+from station.motion.style.automation_lanes import in_passes
 from station.music.judgement import Label
 from station.practice.records.save_session import SessionRecord
 from station.practice.records.session_files import DRUMMER_NAME, PICTURE_NAME

@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
-from station.motion.style.lanes import in_passes
+from station.motion.style.automation_lanes import in_passes
 from station.motion.style.style import Style
 from station.music.score import Score
 from station.practice.session.plan import Plan

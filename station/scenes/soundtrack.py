@@ -9,8 +9,8 @@ from station.core.units import NS_PER_S
 from station.engine.cue_queue import CueRun
 from station.engine.sound_player import SoundPlayer
 from station.music.score import Score
-from station.practice.session.click_pattern import PLAIN, click_cues
-from station.practice.session.stroke_cues import demonstration_cues
+from station.practice.session.cues.click_pattern import PLAIN, click_cues
+from station.practice.session.cues.stroke_cues import demonstration_cues
 from station.sound.click_sounds import DEFAULT_TIMBRE, click_sounds
 from station.sound.drum_kit import DrumKit, Frames
 from station.sound.mixer import Mixer

@@ -60,6 +60,6 @@ def align_clocked(score: Score, performance: Performance, note_class: Indices, h
     attempt = np.zeros(len(at_ns), np.int64)
     if warp is not None:
         at_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64) + bias_ns
-        attempt = warp.stretch
+        attempt = warp.segment
     matching = match_take(score, performance, note_class, hit_class, Way(at_ns, attempt, bias_ns))
     return labelled(matching, Timed(at_ns, score.onset_ns, at_ns, attempt, Reference.CLICK))

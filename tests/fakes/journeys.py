@@ -1,6 +1,6 @@
 """Students who skip, go back, stop, begin anywhere and change their tempo, with the truth about every stroke.
 
-A journey is a row of legs: stretches of bars, each at its own tempo and after its own pause. Seeded normal noise, notes
+A journey is a row of legs: segments of bars, each at its own tempo and after its own pause. Seeded normal noise, notes
 left out, strokes added and strokes on another piece are drawn here, so that no word of the code under test is in it.
 """
 

@@ -25,8 +25,8 @@ from station.app.actions.practice_actions import Dismiss, EndSession
 from station.app.actions.settings_actions import SetView
 from station.app.help_topics import topic_of
 from station.app.room_state import RoomState, Stage
-from station.app.settings_store import SettingsStore
-from station.app.view_settings import view_settings_of
+from station.app.settings.settings_store import SettingsStore
+from station.app.settings.view_settings import view_settings_of
 from station.app.window_state import State
 from station.core.measured_latency import load_calibration
 from station.core.named_view import NamedView
@@ -40,24 +40,31 @@ from station.engine.messages import Play, SetLevel, WatchRawBytes, WatchSensors
 from station.gui.display import GONE, Rectangle, home_for
 from station.gui.glfw_screen import glfw_screen
 from station.gui.keyboard_kit import VIEW_KEYS
-from station.gui.panels.calibration_part import ANYWAY_LABEL, MEASURE_LABEL
-from station.gui.panels.devices_panel import DEVICES
+from station.gui.panels.devices.calibration_part import ANYWAY_LABEL, MEASURE_LABEL
+from station.gui.panels.devices.devices_panel import DEVICES
+from station.gui.panels.devices.pads_part import LEARN_LABEL as LEARN_PAD_LABEL
+from station.gui.panels.devices.pads_part import UNDO_LABEL
+from station.gui.panels.devices.sticks_panel import (
+    FOLLOW_LABEL,
+    GESTURE_LABEL,
+    LOOK_LABEL,
+    PORTS_LABEL,
+    SOUND_LABEL,
+    STICKS,
+)
+from station.gui.panels.devices.velocity_part import LEARN_LABEL as TOUCH_LABEL
 from station.gui.panels.export_panel import EXPORT, PLAYED_LABEL, SHEET_LABEL, music_label
 from station.gui.panels.import_panel import IMPORT, IMPORT_LABEL, PASTE_LABEL, SOURCE_LABEL
 from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LEVEL_LABEL, LISTEN_LABEL
 from station.gui.panels.lessons_panel import IMPORT_LABEL as OPEN_IMPORT_LABEL
 from station.gui.panels.lessons_panel import LESSON_LABEL as TAKE_LESSON_LABEL
-from station.gui.panels.pads_part import LEARN_LABEL as LEARN_PAD_LABEL
-from station.gui.panels.pads_part import UNDO_LABEL
 from station.gui.panels.panel import PANELS_LABEL
 from station.gui.panels.phase_panel import MODEL_LABEL, MOTION_LABEL, OPEN_LABEL, PHASE, PLAY_LABEL, STOP_LABEL
 from station.gui.panels.playback_row import STOP_LABEL as HITS_STOP
 from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
 from station.gui.panels.player_controls import COUNT_IN_LABEL, MORE_LABEL
 from station.gui.panels.practice_panel import LEARN_LABEL, PRACTICE
-from station.gui.panels.sticks_panel import FOLLOW_LABEL, GESTURE_LABEL, LOOK_LABEL, PORTS_LABEL, SOUND_LABEL, STICKS
 from station.gui.panels.transport_bar import VIEW_LABEL
-from station.gui.panels.velocity_part import LEARN_LABEL as TOUCH_LABEL
 from station.gui.window import Window
 from station.gui.window_frame import WindowOptions
 from station.music.formats.format_table import read_part
@@ -66,7 +73,7 @@ from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.self_estimate import SelfEstimate
 from station.render.camera import VIEW_NAMES
 from station.render.files.png_file import write_png
-from station.render.notation.score_view import ScoreForm
+from station.render.notation.screen.score_view import ScoreForm
 from station.render.snapshot import Snapshot
 from station.simulation.student_spec import parse_spec
 from tests.fakes.stick_physics import FINE_HZ, Sensor, Stroke, measured, strokes_by_angle

@@ -14,7 +14,7 @@ from station.app.equipment.calibration import Message
 from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
 from station.app.equipment.latency_methods import MeasureRequest
 from station.app.sessions.session_control import Launch
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound
 from station.core.imu import STANDARD_GRAVITY_M_S2, ImuSample

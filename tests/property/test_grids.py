@@ -13,7 +13,7 @@ from station.drills.grid.grid import GridFrame, parse_line
 from station.drills.grid.grid_reader import GridSection, read_grid
 from station.drills.grid.grid_timing import GridTiming, meter
 from station.drills.grid.landing import read_landing
-from station.drills.grid.loudness import STICK_HEIGHTS_IN
+from station.drills.grid.loudness_line import STICK_HEIGHTS_IN
 from station.music.swing import MAX_RATIO
 from station.music.tempo import MeterChange
 

@@ -10,7 +10,7 @@ from station.drills.mastery.feedback_fading import Feedback
 from station.drills.mastery.mastery_json import document_of, state_from
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.next_pass import begin, fix_tempo, new_item, next_step, veto
-from station.drills.mastery.pass_facts import BarResult, PassResult
+from station.drills.mastery.pass_measures.pass_facts import BarResult, PassResult
 from station.drills.mastery.practice_steps import PassKind, PracticeItem, PracticeStep
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
 

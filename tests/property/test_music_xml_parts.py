@@ -14,7 +14,7 @@ from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart, PartSection
 from station.music.formats.music_format import Feature
 from station.music.formats.music_xml.music_xml_format import KEEPS, MUSIC_XML
-from station.music.formats.music_xml.music_xml_writer import write_music_xml
+from station.music.formats.music_xml.writing.music_xml_writer import write_music_xml
 from station.music.grace_strokes import with_graces
 from station.music.loudness_marks import LoudnessMark
 from station.music.score import Note, Score

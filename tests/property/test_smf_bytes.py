@@ -107,7 +107,7 @@ metas = st.one_of(
 
 @st.composite
 def tracks(draw: st.DrawFn) -> bytes:
-    """A good track in which status bytes are left out wherever they may be, in stretches short and long."""
+    """A good track in which status bytes are left out wherever they may be, in segments short and long."""
     parts, running = [], None
     for _ in range(draw(st.integers(0, 4))):
         messages = draw(st.lists(st.tuples(delta, channel_message), max_size=30))
@@ -152,7 +152,7 @@ WORST = {
     "tempos": tempo(1, 500_000),
     "meters": meter(1, 1, 2),
     "system messages": event(0, 0xF8),
-    "short stretches": event(0, 0x99, 38, 1) * 8 + event(0, 0xD9, 1),
+    "short segments": event(0, 0x99, 38, 1) * 8 + event(0, 0xD9, 1),
     "chokes": event(1, 0xA9, 49, 127) + event(1, 0xA9, 49, 0),
     "deltas": number(0x7F) + bytes([0xB9, 4, 5]),
 }

@@ -24,7 +24,7 @@ ticks = st.integers(0, 2 * HOUR_TICKS)
 
 
 def exact_ns(tempo_map: TempoMap, tick: int) -> Fraction:
-    """The definition: a sum over the stretches of one tempo."""
+    """The definition: a sum over the segments of one tempo."""
     total = Fraction(0)
     changes = tempo_map.tempos
     for i, change in enumerate(changes):

@@ -23,7 +23,7 @@ from station.render.camera import Camera
 from station.render.framing import named
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.gpu.moving_parts import DoublePlace
-from station.render.notation.score_view import AFTER_S, BEFORE_S, ScoreForm, ScorePlace, lead_spaces
+from station.render.notation.screen.score_view import AFTER_S, BEFORE_S, ScoreForm, ScorePlace, lead_spaces
 from station.render.notation.staff import PLACES, height
 from station.render.notation.staff_rows import staff_rows
 from station.render.painter import SCORE_SHARE, Arrangement, Painter

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from station.app.first_start import FirstAnswers
-from station.app.preferences import PracticePreferences
-from station.app.view_settings import ViewSettings
+from station.app.settings.first_start import FirstAnswers
+from station.app.settings.preferences import PracticePreferences
+from station.app.settings.view_settings import ViewSettings
 from station.motion.sticking.hand_notes import Hands
 from station.render.camera import Camera
 

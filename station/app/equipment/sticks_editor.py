@@ -23,7 +23,7 @@ from station.app.actions.equipment_actions import (
     StickAction,
 )
 from station.app.equipment.sticks_view import Lesson, SeenStick, SticksView, view_of
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.events import (
     PhaseEstimate,

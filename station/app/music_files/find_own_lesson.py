@@ -9,7 +9,7 @@ def find_any_lesson(name_or_path: str) -> Lesson:
 
     Raises `BadInput` as `library.find_lesson` does.
     """
-    from station.app.settings_store import SettingsStore
+    from station.app.settings.settings_store import SettingsStore
     from station.drills.library import courses_in, find_lesson, lesson_names, own_lessons
 
     try:

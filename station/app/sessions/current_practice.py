@@ -12,7 +12,7 @@ from station.app.room_state import FreeRequest, RoomState, Stage
 from station.app.sessions.free_session import FreeSession
 from station.app.sessions.last_result import LastResult
 from station.app.sessions.lesson_session import LessonSession
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.core.errors import StationError
 from station.core.events import Hit
 from station.engine.messages import EngineEvent

@@ -32,7 +32,7 @@ from station.motion.kit.kit import Kit
 from station.motion.sticking.hand_notes import Hands
 from station.practice.demonstration.song_cues import SOUNDED_NS, CountIn, after, count_in_of, song_cues
 from station.practice.demonstration.song_player import FLAGS, Song, SongPlayer, SongStep
-from station.practice.session.click_pattern import PLAIN, ClickPattern
+from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
 from station.practice.session.leading_hand import with_sticking
 from station.render.snapshot import BarNumbers, Hud, Snapshot
 from station.scenes.curves import ScoreCurves

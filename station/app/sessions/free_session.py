@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from station.app.room_state import FreeRequest
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.core.errors import StationError
 from station.core.settings import setting_source
 from station.core.units import NS_PER_S
@@ -21,10 +21,10 @@ from station.music.score import Score
 from station.music.tempo import TempoMap
 from station.practice.headless.live import EngineLink, begin, end
 from station.practice.records.save_session import SessionFolder
-from station.practice.session.click_options import parse_click
+from station.practice.session.cues.click_options import parse_click
+from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency
 from station.practice.session.free_play import BEATS, FreeClick, FreePlay, listening_back, take_of
-from station.practice.session.listening import Listening
 from station.render.snapshot import Hud, SeenStrike, Snapshot, Strip
 from station.scenes.session_scene import STRIKE_SHOWN_NS, strikes
 

@@ -11,7 +11,7 @@ from station.app.sessions.lesson_session import SavedSession
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
 from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, previous_bar, students_bar
-from station.practice.session.listening import Listening
+from station.practice.session.cues.listening import Listening
 from station.practice.session.self_estimate import GUESS_OF, QUESTION, SelfEstimate, answered, is_worth_asking
 from station.render.snapshot import Snapshot
 from station.scenes.comparison import Comparison

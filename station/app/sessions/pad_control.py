@@ -6,9 +6,9 @@ else: a gesture to be learnt.
 
 from station.app.actions.action import Action
 from station.app.actions.practice_actions import Answer, Begin, Pause
-from station.app.preferences import Preferences
 from station.app.sessions.current_practice import CurrentPractice
-from station.app.settings_store import SettingsStore
+from station.app.settings.preferences import Preferences
+from station.app.settings.settings_store import SettingsStore
 from station.engine.messages import EngineEvent
 from station.music.score import Score
 from station.practice.control.pad_commands import PadCommands

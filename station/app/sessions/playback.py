@@ -5,7 +5,7 @@ from contextlib import suppress
 from station.app.engine_client import EngineClient
 from station.core.errors import DeviceError
 from station.engine.messages import Command, EngineEvent, Play, SetBacking
-from station.practice.session.listening import Listening
+from station.practice.session.cues.listening import Listening
 
 
 class Playback:

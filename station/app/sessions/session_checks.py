@@ -3,12 +3,12 @@
 Each word goes through the parser of whoever uses it later, so that nothing is refused here that would have worked.
 """
 
-from station.app.view_settings import view_settings_of
+from station.app.settings.view_settings import view_settings_of
 from station.core.settings import Settings, setting_source
 from station.engine.engine_config import EngineConfig
 from station.motion.kit.kit import load_kit
 from station.practice.control.pause_options import parse_pause
-from station.practice.session.click_options import parse_click
+from station.practice.session.cues.click_options import parse_click
 from station.practice.session.leading_hand import hands_of
 from station.sound.click_sounds import blips_of
 from station.sound.samples.load_kit import find_kit

@@ -18,16 +18,16 @@ from station.app.sessions.free_session import FreeSession
 from station.app.sessions.lesson_session import LessonSession
 from station.app.sessions.playback import Playback
 from station.app.sessions.session_preparation import PreparedSession, SessionPreparation
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.measured_latency import StoredCalibration
 from station.core.units import NS_PER_S
 from station.engine.messages import EngineEvent, Started
 from station.motion.sticking.hand_notes import Hands
 from station.practice.records.session_files import CAPTURE_NAME
+from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency, latency_of
 from station.practice.session.leading_hand import hands_of
-from station.practice.session.listening import Listening
 from station.practice.session.plan import Plan
 from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 
 from station.app.room_state import SessionRequest
 from station.app.sessions.demo_player import DemonstratedLesson
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.settings import setting_source
 from station.drills.lesson import Lesson
 from station.motion.kit.kit import Kit
 from station.practice.records.lesson_order import followed_course
 from station.practice.records.memory import Memory, Remembered
-from station.practice.session.click_options import parse_click
-from station.practice.session.click_pattern import ClickPattern
+from station.practice.session.cues.click_options import parse_click
+from station.practice.session.cues.click_pattern import ClickPattern
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.scoring.matching.hit_windows import Level

@@ -18,7 +18,7 @@ import numpy as np
 from station.bench.rigs.mastery_tutors import TUTORS, Tutor, TutorRequest
 from station.core.units import s_from_ns
 from station.drills.library import find_lesson
-from station.drills.mastery.pass_facts import PassResult, measure_pass
+from station.drills.mastery.pass_measures.pass_facts import PassResult, measure_pass
 from station.drills.mastery.practice_steps import PracticeItem, item_of
 from station.drills.mastery.rules import DEFAULT_RULES
 from station.drills.mastery.tempo_ladder import TOP_PCT
@@ -219,7 +219,7 @@ class Trial:
             hit_label=truth.hit_label,
             asynchrony_ns=asynchrony,
             hit_score_ns=hits["at_ns"],
-            stretch=np.zeros(len(hits), np.int64),
+            segment=np.zeros(len(hits), np.int64),
             reference=Reference.CLICK,
             sd_ms=None,
         )

@@ -15,7 +15,7 @@ import numpy as np
 from station.drills.mastery.equipment_faults import rewired
 from station.drills.mastery.feedback_fading import Feedback
 from station.drills.mastery.next_pass import begin, new_item, next_step
-from station.drills.mastery.pass_facts import measure_pass
+from station.drills.mastery.pass_measures.pass_facts import measure_pass
 from station.drills.mastery.practice_steps import PassKind, PracticeItem
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
 from station.drills.mastery.tempo_ladder import TOP_PCT

@@ -124,9 +124,9 @@ _NEAR_NS = NS_PER_S
 
 
 def turns_told(truth: Truth, alignment: Alignment) -> tuple[int, int, int]:
-    """How many turns could be heard, how many of them our stretches miss, and how many of ours nobody took."""
+    """How many turns could be heard, how many of them our segments miss, and how many of ours nobody took."""
     at_ns = truth.take.performance.hits["at_ns"]
-    breaks = np.flatnonzero(np.diff(alignment.stretch))
+    breaks = np.flatnonzero(np.diff(alignment.segment))
     since, until = at_ns[breaks], at_ns[breaks + 1]
     near = [(until >= t.since_ns - _NEAR_NS) & (since <= t.until_ns + _NEAR_NS) for t in truth.turns]
     heard = [bool(n.any()) for n, turn in zip(near, truth.turns, strict=True) if turn.is_heard]

@@ -17,7 +17,7 @@ from station.music.score import Score
 if TYPE_CHECKING:
     from station.motion.kit.kit import Kit
     from station.motion.sticking.hand_notes import Hands
-    from station.practice.session.click_pattern import Gap
+    from station.practice.session.cues.click_pattern import Gap
     from station.scenes.score_words import ScoreWords
 
 MIDI_ENDINGS = MIDI.endings
@@ -95,7 +95,7 @@ def _performance_of_capture(path: Path) -> Performance:
 
 def bars_of_gap(text: str) -> Gap:
     """`2/1`: two bars with a click, one without; raises `ArgumentTypeError` for anything else."""
-    from station.practice.session.click_pattern import Gap
+    from station.practice.session.cues.click_pattern import Gap
 
     sounding, _, quiet = text.partition("/")
     if not (is_count(sounding) and is_count(quiet) and int(sounding) and int(quiet)):

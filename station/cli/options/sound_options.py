@@ -7,7 +7,7 @@ from station.cli.options.option_fields import choice, number, option, switch, un
 from station.core.errors import BadInput
 from station.engine.levels_option import LEVELS_HELP, parse_levels
 from station.practice.session.backing_track import BackingRequest
-from station.practice.session.click_options import CLICK_HELP, parse_click
+from station.practice.session.cues.click_options import CLICK_HELP, parse_click
 from station.sound.click_sounds import TIMBRES
 
 

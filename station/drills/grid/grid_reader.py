@@ -14,7 +14,7 @@ from station.drills.grid.grid import GridFrame
 from station.drills.grid.grid_lines import LINES, RawLine, cells, lines_of_table, plain_line
 from station.drills.grid.grid_timing import TIMING, GridTiming, timing_of
 from station.drills.grid.line_group import MAX_BARS, CellCount, ParsedLine, agreed_bars, joined_strokes, parsed
-from station.drills.grid.loudness import Loudness, read_loudness
+from station.drills.grid.loudness_line import Loudness, read_loudness
 from station.drills.grid.sticking_line import STICKING
 from station.music.loudness_marks import LoudnessMark
 from station.music.swing import STRAIGHT

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 from station.core.labels import piece_name
 from station.core.pieces import Piece
-from station.drills.mastery.pass_facts import PassResult, StruckFor
+from station.drills.mastery.pass_measures.pass_facts import PassResult, StruckFor
 from station.drills.mastery.rules import Rules
 from station.music.performance import Performance
 

@@ -10,9 +10,9 @@ from enum import StrEnum
 from types import MappingProxyType
 
 from station.drills.lesson import PartGoals
-from station.drills.mastery.asked_parts import Part
-from station.drills.mastery.part_facts import PartResult
-from station.drills.mastery.pass_facts import PassResult
+from station.drills.mastery.pass_measures.asked_parts import Part
+from station.drills.mastery.pass_measures.part_facts import PartResult
+from station.drills.mastery.pass_measures.pass_facts import PassResult
 from station.drills.mastery.rules import Rules
 
 

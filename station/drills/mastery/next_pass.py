@@ -10,7 +10,7 @@ from datetime import date
 
 from station.drills.mastery.feedback_fading import Feedback
 from station.drills.mastery.mastery_state import Before, ItemState
-from station.drills.mastery.pass_facts import PassResult
+from station.drills.mastery.pass_measures.pass_facts import PassResult
 from station.drills.mastery.pass_outcome import after_pass
 from station.drills.mastery.plateau import Plateau
 from station.drills.mastery.practice_steps import PROBES, PassKind, PracticeItem, PracticeStep

@@ -8,7 +8,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 from station.drills.mastery.mastery_state import Chunk, ItemState
-from station.drills.mastery.pass_facts import PassResult
+from station.drills.mastery.pass_measures.pass_facts import PassResult
 from station.drills.mastery.practice_steps import PassKind
 from station.drills.mastery.rules import Rules
 from station.drills.mastery.silent_bars import SilentBars

@@ -12,8 +12,8 @@ from typing import Any
 from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
 from station.drills.lesson import Lesson
-from station.drills.mastery.asked_parts import AskedPart, Part, asked_parts
-from station.drills.mastery.pass_mark import PASS_MARKS
+from station.drills.mastery.pass_measures.asked_parts import AskedPart, Part, asked_parts
+from station.drills.mastery.pass_measures.pass_mark import PASS_MARKS
 from station.music.swing import STRAIGHT
 from station.scoring.matching.hit_windows import Level
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from station.drills.mastery.goals_missed import Miss, PassFault, missed_goals
-from station.drills.mastery.pass_facts import PassResult
+from station.drills.mastery.pass_measures.pass_facts import PassResult
 from station.drills.mastery.rules import Rules
 
 

@@ -6,7 +6,7 @@ A bar's faults are strokes left out, on a wrong pad, or clearly out of time. Lat
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from station.drills.mastery.pass_facts import BarResult
+from station.drills.mastery.pass_measures.pass_facts import BarResult
 from station.drills.mastery.rules import Rules
 
 

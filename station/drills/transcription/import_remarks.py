@@ -10,7 +10,7 @@ from station.core.units import NS_PER_MS, PPQ
 from station.drills.grid.tab_symbols import BEYOND
 from station.drills.lesson import Lesson
 from station.drills.transcription.strokes.ornament_finder import BOUNCE_MS, FoundOrnaments
-from station.drills.transcription.strokes.reach import Reach
+from station.drills.transcription.strokes.playable_strokes import Reach
 from station.drills.transcription.timing.grid_times import GridTimes
 from station.music.bar_numbers import named_bars
 from station.music.score import Score

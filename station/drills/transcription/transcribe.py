@@ -10,7 +10,9 @@ from math import ceil
 from statistics import median
 
 from station.core.errors import BadInput
+from station.core.units import NS_PER_S, PPQ
 from station.drills.difficulty import difficulty
+from station.drills.grid.grid_timing import MAX_BEATS, UNITS
 from station.drills.grid.line_group import MAX_BARS
 from station.drills.grid.lines_from_score import graces_of
 from station.drills.grid.stroke_settings import Velocities
@@ -22,7 +24,7 @@ from station.drills.transcription.strokes.diddle_finder import with_diddles
 from station.drills.transcription.strokes.letters import as_letter, unified
 from station.drills.transcription.strokes.loudness_levels import with_dynamics
 from station.drills.transcription.strokes.ornament_finder import FoundOrnaments, found_ornaments
-from station.drills.transcription.strokes.reach import within_reach
+from station.drills.transcription.strokes.playable_strokes import within_reach
 from station.drills.transcription.strokes.ringing import with_lengths
 from station.drills.transcription.strokes.steady_dynamics import steady_dynamics
 from station.drills.transcription.timing.grid_times import GridTimes, quantised_times
@@ -34,7 +36,7 @@ from station.music.drum_part import DrumPart, PartSection
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.swing import STRAIGHT
-from station.music.tempo import TempoMap
+from station.music.tempo import MAX_BPM, MIN_BPM, TempoMap
 
 _LEVELS_FROM = (13.0, 18.5, 23.7, 27.9)
 """From which difficulty on a lesson is of level 2, 3, 4, 5: half way between the medians of the lessons that ship, at
@@ -47,6 +49,8 @@ MOST_STROKES = 12_000
 """Our choice: 20 minutes of ten a second, which take some seconds to read; the longest lesson that ships has 230."""
 _MOST_CHARACTERS = 2000
 """Of a title, a name or what a file says of itself (our choice: a page)."""
+_ABOUT = 1.01
+"""A tempo of a file so little beyond a lesson's may be one that was rounded (our choice)."""
 _TAGS = ("import",)
 
 
@@ -76,6 +80,9 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
         raise BadInput(name, "", f"{len(part.score):,} strokes; at most {MOST_STROKES:,} become a lesson")
     if part.score.bar_count > MAX_BARS:
         raise BadInput(name, "", f"{part.score.bar_count} bars; a lesson has at most {MAX_BARS}")
+    if part.is_meter_said:
+        _refuse_meters(part.score, name)
+    _refuse_tempo(part.score, name)
     ornaments = found_ornaments(part.score, graces_of(part.score) if part.score.is_grace.any() else None)
     mains, empty_bars = _from_its_first_bar(part.score, ornaments)
     part = replace(part, sections=_earlier(part.sections, empty_bars), swing=readable(part.swing))
@@ -112,6 +119,23 @@ def _transcribed(part: DrumPart, name: str) -> Transcribed:
     form = found_form(lesson, part.sections)
     read = as_written(with_sticking(replace(lesson, level=_level(lesson)), form), form)
     return Transcribed(read, tuple(remarks_on(ornaments, whole, mains, reach, read, steadied)))
+
+
+def _refuse_meters(score: Score, name: str) -> None:
+    """Raise `BadInput` for the first bar played whose meter no lesson has: long bars would take long to be tried."""
+    for bar in range(int(score.bar[0]), int(score.bar[-1]) + 1):
+        meter = score.tempo_map.meter_at(score.tempo_map.bar_start(bar))
+        if meter.beats > MAX_BEATS or meter.unit not in UNITS:
+            expected = f"a lesson has 1 to {MAX_BEATS} beats of 1/{UNITS[0]} to 1/{UNITS[-1]}"
+            raise BadInput(name, f"bar {bar + 1}", f"a meter of {meter}; {expected}")
+
+
+def _refuse_tempo(score: Score, name: str) -> None:
+    """Raise `BadInput` where its mean tempo is none of a lesson: all strokes at once would take long to be sorted."""
+    mean_bpm = score.end_tick / PPQ * 60 * NS_PER_S / max(score.length_ns, 1)
+    if not MIN_BPM / _ABOUT <= mean_bpm <= MAX_BPM * _ABOUT:
+        expected = f"a lesson has {MIN_BPM:g} to {MAX_BPM:g}"
+        raise BadInput(name, "", f"{mean_bpm:.4g} quarter notes a minute from end to end; {expected}")
 
 
 def _heard_times(mains: Score, part: DrumPart) -> GridTimes:

@@ -12,7 +12,7 @@ from station.gui.panels.playback_row import PlaybackRow
 from station.gui.widgets import plots
 from station.gui.widgets.flow_row import FlowRow
 from station.render import palette
-from station.render.notation.judgement_marks import ON_TIME_MS
+from station.render.notation.screen.judgement_marks import ON_TIME_MS
 from station.render.report.stroke_plot import AXIS_MS, LINES, heights_ms, line_words
 from station.render.text.draw_list import Colour
 from station.scenes.hit_table import EveryHit, dot_label, nearest

@@ -7,7 +7,7 @@ from imgui_bundle import imgui
 
 from station.app.actions.action import Action
 from station.app.actions.settings_actions import LearnPause, SetPreferences
-from station.app.preferences import PracticePreferences, pause_in_words
+from station.app.settings.preferences import PracticePreferences, pause_in_words
 from station.app.window_state import State
 from station.gui import theme
 

@@ -6,12 +6,12 @@ from typing import TypeVar
 
 from imgui_bundle import imgui
 
-from station.app.view_settings import INSETS, ViewSettings
+from station.app.settings.view_settings import INSETS, ViewSettings
 from station.gui import theme
 from station.gui.widgets.slots import Use, popup_grid, slot_rows
 from station.render.camera import VIEW_NAMES
 from station.render.gpu.moving_parts import DoublePlace
-from station.render.notation.score_view import ScoreForm
+from station.render.notation.screen.score_view import ScoreForm
 from station.render.palette import THEME_NAMES, Theme
 
 T = TypeVar("T")

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from station.app.first_start import LONGEST_NAME, FirstAnswers
+from station.app.settings.first_start import LONGEST_NAME, FirstAnswers
 from station.gui import theme
 from station.motion.sticking.hand_notes import Hands
 

@@ -2,6 +2,6 @@
 
 In: the beats of a score and a style. Out: keyframes of the trunk and of the head.
 `beats` reads the score, `body_keys` makes the keyframes, `gaze` says where the drummer looks, `idle_motion` breathes,
-`reach` leans towards what is far.
+`lean_to_reach` leans towards what is far.
 Read `body_keys` first.
 """

@@ -137,10 +137,6 @@ class ArmLengths:
         """The same with joints that bend as far as they are asked to, as whoever looks for a better way needs it."""
         return replace(self, most_bend=math.pi, most_back_m=1.0, wrist=(-math.pi, math.pi, -math.pi, math.pi))
 
-    def nearest_m(self, m: Maths, bend: Number) -> Number:
-        """How near to the shoulder an elbow bent by `bend` brings the wrist, metres."""
-        return m.sqrt(self.upper**2 + self.fore**2 + 2 * self.upper * self.fore * m.cos(bend))
-
 
 def solve(
     m: Maths, lengths: ArmLengths, shoulder: Point, contact: Contact, offsets: Offsets, wing_more: Number = 0.0

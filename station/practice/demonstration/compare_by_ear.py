@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.performance import Performance
 from station.practice.records.previous_session import PreviousSession
-from station.practice.session.click_pattern import PLAIN, click_cues
-from station.practice.session.listening import RING_NS, Listening, played_cues, stretch
+from station.practice.session.cues.click_pattern import PLAIN, click_cues
+from station.practice.session.cues.listening import RING_NS, Listening, cues_between, played_cues
+from station.practice.session.cues.stroke_cues import demonstration_cues, moved_by
 from station.practice.session.session import SessionResult
-from station.practice.session.stroke_cues import demonstration_cues, moved_by
 
 BREATH_NS = 250 * NS_PER_MS
 """How long before the bar it begins; our choice: as early as a stroke is judged."""
@@ -40,7 +40,7 @@ def bar_by_ear(result: SessionResult, bar: int, played: Performance | None) -> L
     clicks = moved_by(click_cues(one.tempo_map, one.end_tick, pattern), start_ns)
     strokes = moved_by(demonstration_cues(one), start_ns) if played is None else played_cues(played)
     cues = np.concatenate([clicks, strokes])
-    cues = stretch(cues[np.argsort(cues["at_ns"], kind="stable")], from_ns, end_ns + RING_NS)
+    cues = cues_between(cues[np.argsort(cues["at_ns"], kind="stable")], from_ns, end_ns + RING_NS)
     return Listening(cues, end_ns - from_ns + RING_NS, from_ns)
 
 

@@ -13,8 +13,8 @@ from station.engine.messages import CUE_DTYPE
 from station.music.score import Score
 from station.music.tempo import TempoMap
 from station.practice.demonstration.song_player import SongPlayer
-from station.practice.session.click_pattern import ClickPattern, click_cues, counting, leads_ns
-from station.practice.session.stroke_cues import demonstration_cues
+from station.practice.session.cues.click_pattern import ClickPattern, click_cues, counting, leads_ns
+from station.practice.session.cues.stroke_cues import demonstration_cues
 
 SOUNDED_NS = 600 * NS_PER_S
 """How long a loop sounds before the engine must be told again; our choice."""

@@ -94,7 +94,7 @@ def with_truth(document: dict[str, Json], virtual: "VirtualSession", settings: S
         hit_label=matching.hit_label,
         asynchrony_ns=_true_asynchrony_ns(student),
         hit_score_ns=hit_ns,
-        stretch=np.zeros(len(hit_ns), np.int64),
+        segment=np.zeros(len(hit_ns), np.int64),
         reference=Reference.CLICK,
         sd_ms=None,
     )

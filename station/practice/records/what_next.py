@@ -9,7 +9,7 @@ from dataclasses import replace
 from math import ceil, floor
 
 from station.drills.mastery.goals_missed import Miss, missed_goals
-from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
+from station.drills.mastery.pass_measures.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.rules import Rules
 from station.engine.engine import KEYBOARD
 from station.practice.records.said_already import says_so

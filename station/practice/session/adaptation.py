@@ -19,7 +19,7 @@ from station.drills.lesson import Lesson
 from station.drills.mastery.equipment_faults import rewired
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.next_pass import begin, fix_tempo, new_item, next_step, veto
-from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
+from station.drills.mastery.pass_measures.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.practice_steps import PassKind, PracticeStep, item_of
 from station.drills.mastery.rules import Rules
 from station.drills.mastery.verdict import Grade, judge
@@ -28,7 +28,7 @@ from station.engine.engine import KEYBOARD
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
-from station.practice.session.click_pattern import PLAIN, Gap
+from station.practice.session.cues.click_pattern import PLAIN, Gap
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import (
     MAX_TEMPO_BPM,

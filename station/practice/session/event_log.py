@@ -32,7 +32,7 @@ from station.engine.messages import CUE_DTYPE
 from station.motion.kit.kit import DEFAULT_KIT, load_kit
 from station.music.score import NOTE_DTYPE, Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
-from station.practice.session.click_pattern import PLAIN
+from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.device_latency import KitLatency, Latency
 from station.practice.session.plan import MAX_LOOPS, Plan
 from station.scoring.matching.hit_windows import Level

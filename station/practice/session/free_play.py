@@ -20,10 +20,10 @@ from station.devices.capture.replay import replay, transport_zeros_ns
 from station.engine.messages import CUE_DTYPE, Command, EngineEvent, Play, Stop
 from station.music.performance import Performance
 from station.music.tempo import TempoChange, TempoMap
-from station.practice.session.click_pattern import ClickPattern, click_cues
+from station.practice.session.cues.click_pattern import ClickPattern, click_cues
+from station.practice.session.cues.listening import RING_NS, Listening, cues_between, played_cues
 from station.practice.session.device_latency import Latency
 from station.practice.session.engine_state import EngineState
-from station.practice.session.listening import RING_NS, Listening, played_cues, stretch
 
 LEAD_IN_NS = 300 * NS_PER_MS
 """How long after the start the first click is heard; as in a session."""
@@ -136,4 +136,4 @@ def listening_back(take: Performance, click: FreeClick) -> Listening | None:
     end_ns = int(take.hits["at_ns"][-1]) + RING_NS
     cues = np.concatenate([played_cues(take), click.cues()])
     cues = cues[np.argsort(cues["at_ns"], kind="stable")]
-    return Listening(stretch(cues, start_ns, end_ns), end_ns - start_ns, start_ns)
+    return Listening(cues_between(cues, start_ns, end_ns), end_ns - start_ns, start_ns)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
 from station.music.score import Score
-from station.practice.session.click_pattern import PLAIN, click_cues, count_in, counting, leads_ns
+from station.practice.session.cues.click_pattern import PLAIN, click_cues, count_in, counting, leads_ns
 from station.practice.session.plan import Plan
 
 SILENT_BARS = 2
@@ -36,7 +36,7 @@ class SessionPause:
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
+class TransportRun:
     """A run of the transport over a plan: the score is judged `from_ns` on, plan time is the transport's + `jump_ns`.
 
     It is counted in until `from_ns`; `cues` are what sounds, on the transport.
@@ -74,7 +74,7 @@ def start_of(score: Score, bar: int) -> int:
     return int(score.tempo_map.ns_at(score.tempo_map.bar_start(bar)))
 
 
-def from_bar(plan: Plan, bar: int) -> Stretch:
+def from_bar(plan: Plan, bar: int) -> TransportRun:
     """The rest of the passes from `bar` of the score on, behind a bar of count-in in its tempo and meter."""
     from_ns = start_of(plan.score, bar)
     empty, end_tick = count_in(plan.score.bars(bar, bar).tempo_map, 1)
@@ -83,4 +83,4 @@ def from_bar(plan: Plan, bar: int) -> Stretch:
     rest = plan.cues[plan.cues["at_ns"] + leads_ns(plan.cues) >= start_ns].copy()
     rest["at_ns"] += length_ns - start_ns
     cues = np.concatenate([click_cues(empty, end_tick, counting(plan.click or PLAIN)), rest])
-    return Stretch(from_ns, start_ns - length_ns, cues[np.argsort(cues["at_ns"], kind="stable")])
+    return TransportRun(from_ns, start_ns - length_ns, cues[np.argsort(cues["at_ns"], kind="stable")])

@@ -17,7 +17,7 @@ from station.drills.lesson import Lesson
 from station.motion.kit.kit import Kit
 from station.motion.sticking.hand_notes import Hands
 from station.music.score import NOTE_DTYPE, Score
-from station.practice.session.click_pattern import (
+from station.practice.session.cues.click_pattern import (
     PLAIN,
     ClickPattern,
     click_cues,
@@ -25,8 +25,8 @@ from station.practice.session.click_pattern import (
     counting,
     silences,
 )
+from station.practice.session.cues.stroke_cues import demonstration_cues, in_order, moved_by
 from station.practice.session.leading_hand import drummers_kit, led_to_landing
-from station.practice.session.stroke_cues import demonstration_cues, in_order, moved_by
 from station.scoring.matching.hit_windows import Level
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 20.0, 400.0
@@ -46,7 +46,7 @@ class Phase(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A stretch of the timeline: the `index`-th (from 0) demonstration or pass, or the count-in before it."""
+    """A part of the timeline: the `index`-th (from 0) demonstration or pass, or the count-in before it."""
 
     phase: Phase
     index: int

@@ -27,7 +27,7 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.engine_state import EngineState
 from station.practice.session.event_log import Ended, PassBegan, Paused, WentOn, stroke_key, text_of
 from station.practice.session.judging import Judging
-from station.practice.session.pausing import NEAR_NS, SILENT_BARS, SessionPause, Silence, Stretch, bar_of, from_bar
+from station.practice.session.pausing import NEAR_NS, SILENT_BARS, SessionPause, Silence, TransportRun, bar_of, from_bar
 from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
 from station.practice.session.played_hands import PlayedHands, limbs_of
 from station.practice.session.played_phase import PhasesHeard, PlayedPhase
@@ -98,7 +98,7 @@ class Session:
         """What the engine has said."""
         self._now_ns = 0
         self._silence = Silence(self.plan.score)
-        self._run = Stretch(0, 0, self.plan.cues)
+        self._run = TransportRun(0, 0, self.plan.cues)
         self._held_ns: int | None = None  # the place on the plan's timeline, while nothing moves
         self._has_left = False  # a stroke has come after so long a silence
         self._hands = PlayedHands()

@@ -75,14 +75,6 @@ def rotation(axis: ArrayLike, angle_rad: float) -> Matrix:
     return m
 
 
-def rotation_at(point: ArrayLike, axis: ArrayLike, angle_rad: float) -> Matrix:
-    """A turn about an axis through `point`."""
-    p = np.asarray(point, np.float64)
-    m = rotation(axis, angle_rad)
-    m[:3, 3] = p - m[:3, :3] @ p
-    return m
-
-
 def look_at(eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0.0, 0.0, 1.0)) -> Matrix:
     """World to view: the camera at `eye` looks along −z."""
     e = np.asarray(eye, np.float64)

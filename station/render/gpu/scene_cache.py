@@ -46,7 +46,7 @@ _PICTURE = "picture"
 
 
 def cached_kit(kit: Kit, detail: Detail) -> KitRig:
-    """`build_kit`, its mesh from disk where it was made before."""
+    """The rig of `kit`, its mesh from disk where it was made before."""
     return rig_of(kit, Mesh(**cached("kit", (kit, detail), lambda: _arrays(kit_mesh(kit, detail)))))
 
 

@@ -47,13 +47,8 @@ class KitRig:
     still_faces: int
 
 
-def build_kit(kit: Kit, detail: Detail) -> KitRig:
-    """Meshes of all pieces, their hardware, the throne and the sticks."""
-    return rig_of(kit, kit_mesh(kit, detail))
-
-
 def kit_mesh(kit: Kit, detail: Detail) -> Mesh:
-    """The mesh of `build_kit` alone: all else follows from it at once."""
+    """All pieces, their hardware, the throne and the sticks; the rest of the rig follows from it at once."""
     bones = _bones(kit)
     shell = _SHELLS[kit.finish]
     parts = [_piece_mesh(p, detail, shell).moved(_place(p)).on_bone(bones.of[p.piece]) for p in kit.pieces.values()]

@@ -15,15 +15,15 @@ from station.core.units import PPQ
 from station.music.score import Score
 from station.render.notation.bar_signs import BarSigns
 from station.render.notation.beams import FEET, HANDS, Anchor
-from station.render.notation.chord_pen import Chord, ChordPen
 from station.render.notation.loudness_row import draw_loudness
 from station.render.notation.rests import draw_rest
 from station.render.notation.spelling.note_values import Value
 from station.render.notation.staff_rows import closing_hats, shown_limbs, staff_rows
 from station.render.notation.staff_strokes import staff_strokes
-from station.render.notation.voice_pen import BarSpan, VoicePen
+from station.render.notation.voice.chord_pen import Chord, ChordPen
+from station.render.notation.voice.voice_pen import BarSpan, VoicePen
+from station.render.notation.voice.written_strokes import feet_of, written_strokes
 from station.render.notation.whole_score import whole_score
-from station.render.notation.written_strokes import feet_of, written_strokes
 from station.render.snapshot import BarNumbers
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import DrawList

@@ -6,7 +6,7 @@ Units are the page's (`report_layout`).
 import numpy as np
 
 from station.music.judgement import Label
-from station.render.notation.judgement_marks import ON_TIME_MS, timing_colour
+from station.render.notation.screen.judgement_marks import ON_TIME_MS, timing_colour
 from station.render.palette import BRAND, GOOD, INK, INK_FAINT, INK_SOFT, PANEL, PANEL_EDGE, with_opacity
 from station.render.report.report_layout import ReportBox
 from station.render.report.result_facts import PieceLean, ResultFacts, in_words, leans, ticks

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.music.judgement import Label
-from station.render.notation.judgement_marks import ON_TIME_MS
+from station.render.notation.screen.judgement_marks import ON_TIME_MS
 from station.render.palette import EARLY, EXTRA, GOOD, LATE, MISSED, WRONG, with_opacity
 from station.render.text.draw_list import Colour
 

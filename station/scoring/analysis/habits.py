@@ -23,7 +23,7 @@ from station.scoring.analysis.loudness import level_db
 from station.scoring.analysis.sparse_model import CONSTANT, Column, Effect, Explained, explain
 from station.scoring.analysis.timing_spread import asynchrony_ms, standard_error, timed_notes
 from station.scoring.matching.alignment import Alignment, Reference
-from station.scoring.matching.grace_strokes import main_of_grace
+from station.scoring.matching.played_graces import main_of_grace
 
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -67,7 +67,7 @@ class Habits:
     the take to the other.
 
     `timing` and `level` are the two models, None where too little was played. `rest_ms` (n,) is what the first leaves
-    over, `timing_sd_ms` its spread. `off_db` (n,) played less written loudness, NaN where nothing was matched or heard.
+    over. `off_db` (n,) played less written loudness, NaN where nothing was matched or heard.
     """
 
     effects: dict[str, Effect]
@@ -76,11 +76,6 @@ class Habits:
     level: Explained | None
     rest_ms: Floats
     off_db: Floats
-
-    @property
-    def timing_sd_ms(self) -> float | None:
-        """Spread of the main strokes with every habit taken out, in ms; None where too little was played."""
-        return None if self.timing is None else self.timing.sd
 
 
 def habits(

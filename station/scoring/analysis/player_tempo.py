@@ -2,7 +2,7 @@
 
 Within a bar a straight line is fitted to when its notes were played over when they are written (least squares); its
 slope is the tempo. A bar with fewer than `_FEWEST` moments has none. Where the alignment jumped inside a bar, only the
-stretch with most notes counts. Tempi are in quarter notes a minute.
+segment with most notes counts. Tempi are in quarter notes a minute.
 """
 
 from dataclasses import dataclass
@@ -49,11 +49,11 @@ def tempo_curve(score: Score, performance: Performance, alignment: Alignment) ->
     timed = np.flatnonzero(timed_notes(score, alignment))
     hit = alignment.hit_of_note[timed]
     played_s = performance.hits["at_ns"][hit] / NS_PER_S
-    written_s, bar, stretch = score.onset_s[timed], score.bar[timed], alignment.stretch[hit]
+    written_s, bar, segment = score.onset_s[timed], score.bar[timed], alignment.segment[hit]
     bars = []
     for b in np.unique(bar).tolist():
         here = np.flatnonzero(bar == b)
-        here = here[stretch[here] == np.bincount(stretch[here]).argmax()]
+        here = here[segment[here] == np.bincount(segment[here]).argmax()]
         pace = _pace(written_s[here], played_s[here])
         if pace is not None:
             written_bpm = score.tempo_map.bpm_at(score.tempo_map.bar_start(b))

@@ -1,6 +1,6 @@
 """How the tempo moves without a click: the change that a straight course of the tempo makes in eight bars.
 
-When the strokes of a stretch were played over when they are written is a parabola where the tempo rises or falls
+When the strokes of a segment were played over when they are written is a parabola where the tempo rises or falls
 evenly: t = a + b·s + c·s². Over a span S the time between strokes changes by the share 2·c·S/b, and the tempo by its
 negative. What is left over hangs together where the inner clock wanders, so that the error rests on the number of
 strokes that are independent, (1 − ρ)/(1 + ρ) of them: who wanders is not told that they rush.
@@ -28,21 +28,21 @@ _HUBER_SDS = 3.5
 
 
 def tempo_change(score: Score, performance: Performance, alignment: Alignment) -> Effect | None:
-    """By how many percent the tempo rose in `BARS` bars, or over the longest stretch if that is shorter.
+    """By how many percent the tempo rose in `BARS` bars, or over the longest segment if that is shorter.
 
-    A straight course through the whole stretch: players who wander up and down by 3 % come back to it.
+    A straight course through the whole segment: players who wander up and down by 3 % come back to it.
 
     Positive: it rushed. None with a click or on a shared time base, where being early or late says it, and where too
-    little was played in one stretch.
+    little was played in one segment.
     """
     if alignment.reference is not Reference.PLAYER:
         return None
     rows = np.flatnonzero(timed_notes(score, alignment))
     hit = alignment.hit_of_note[rows]
-    stretch = alignment.stretch[hit]
+    segment = alignment.segment[hit]
     if not len(rows):
         return None
-    mine = stretch == np.bincount(stretch).argmax()
+    mine = segment == np.bincount(segment).argmax()
     rows, hit = rows[mine], hit[mine]
     ticks, first = np.unique(score.notes["tick"][rows], return_inverse=True)
     if len(ticks) < _FEWEST_SLOTS:

@@ -51,7 +51,7 @@ def align_unclocked(
     led_class = may_bounce(hit_class, Unwritten(score).may_bounce(performance))
     warp = find_warp(written, at_ns / NS_PER_S, led_class)
     hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
-    matching = match_take(score, performance, note_class, hit_class, Way(hit_ns, warp.stretch))
+    matching = match_take(score, performance, note_class, hit_class, Way(hit_ns, warp.segment))
     return labelled(matching, _timed(score, at_ns, warp, matching.assignment, may_share_base))
 
 
@@ -71,8 +71,8 @@ def _timed(score: Score, at_ns: Times, warp: Warp, assignment: HitAssignment, ma
     kept_ns = score.onset_ns + steady.offset_ns
     due = kept_ns + np.rint(steady.freedom * (own_ns - kept_ns)).astype(np.int64)
     if may_share_base and steady.freedom < 1.0 and abs(steady.offset_ns) <= SAME_BASE_MS * NS_PER_MS:
-        return Timed(at_ns, due - steady.offset_ns, score_ns, warp.stretch, Reference.FILE)
-    return Timed(at_ns, due, score_ns, warp.stretch, Reference.PLAYER)
+        return Timed(at_ns, due - steady.offset_ns, score_ns, warp.segment, Reference.FILE)
+    return Timed(at_ns, due, score_ns, warp.segment, Reference.PLAYER)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +99,7 @@ def _paces(at_ns: Times, warp: Warp) -> Floats:
     """Score seconds a played second around each hit (m,): 1 is the written tempo."""
     count = len(at_ns)
     pace = np.ones(count)
-    edges = np.flatnonzero(np.diff(warp.stretch, prepend=-1, append=-1))
+    edges = np.flatnonzero(np.diff(warp.segment, prepend=-1, append=-1))
     for start, end in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
         k = np.arange(start, end)
         low, high = np.maximum(k - _CURVE_HALF_WIDTH, start), np.minimum(k + _CURVE_HALF_WIDTH, end - 1)

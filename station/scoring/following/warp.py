@@ -1,6 +1,6 @@
 """From performance time to score time when tempo and place are unknown: the whole way of a performance through a score.
 
-`offline` finds the way. What is played without a jump is a *stretch*; within it the way is smoothed (`slow_drift`).
+`offline` finds the way. What is played without a jump is a *segment*; within it the way is smoothed (`slow_drift`).
 Times are seconds.
 """
 
@@ -24,10 +24,10 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Warp:
-    """Score time in s of each hit (m,), and the stretch (m,), from 0, that it belongs to."""
+    """Score time in s of each hit (m,), and the segment (m,), from 0, that it belongs to."""
 
     score_s: Floats
-    stretch: Indices
+    segment: Indices
 
 
 def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
@@ -35,8 +35,8 @@ def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
     known = np.flatnonzero(np.isin(hit_classes, written.lanes[1]))
     hits = Hits(hit_s[known], hit_classes[known])
     way, tempo = free_way(written.of_classes(hits.classes), hits)
-    stretch = _stretches(way.jumps, len(known))
-    return _filled(_smoothed(hits.at_s, way, stretch) * tempo, stretch, hit_s, known)
+    segment = _segments(way.jumps, len(known))
+    return _filled(_smoothed(hits.at_s, way, segment) * tempo, segment, hit_s, known)
 
 
 def click_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp | None:
@@ -51,25 +51,25 @@ def click_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp | 
     score_s, jumps = clicked_way(written, hits)
     if score_s is hits.at_s:
         return None
-    return _filled(score_s, _stretches(jumps, len(known)), hit_s, known)
+    return _filled(score_s, _segments(jumps, len(known)), hit_s, known)
 
 
-def _stretches(jumps: Indices, count: int) -> Indices:
-    """Number of the stretch of each hit (m,): a new one begins where the place jumps."""
+def _segments(jumps: Indices, count: int) -> Indices:
+    """Number of the segment of each hit (m,): a new one begins where the place jumps."""
     begins = np.zeros(count, np.int64)
     begins[jumps] = 1
     return np.cumsum(begins)
 
 
-def _smoothed(at_s: Floats, raw: RawWay, stretch: Indices) -> Floats:
+def _smoothed(at_s: Floats, raw: RawWay, segment: Indices) -> Floats:
     """The way of the hits (m,), freed of the loop's jitter: lines through the notes that were met, fitted twice.
 
     The second fit, to what the first left over, takes back the bend that straight lines cut off ("twicing", Tukey
     1977).
     """
     places, distances, way = raw.score_s, raw.distance_s, raw.score_s.copy()
-    for k in range(int(stretch[-1]) + 1):
-        own = np.flatnonzero(stretch == k)
+    for k in range(int(segment[-1]) + 1):
+        own = np.flatnonzero(segment == k)
         off = distances[own]
         near = np.abs(off) < GATE_S
         scale = robust_sd(off[near])
@@ -82,14 +82,14 @@ def _smoothed(at_s: Floats, raw: RawWay, stretch: Indices) -> Floats:
     return way
 
 
-def _filled(way: Floats, stretch: Indices, hit_s: Floats, known: Indices) -> Warp:
+def _filled(way: Floats, segment: Indices, hit_s: Floats, known: Indices) -> Warp:
     """The warp of all hits: those of classes that the score lacks lie between their neighbours'."""
     after = np.searchsorted(known, np.arange(len(hit_s)))
     home = np.minimum(after, len(known) - 1)
     beside = hit_s[known]
     score_s = np.empty(len(hit_s))
-    for k in range(int(stretch[-1]) + 1):
-        own, here = np.flatnonzero(stretch[home] == k), np.flatnonzero(stretch == k)
+    for k in range(int(segment[-1]) + 1):
+        own, here = np.flatnonzero(segment[home] == k), np.flatnonzero(segment == k)
         score_s[own] = np.interp(hit_s[own], beside[here], way[here])
     score_s[known] = way
-    return Warp(score_s, stretch[home])
+    return Warp(score_s, segment[home])

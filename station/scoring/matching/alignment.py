@@ -30,13 +30,13 @@ class Alignment(Matching):
     """A matching and what it was measured by.
 
     `asynchrony_ns` (n,) played − due of each paired note (0 where `hit_of_note` is −1); `hit_score_ns` (m,) where each
-    hit lies in score time; `stretch` (m,) which uninterrupted stretch of playing each hit belongs to, from 0;
+    hit lies in score time; `segment` (m,) which uninterrupted segment of playing each hit belongs to, from 0;
     `sd_ms` the robust spread about the player's lean and drift, None where too little is known.
     """
 
     asynchrony_ns: NDArray[np.int64]
     hit_score_ns: NDArray[np.int64]
-    stretch: NDArray[np.int64]
+    segment: NDArray[np.int64]
     reference: Reference
     sd_ms: float | None
 
@@ -48,7 +48,7 @@ class Timed:
     at_ns: NDArray[np.int64]
     due_ns: NDArray[np.int64]
     score_ns: NDArray[np.int64]
-    stretch: NDArray[np.int64]
+    segment: NDArray[np.int64]
     reference: Reference
 
 
@@ -71,7 +71,7 @@ def labelled(matching: TakeMatching, timed: Timed) -> Alignment:
         hit_label=hit_label,
         asynchrony_ns=asynchrony,
         hit_score_ns=timed.score_ns,
-        stretch=timed.stretch,
+        segment=timed.segment,
         reference=timed.reference,
         sd_ms=assignment.sd_ms,
     )

@@ -1,7 +1,7 @@
 """From hits in roughly score time to the matching of least cost: pair, see where the player stands, pair again.
 
-A first pairing within the wide reach that the music leaves (`reach`) shows how the player leans: as a whole, on each
-piece at each place in the beat (a swung offbeat leans on its own), and slowly drifting. The next pairings measure
+A first pairing within the wide reach that the music leaves (`note_reach`) shows how the player leans: as a whole, on
+each piece at each place in the beat (a swung offbeat leans on its own), and slowly drifting. The next pairings measure
 distance from there, with a reach made from the spread that was seen, so that a steady player's stray hit stays an extra
 and a beginner's late one is still a late hit. What is left on both sides is then paired across pieces within a narrower
 reach (the right time, another piece). All times are integer ns of score time; positive deviations are late.
@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.music.score import Score
+from station.scoring.matching.note_reach import LEAST_REACH_NS, TOGETHER_NS
 from station.scoring.matching.pairing import Indices, Room, Times, lanes, pair_nearest
-from station.scoring.matching.reach import LEAST_REACH_NS, TOGETHER_NS
 from station.scoring.matching.slow_drift import local_trend, median, robust_sd
 
 Floats = NDArray[np.float64]
@@ -103,7 +103,7 @@ class HitAssignment:
 
 @dataclass(frozen=True, eq=False)
 class Leaning:
-    """What the notes (n,) tell of how hits may lie about them: `place` (`leaning_places`) and `room` (`reach`)."""
+    """What the notes (n,) tell of how hits may lie about them: `place` (`leaning_places`) and `room` (`note_reach`)."""
 
     place: Indices
     room: Room

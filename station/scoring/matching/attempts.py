@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
+from station.scoring.matching.note_reach import LEAST_REACH_NS
 from station.scoring.matching.pairing import Indices, Times
-from station.scoring.matching.reach import LEAST_REACH_NS
 
 Flags = NDArray[np.bool_]
 

@@ -1,7 +1,7 @@
 """Judgement windows: how far from its time a stroke still counts as what. A table of named levels.
 
 All widths are half widths in real milliseconds, at any practice speed, and inclusive: a stroke exactly on an edge is
-inside. They grade; they never pair hits with notes (`reach` says how far a hit may lie from its note).
+inside. They grade; they never pair hits with notes (`note_reach` says how far a hit may lie from its note).
 """
 
 from dataclasses import dataclass

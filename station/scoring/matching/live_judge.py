@@ -12,7 +12,7 @@ not want goes to a waiting note of another piece close by, until that note's own
 Where the student turns out to be elsewhere, `move` judges the last hits anew. When they go back, what they played
 before counts until they pass it again; then the new hit does, and the old one was played again, as in the end.
 
-How far a hit may lie from where its note is due is the final alignment's rule (`reach`, `assignment`), told by the
+How far a hit may lie from where its note is due is the final alignment's rule (`note_reach`, `assignment`), told by the
 matches so far (`running_lean`). Times are ns on the score's axis; asynchronies are real time, by the pace.
 """
 
@@ -35,8 +35,8 @@ from station.scoring.matching.click_offset import common_bias_ns
 from station.scoring.matching.ignored_hits import Unwritten
 from station.scoring.matching.match_classes import match_classes
 from station.scoring.matching.note_lane import Lane
+from station.scoring.matching.note_reach import LEAST_REACH_NS, reach_of
 from station.scoring.matching.pairing import least_cost
-from station.scoring.matching.reach import LEAST_REACH_NS, reach_of
 from station.scoring.matching.running_lean import RunningLean
 
 _MEMORY = 2
@@ -91,7 +91,7 @@ class Judge:
         self._hit_ns: list[int] = []
         self._note_of_hit: list[int] = []
         self._hit_is_said = bytearray()
-        self._stretch = 0  # the first hit since the student last went back
+        self._segment_start = 0  # the first hit since the student last went back
         self._begin = self._passed = 0
         self._again = self._again_end = 0  # of `_order`: what the student went back over and has not passed again
         self._again_ns = 0
@@ -116,7 +116,7 @@ class Judge:
         self._hit_is_said.append(False)
         self._pace = moved.pace
         said = self._judged(index) if moved.first == index else self._judged_anew(moved)
-        if index + 1 in _LOOK_AFTER and not self._stretch:
+        if index + 1 in _LOOK_AFTER and not self._segment_start:
             said = _last_words(said + self._led_by_all())
         if self._again < self._again_end:
             said += self._passed_again(moved.places_ns[-1])
@@ -200,7 +200,7 @@ class Judge:
         hits, hit_ns = lane.hits[near], lane.hit_ns[near]
         around = lane.notes_between(hit_ns[0] - 2 * reach, hit_ns[-1] + 2 * reach)
         among = set(hits)
-        notes = [n for n in lane.notes[around] if (own := self._own_of_note[n]) < self._stretch or own in among]
+        notes = [n for n in lane.notes[around] if (own := self._own_of_note[n]) < self._segment_start or own in among]
         notes.sort(key=self._due_ns)
         due = [self._due_ns(n) for n in notes]
         rooms = [lean.reach_ns(n) for n in notes]
@@ -248,7 +248,7 @@ class Judge:
     def _is_wrong_piece(self, hit: int, note: int) -> bool:
         played = self._hits[hit]
         return (
-            hit >= self._stretch
+            hit >= self._segment_start
             and self._class_of[played.piece] != self._note_class[note]
             and abs(self._due_ns(note) - self._hit_ns[hit]) <= self._lean.wrong_reach_ns
             and not self._unwritten.is_own_only(played.piece, self._hit_ns[hit])
@@ -277,12 +277,12 @@ class Judge:
     def _left_alone(self, hit: int) -> Judgement:
         """The verdict on a hit that no note of its own piece wants: another piece's note, or nobody's."""
         played, at_ns = self._hits[hit], self._hit_ns[hit]
-        if hit >= self._stretch and not self._unwritten.is_own_only(played.piece, at_ns):
+        if hit >= self._segment_start and not self._unwritten.is_own_only(played.piece, at_ns):
             note = self._waiting_note_near(at_ns, self._class_of[played.piece])
             if note != _NOBODY:
                 self._other_of_note[note], self._note_of_hit[hit] = hit, note
                 return self._pair(Label.WRONG_PIECE, note, hit)
-        if hit < self._stretch and at_ns >= self._again_ns:
+        if hit < self._segment_start and at_ns >= self._again_ns:
             return Judgement(Label.PLAYED_AGAIN, None, hit)
         self._lone.append(hit)
         quiet = self._unwritten.is_quiet(played.piece, played.velocity, at_ns)
@@ -326,7 +326,7 @@ class Judge:
 
     def _go_back(self, first: int, to_ns: int) -> None:
         """From hit `first` on the score is played again from `to_ns`: the hits of the time before stay out of it."""
-        self._stretch = first
+        self._segment_start = first
         self._again_end = max(self._passed, self._before(max(self._hit_ns[:first], default=0)))
         self._again_ns = to_ns - _BESIDE_NS
         self._passed = self._again = max(self._before(self._again_ns), self._begin)
@@ -339,7 +339,7 @@ class Judge:
         while self._again < self._again_end and self._last_ns(self._order[self._again]) < place_ns:
             note, self._again = self._order[self._again], self._again + 1
             hit = max(self._own_of_note[note], self._other_of_note[note])
-            if _NOBODY < hit < self._stretch:
+            if _NOBODY < hit < self._segment_start:
                 self._release(hit)
                 said += [Judgement(Label.MISS, note, None), Judgement(Label.PLAYED_AGAIN, None, hit)]
         return said

@@ -15,7 +15,7 @@ never crosses, and three facts make it fast:
   islands, each solved by dynamic programming.
 
 The first two are whole-array operations; the third runs only in rolls and other tangles. Different pieces are kept
-apart by `lanes`: the axis is cut and each piece put on its own stretch. Permuting simultaneous hits changes nothing but
+apart by `lanes`: the axis is cut and each piece put on its own segment. Permuting simultaneous hits changes nothing but
 which of the equal ones is named.
 """
 
@@ -32,7 +32,7 @@ _FAR = np.int64(2**62)
 
 
 def lanes(times: Times, classes: Indices, span: int) -> Times:
-    """Times (n,) moved so that each class lies on its own stretch of `span`; `span` exceeds every difference."""
+    """Times (n,) moved so that each class lies on its own segment of `span`; `span` exceeds every difference."""
     return times + classes * np.int64(span)
 
 

@@ -22,10 +22,10 @@ from station.scoring.matching.assignment import (
 )
 from station.scoring.matching.attempts import owners, played_again
 from station.scoring.matching.buzz_onsets import with_buzz_onsets
-from station.scoring.matching.grace_strokes import with_far_graces
 from station.scoring.matching.ignored_hits import Unwritten
+from station.scoring.matching.note_reach import reach_of
 from station.scoring.matching.pairing import Indices, Times
-from station.scoring.matching.reach import reach_of
+from station.scoring.matching.played_graces import with_far_graces
 
 
 @dataclass(frozen=True, eq=False)

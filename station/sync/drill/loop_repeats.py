@@ -14,7 +14,7 @@ from station.core.events import Hit
 Array = NDArray[np.float64]
 
 ALIKE = 0.97
-"""Two stretches with this normalised correlation are one motion: the drummer's own, without chance, has 1.000 where a
+"""Two segments with this normalised correlation are one motion: the drummer's own, without chance, has 1.000 where a
 bar returns and at most 0.956 where it is changed (samba-1, docs/drill-phase.md)."""
 NEAR_S = 0.08
 """A hit so near to a note of its piece speaks for it: half a sixteenth at 94 bpm (our choice)."""

@@ -55,7 +55,7 @@ def stick_signals(
     """What sensors on `drummer`'s sticks measure from `start_s` on and before `end_s`, `rate_hz` times a second.
 
     `mountings` say where on its stick each hand's sensor sits, else it sits where a `Mounting` has it by itself;
-    signals are in the stick's axes however a sensor is turned. Raises ValueError for a stretch without a sample.
+    signals are in the stick's axes however a sensor is turned. Raises ValueError for a segment without a sample.
     """
     wanted = start_s + np.arange(round((end_s - start_s) * rate_hz)) / rate_hz
     if not len(wanted):

@@ -24,8 +24,8 @@ import numpy.typing as npt
 
 from station.sync.phase.cadence import DOUBTFUL, CadenceRule, doubt_weight
 from station.sync.phase.confidence import MOST_ENERGY, Confidence, confidences, locks, weight_of_newest
-from station.sync.phase.lanes import Lanes
 from station.sync.phase.objective import Objective
+from station.sync.phase.parallel_lanes import Lanes
 from station.sync.phase.periodic_model import TURN, PeriodicModel, wrapped
 from station.sync.phase.templates import Past, Seen, Templates, templates
 from station.sync.signals.running_mean import running_means

@@ -1,6 +1,5 @@
 """Exponentially weighted means, sample by sample or of a whole signal, and the high-pass that they leave."""
 
-from collections.abc import Sequence
 from math import exp, pi
 
 import numpy as np
@@ -38,21 +37,7 @@ def high_pass_weight(cutoff_hz: float, rate_hz: float) -> float:
     return 1 - exp(-2 * pi * cutoff_hz / rate_hz)
 
 
-class HighPass:
-    """Takes the slow part from a signal, sample by sample: what is left is zero-mean. The first sample becomes 0."""
-
-    def __init__(self, cutoff_hz: float, rate_hz: float) -> None:
-        self._weight = high_pass_weight(cutoff_hz, rate_hz)
-        self._mean: FloatArray | None = None
-
-    def step(self, sample: Sequence[float] | FloatArray) -> FloatArray:
-        """What is left of one more sample (c,)."""
-        now = np.asarray(sample, dtype=np.float64)
-        self._mean = now if self._mean is None else self._mean + self._weight * (now - self._mean)
-        return now - self._mean
-
-
 def high_passed(values: FloatArray, cutoff_hz: float, rate_hz: float) -> FloatArray:
-    """What `HighPass` leaves of a whole signal (n, c)."""
+    """A signal (n, c) without its slow part, the running mean from its first sample on: zero-mean, its first row 0."""
     from_first = values - values[:1]
     return from_first - running_means(from_first.T, high_pass_weight(cutoff_hz, rate_hz)).T

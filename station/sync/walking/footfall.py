@@ -88,6 +88,6 @@ def _smoothed(values: NDArray[np.float64], width: int) -> NDArray[np.float64]:
 
 
 def _runs(held: NDArray[np.bool_]) -> list[tuple[int, int]]:
-    """Begin and end of every stretch in which `held` is true."""
+    """Begin and end of every segment in which `held` is true."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], held, [False]]).astype(np.int8)))
     return [(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]

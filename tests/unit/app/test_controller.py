@@ -25,10 +25,10 @@ from station.app.actions.practice_actions import (
 from station.app.actions.settings_actions import FinishFirstStart, LearnPause, PutUp, SetPreferences, SetView
 from station.app.controller import Controller
 from station.app.export import LESSON
-from station.app.first_start import FirstAnswers
 from station.app.room_state import Stage
 from station.app.sessions.session_control import LIVELY_NS, Launch
-from station.app.settings_store import SettingsStore
+from station.app.settings.first_start import FirstAnswers
+from station.app.settings.settings_store import SettingsStore
 from station.core.events import DeviceFound, Hit, StickPose
 from station.core.pieces import Limb, Piece, Zone
 from station.core.settings import Settings, load_settings, save_settings

@@ -22,7 +22,7 @@ from station.motion.style.style import Style
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.practice.demonstration.song_player import SongPlayer
-from station.practice.session.click_pattern import PLAIN
+from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.leading_hand import with_sticking
 from station.scenes.demonstrator import Demonstrator
 

@@ -9,7 +9,7 @@ import pytest
 
 from station.app.export import LOOP, SHEET, ExportedFile, Exporter, film_words
 from station.app.music_files.part_export import WRITTEN, bars_of
-from station.app.view_settings import ViewSettings, view_settings_of
+from station.app.settings.view_settings import ViewSettings, view_settings_of
 from station.cli.animation.animate_options import LEVELS, AnimateOptions
 from station.cli.options.option_fields import read_options
 from station.core.errors import DeviceError

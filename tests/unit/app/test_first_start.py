@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
-from station.app.first_start import FirstAnswers, answered, student_level
 from station.app.help_topics import HELP, Topic, topic_of
 from station.app.room_state import RoomState, Stage
+from station.app.settings.first_start import FirstAnswers, answered, student_level
 from station.core.settings import Settings
 from station.engine.messages import Bus, SetLevel
 from station.motion.sticking.hand_notes import Hands

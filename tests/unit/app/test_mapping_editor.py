@@ -16,7 +16,7 @@ from station.devices.mapping.trigger_filter import HeldBack
 from station.devices.mapping.velocity_curve import SHAPES
 from station.devices.wizard.pad_choices import pad_named
 from station.engine.messages import Command, RawBytes, ReloadDevice, WatchRawBytes
-from station.gui.panels.devices_panel import cells
+from station.gui.panels.devices.devices_panel import cells
 
 KIT = "TD-17"
 SNARE, KICK = "99 26", "99 24"

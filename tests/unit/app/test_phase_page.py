@@ -13,7 +13,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.core.units import NS_PER_S
 from station.engine.messages import Started
-from station.practice.session.listening import Listening
+from station.practice.session.cues.listening import Listening
 from tests.fakes.walker_files import PERIOD_S, write_walker
 
 

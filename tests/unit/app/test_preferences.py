@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from station.app.preferences import PracticePreferences, Preferences, pause_in_words
-from station.app.settings_store import SettingsStore
+from station.app.settings.preferences import PracticePreferences, Preferences, pause_in_words
+from station.app.settings.settings_store import SettingsStore
 from station.core.events import Hit, Switched
 from station.core.pieces import Piece, Zone
 from station.core.settings import Settings

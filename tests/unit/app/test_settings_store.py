@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput, DeviceError
 from station.core.settings import Settings, load_settings, save_settings
 

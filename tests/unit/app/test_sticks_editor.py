@@ -21,7 +21,7 @@ from station.app.actions.equipment_actions import (
     SoundPhase,
 )
 from station.app.equipment.sticks_editor import SticksEditor
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput, DeviceError
 from station.core.events import (
     PhaseEstimate,

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from station.app.actions.style_actions import EditStyle, KeepSlot, LoadStyle, SaveStyle
-from station.app.settings_store import SettingsStore
+from station.app.settings.settings_store import SettingsStore
 from station.app.style_editor import StyleEditor
 from station.core.errors import BadInput
 from station.core.settings import Settings, load_settings, save_settings

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from station.app.view_settings import SLOTS, ViewSettings, view_settings_of, with_view_settings
+from station.app.settings.view_settings import SLOTS, ViewSettings, view_settings_of, with_view_settings
 from station.core.errors import BadInput
 from station.core.named_view import NamedView
 from station.core.settings import Settings, load_settings, save_settings

@@ -23,8 +23,8 @@ def take_of(*legs: Leg) -> Take:
     return perform(np.random.default_rng(1), way)
 
 
-def aligned(take: Take, stretch: NDArray[np.int64]) -> Alignment:
-    """The true pairs, in stretches as told."""
+def aligned(take: Take, segment: NDArray[np.int64]) -> Alignment:
+    """The true pairs, in segments as told."""
     notes, hits = len(take.score), len(take.meant)
     return Alignment(
         hit_of_note=np.full(notes, -1),
@@ -33,7 +33,7 @@ def aligned(take: Take, stretch: NDArray[np.int64]) -> Alignment:
         hit_label=np.zeros(hits, np.uint8),
         asynchrony_ns=np.zeros(notes, np.int64),
         hit_score_ns=take.true_ns,
-        stretch=stretch,
+        segment=segment,
         reference=Reference.PLAYER,
         sd_ms=None,
     )

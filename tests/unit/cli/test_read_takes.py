@@ -16,7 +16,7 @@ from station.devices.mapping.presets import GENERAL_MIDI_PRESET
 from station.drills.library import find_lesson
 from station.engine.engine import Engine
 from station.engine.messages import RecordCapture
-from station.practice.session.click_pattern import PLAIN
+from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.device_latency import Latency
 from station.practice.session.free_play import LEAD_IN_NS, FreeClick, FreePlay
 

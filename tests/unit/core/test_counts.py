@@ -11,7 +11,7 @@ from station.core.errors import BadInput
 from station.devices.device_ports import parse_device
 from station.drills.rudiments import find_rudiment
 from station.practice.control.pause_options import parse_pause
-from station.practice.session.click_options import parse_click
+from station.practice.session.cues.click_options import parse_click
 
 DIGITS = "9" * 5_000
 

@@ -5,7 +5,7 @@ from datetime import date
 
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.next_pass import new_item, next_step
-from station.drills.mastery.pass_facts import BarResult, PassResult
+from station.drills.mastery.pass_measures.pass_facts import BarResult, PassResult
 from station.drills.mastery.practice_steps import PracticeItem
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
 

@@ -13,11 +13,11 @@ from station.core.pieces import Dynamic, Limb, Piece
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.lesson import BarGoals, Goals, PartGoals, Section
 from station.drills.library import find_lesson
-from station.drills.mastery.asked_parts import AskedPart, Part, asked_parts, bars_called
 from station.drills.mastery.goals_missed import PassFault, missed_goals
 from station.drills.mastery.mastery_json import from_json, to_json
-from station.drills.mastery.part_facts import PartResult
-from station.drills.mastery.pass_facts import PassResult, PassView, measure_pass
+from station.drills.mastery.pass_measures.asked_parts import AskedPart, Part, asked_parts, bars_called
+from station.drills.mastery.pass_measures.part_facts import PartResult
+from station.drills.mastery.pass_measures.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
 from station.drills.mastery.verdict import Grade, judge
 from station.music.performance import HIT_DTYPE, Performance

@@ -106,7 +106,7 @@ def test_cues_stand_at_the_bars_as_they_are_played(lesson: Lesson) -> None:
 def test_each_section_has_its_swing(lesson: Lesson) -> None:
     straight, swung = Swing(1.0, EIGHTH), Swing(2.0, SIXTEENTH)
     assert [s.swing for s in lesson.sections] == [straight, swung, straight]
-    assert [lesson.swing_of_bar(bar) for bar in range(5)] == [straight, straight, swung, straight, straight]
+    assert [(s.first_bar, s.last_bar) for s in lesson.sections] == [(0, 1), (2, 2), (3, 4)]
     assert lesson.swing == straight
 
 

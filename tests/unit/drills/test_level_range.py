@@ -9,7 +9,7 @@ from station.drills.level_range import LevelRange
 from station.drills.library import find_lesson
 from station.drills.mastery.agenda import next_turn
 from station.drills.mastery.next_pass import begin, new_item, next_step
-from station.drills.mastery.pass_facts import PassResult
+from station.drills.mastery.pass_measures.pass_facts import PassResult
 from station.drills.mastery.practice_steps import PassKind, item_of
 from station.drills.mastery.probes import Probes
 from station.drills.mastery.reviews import Review

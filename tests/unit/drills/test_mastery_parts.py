@@ -12,7 +12,7 @@ from station.drills.lesson import Goals
 from station.drills.library import find_lesson
 from station.drills.mastery.equipment_faults import Equipment, rewired
 from station.drills.mastery.goals_missed import PassFault
-from station.drills.mastery.pass_facts import BarResult, PassResult, StruckFor
+from station.drills.mastery.pass_measures.pass_facts import BarResult, PassResult, StruckFor
 from station.drills.mastery.practice_steps import PracticeItem, item_of
 from station.drills.mastery.reviews import Review
 from station.drills.mastery.rules import DEFAULT_RULES, Rules

@@ -7,7 +7,7 @@ import pytest
 
 from station.core.pieces import Ornament, Piece
 from station.core.units import NS_PER_MS, PPQ
-from station.drills.mastery.pass_facts import PassResult, StruckFor, measure_pass
+from station.drills.mastery.pass_measures.pass_facts import PassResult, StruckFor, measure_pass
 from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap

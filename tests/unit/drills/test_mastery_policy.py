@@ -11,7 +11,7 @@ import pytest
 from station.core.pieces import Piece
 from station.drills.mastery.feedback_fading import Feedback
 from station.drills.mastery.next_pass import begin, fix_tempo, new_item, next_step, veto
-from station.drills.mastery.pass_facts import PassResult, StruckFor
+from station.drills.mastery.pass_measures.pass_facts import PassResult, StruckFor
 from station.drills.mastery.practice_steps import PassKind
 from station.drills.mastery.rules import DEFAULT_RULES, Rules
 from tests.unit.drills.mastering import (

@@ -380,7 +380,7 @@ def test_the_street_ends_on_a_buzz() -> None:
 
 def test_latin_turns_into_swing_at_one_tempo() -> None:
     lesson = find_lesson("latin-jazz-1")
-    assert [lesson.swing_of_bar(bar).ratio for bar in range(8)] == [1.0] * 4 + [1.8] * 4
+    assert [s.swing.ratio for s in lesson.sections for _ in range(s.first_bar, s.last_bar + 1)] == [1.0] * 4 + [1.8] * 4
     assert len(lesson.score.tempo_map.tempos) == 1
 
 

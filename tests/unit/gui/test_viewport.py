@@ -1,6 +1,6 @@
 """From where the window looks: the user's view, and the lesson's while it asks for one."""
 
-from station.app.view_settings import ViewSettings
+from station.app.settings.view_settings import ViewSettings
 from station.core.named_view import NamedView
 from station.gui.viewport import Viewport
 from station.render.framing import named

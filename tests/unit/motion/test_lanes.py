@@ -5,7 +5,15 @@ import pytest
 from numpy.typing import NDArray
 
 from station.motion.drummer import Drummer
-from station.motion.style.lanes import drawn, in_passes, in_turn, value_at, with_moved, with_point, without_point
+from station.motion.style.automation_lanes import (
+    drawn,
+    in_passes,
+    in_turn,
+    value_at,
+    with_moved,
+    with_point,
+    without_point,
+)
 from station.motion.style.style import Style
 from tests.fakes.scores import rock_beat
 

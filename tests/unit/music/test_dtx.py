@@ -14,7 +14,7 @@ from station.music.formats.dtx.dtx_reader import read_dtx
 from station.music.formats.dtx.dtx_writer import write_dtx
 from station.music.formats.music_format import Feature
 from station.music.score import Note, Score
-from station.music.tempo import TempoMap
+from station.music.tempo import MeterChange, TempoChange, TempoMap
 
 CHART = """
 ; a chart
@@ -107,3 +107,16 @@ def test_a_line_is_cut_no_finer_than_its_own_strokes() -> None:
     data = {row[:6]: row.partition(": ")[2] for row in text.splitlines() if row[:6] in lines}
     assert set(data) == set(lines)
     assert all(len(a) <= 16 for a, _ in pairwise([*data.values(), ""]))
+
+
+def test_more_tempos_than_two_places_can_name_are_refused() -> None:
+    tempos = [TempoChange(i * PPQ, 500_000 + i) for i in range(1297)]
+    score = Score.from_notes([Note(0, Piece.SNARE)], TempoMap.build(tempos), 1300 * PPQ)
+    with pytest.raises(BadInput, match="no more than 1295 tempos"):
+        write_dtx(DrumPart(score))
+
+
+def test_the_longest_bar_of_a_lesson_comes_back() -> None:
+    longest = MeterChange(0, 32, 1)
+    score = Score.from_notes([Note(0, Piece.SNARE)], TempoMap.build([], [longest]), longest.bar_ticks)
+    assert read_dtx(write_dtx(DrumPart(score)).data, "a.dtx").score.end_tick == longest.bar_ticks

@@ -13,7 +13,7 @@ from station.core.units import PPQ
 from station.music.drum_part import DrumPart
 from station.music.formats.format_table import read_part
 from station.music.formats.music_xml.music_xml_format import MUSIC_XML
-from station.music.formats.music_xml.music_xml_reader import read_music_xml
+from station.music.formats.music_xml.reading.music_xml_reader import read_music_xml
 from station.music.formats.music_xml.xml_instruments import XmlInstrument
 from station.music.loudness_marks import LoudnessMark
 from station.music.swing import Swing

@@ -16,7 +16,7 @@ from station.music.drum_part import DrumPart, PartSection
 from station.music.formats.format_table import read_part, writer_for
 from station.music.formats.music_format import Feature
 from station.music.formats.music_xml.music_xml_format import MUSIC_XML
-from station.music.formats.music_xml.music_xml_writer import write_music_xml
+from station.music.formats.music_xml.writing.music_xml_writer import write_music_xml
 from station.music.grace_strokes import with_graces
 from station.music.score import Note, Score
 from station.music.swing import Swing

@@ -4,8 +4,8 @@ import pytest
 
 from station.core.errors import BadInput
 from station.music.swing import Swing
-from station.practice.session.click_options import parse_click
-from station.practice.session.click_pattern import PLAIN, ClickBeats, ClickLevels, ClickPattern, Displacement
+from station.practice.session.cues.click_options import parse_click
+from station.practice.session.cues.click_pattern import PLAIN, ClickBeats, ClickLevels, ClickPattern, Displacement
 
 
 @pytest.mark.parametrize(

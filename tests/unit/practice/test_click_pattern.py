@@ -5,7 +5,7 @@ from station.core.units import NS_PER_S, PPQ
 from station.engine.messages import Bus, ClickVoice
 from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange, TempoMap
-from station.practice.session.click_pattern import (
+from station.practice.session.cues.click_pattern import (
     SPOKEN_LEAD_NS,
     ClickBeats,
     ClickLevels,

@@ -26,7 +26,7 @@ from station.music.tempo_words import tempo_words
 from station.practice.headless.virtual_session import VirtualSession, practise_adaptively, practise_virtually
 from station.practice.records.session_report import practice_document
 from station.practice.session.adaptation import Adaptation
-from station.practice.session.click_pattern import PLAIN, ClickPattern
+from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.scenes.demonstrator import as_taught
 from station.simulation.student_spec import parse_spec

@@ -14,7 +14,7 @@ from station.devices.mapping.presets import GENERAL_MIDI_PRESET
 from station.engine.engine import Engine
 from station.engine.messages import Bus, Play, RecordCapture, Started
 from station.music.performance import Performance
-from station.practice.session.click_pattern import PLAIN
+from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.device_latency import Latency, latency_of
 from station.practice.session.free_play import LEAD_IN_NS, LONGEST_NS, FreeClick, FreePlay, listening_back, take_of
 

@@ -11,7 +11,7 @@ from station.engine.messages import Bus, Play, Started, Stop
 from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.practice.session.click_pattern import PLAIN, ClickPattern
+from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
 from station.practice.session.pausing import NEAR_NS, Silence
 from station.practice.session.plan import TAIL_NS, Phase, Plan, PlanOptions, plan_practice
 from station.practice.session.session import Session

@@ -11,7 +11,7 @@ from station.core.settings import Settings
 from station.drills.library import find_lesson
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.records.session_report import practice_document
-from station.practice.session.click_pattern import PLAIN, Gap
+from station.practice.session.cues.click_pattern import PLAIN, Gap
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.simulation.student_spec import parse_spec
 

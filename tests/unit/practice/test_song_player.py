@@ -15,7 +15,7 @@ from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.practice.demonstration.song_cues import SOUNDED_NS, after, count_in_of, song_cues
 from station.practice.demonstration.song_player import Song, SongPlayer, SongStep
-from station.practice.session.click_pattern import PLAIN
+from station.practice.session.cues.click_pattern import PLAIN
 
 BEAT_NS, BAR_NS = 500 * NS_PER_MS, 2 * NS_PER_S
 SONG = Song(TempoMap.constant(120.0), 16 * PPQ)

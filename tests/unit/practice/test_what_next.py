@@ -8,9 +8,9 @@ from station.core.pieces import Limb
 from station.core.settings import Settings
 from station.drills.lesson import BarGoals, Goals, Lesson, PartGoals
 from station.drills.library import find_lesson
-from station.drills.mastery.asked_parts import Part
-from station.drills.mastery.part_facts import PartResult
-from station.drills.mastery.pass_facts import PassResult
+from station.drills.mastery.pass_measures.asked_parts import Part
+from station.drills.mastery.pass_measures.part_facts import PartResult
+from station.drills.mastery.pass_measures.pass_facts import PassResult
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.records.session_report import practice_document, report_text, with_truth
 from station.practice.records.what_next import what_next

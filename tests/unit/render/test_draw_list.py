@@ -1,12 +1,9 @@
 """Flat shapes and text as tables."""
 
-import numpy as np
 import pytest
 
-from station.render.hud import hud_shapes
-from station.render.snapshot import Hud, TimingCue
 from station.render.text.atlas import Atlas
-from station.render.text.draw_list import DrawList, ShapeKind, TypeStyle
+from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
@@ -64,39 +61,3 @@ def test_a_halo_lies_under_its_letters() -> None:
     draw_list = DrawList(ATLAS)
     draw_list.text("ab", (0, 0), TypeStyle(10, WHITE, halo=(0.0, 0.0, 0.0, 1.0)))
     assert draw_list.shapes()["colour"][:, 0].tolist() == [0, 0, 255, 255]
-
-
-def texts(hud: Hud) -> int:
-    return int((hud_shapes(hud, ATLAS, (1280, 504))["kind"] == ShapeKind.GLYPH).sum())
-
-
-def test_the_hud_shows_what_there_is_and_no_more() -> None:
-    assert texts(Hud()) == 0
-    assert texts(Hud(title="Rock")) == 2 * len("Rock"), "letters and their halo"
-    assert texts(Hud(count_in=3)) == 1
-    beats = hud_shapes(Hud(bar=2, beat=3, beats=4), ATLAS, (1280, 504))
-    dots = beats[beats["kind"] == ShapeKind.ELLIPSE]
-    assert len(dots) == 4
-    assert np.sort(dots["half"][:, 0])[-1] > np.sort(dots["half"][:, 0])[-2], "the present beat is larger"
-    assert dots["centre"][np.argmax(dots["half"][:, 0]), 0] == pytest.approx(np.sort(dots["centre"][:, 0])[2])
-
-
-def test_a_cue_fades() -> None:
-    def opacity(age_s: float) -> int:
-        shapes = hud_shapes(Hud(cue=TimingCue.LATE, cue_age_s=age_s), ATLAS, (1280, 504))
-        return int(shapes["colour"][:, 3].max()) if len(shapes) else 0
-
-    assert opacity(0.0) == 255
-    assert 0 < opacity(0.8) < 255
-    assert opacity(1.2) == 0
-
-
-def test_a_count_in_stands_before_a_cue() -> None:
-    with_both = hud_shapes(Hud(count_in=2, cue=TimingCue.EARLY), ATLAS, (1280, 504))
-    assert (with_both["kind"] == ShapeKind.TRIANGLE).sum() == 0
-
-
-def test_a_scene_too_small_for_words_has_none() -> None:
-    full = Hud("Rock", "Pass 1", bar=1, beat=1, count_in=3, message="Play")
-    assert len(hud_shapes(full, ATLAS, (240.0, 112.0))) > 0
-    assert len(hud_shapes(full, ATLAS, (64.0, 34.0))) == 0

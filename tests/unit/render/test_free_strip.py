@@ -7,7 +7,7 @@ from station.core.events import Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_S
 from station.music.performance import Performance
-from station.render.notation.free_strip import strip_shapes
+from station.render.notation.screen.free_strip import strip_shapes
 from station.render.snapshot import Strip
 from station.render.text.atlas import Atlas
 

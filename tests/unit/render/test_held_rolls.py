@@ -9,8 +9,8 @@ from station.core.units import PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.render.notation.engraving import Engraver
-from station.render.notation.held_rolls import held_until
 from station.render.notation.page.bar_columns import BarColumns, bar_columns
+from station.render.notation.voice.held_rolls import held_until
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import ShapeKind
 from tests.unit.render.scores import BAR, score_of

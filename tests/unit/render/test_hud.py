@@ -1,11 +1,13 @@
 """The words over the scene: what is counted are letters, so that none is lost where there is little room."""
 
+import numpy as np
 import pytest
 
 from station.drills.library import find_lesson, lesson_names
 from station.render.hud import hud_calls, hud_lines
 from station.render.snapshot import Hud, TimingCue
 from station.render.text.atlas import Atlas
+from station.render.text.draw_list import ShapeKind
 
 SMALL = (640.0, 252.0)  # the scene of a picture of 640x360, over the score
 SCENE = (1280.0, 504.0)  # that of a picture of 1280x720
@@ -50,3 +52,40 @@ def test_the_cue_stands_above_the_words(atlas: Atlas) -> None:
     lowest_cue = both["centre"][10:, 1].max()
     assert lowest_cue < both["centre"][:10, 1].min()
     assert len(both) == len(alone) + 10
+
+
+def test_the_hud_shows_what_there_is_and_no_more(atlas: Atlas) -> None:
+    assert letters(Hud(), atlas, SCENE) == len(hud_calls(Hud(), atlas, SCENE)) == 0
+    assert letters(Hud(title="Rock"), atlas, SCENE) == 2 * len("Rock"), "letters and their halo"
+    assert (hud_calls(Hud(count_in=3), atlas, SCENE)["kind"] == ShapeKind.GLYPH).sum() == 1
+
+
+def test_the_present_beat_is_the_largest_dot(atlas: Atlas) -> None:
+    beats = hud_lines(Hud(bar=2, beat=3, beats=4), atlas, SCENE)
+    dots = beats[beats["kind"] == ShapeKind.ELLIPSE]
+    sizes, places = dots["half"][:, 0], dots["centre"][:, 0]
+    assert len(dots) == 4
+    assert (sizes == sizes.max()).sum() == 1
+    assert places[np.argmax(sizes)] == pytest.approx(np.sort(places)[2])
+
+
+def test_a_cue_fades(atlas: Atlas) -> None:
+    def opacity(age_s: float) -> int:
+        shapes = hud_calls(Hud(cue=TimingCue.LATE, cue_age_s=age_s), atlas, SCENE)
+        return int(shapes["colour"][:, 3].max()) if len(shapes) else 0
+
+    assert opacity(0.0) == 255
+    assert 0 < opacity(0.8) < 255
+    assert opacity(1.2) == 0
+
+
+def test_a_count_in_stands_before_a_cue(atlas: Atlas) -> None:
+    with_both = hud_calls(Hud(count_in=2, cue=TimingCue.EARLY), atlas, SCENE)
+    assert (with_both["kind"] == ShapeKind.TRIANGLE).sum() == 0
+
+
+def test_a_scene_too_small_for_words_has_none(atlas: Atlas) -> None:
+    full = Hud("Rock", "Pass 1", bar=1, beat=1, count_in=3, message="Play")
+    for shapes in (hud_lines, hud_calls):
+        assert len(shapes(full, atlas, (240.0, 112.0))) > 0
+        assert len(shapes(full, atlas, (64.0, 34.0))) == 0

@@ -11,11 +11,11 @@ from station.motion.kit.kit import load_kit
 from station.render.geometry.materials import Material
 from station.render.kit.held_meshes import HELD_BONES, STICK_M
 from station.render.kit.instrument_meshes import HOLE_M, Detail, cymbal, drum
-from station.render.kit.kit_rig import WORLD, KitRig, bone_matrices, build_kit, floor_discs
+from station.render.kit.kit_rig import WORLD, KitRig, bone_matrices, floor_discs, kit_mesh, rig_of
 from tests.unit.render.poses import pose_of
 
 KIT = load_kit()
-RIG = build_kit(KIT, Detail(28, hardware=False))
+RIG = rig_of(KIT, kit_mesh(KIT, Detail(28, hardware=False)))
 
 
 def pose(**changes: ArrayLike) -> Pose:
@@ -110,7 +110,7 @@ def test_the_palette_holds_the_largest_kit() -> None:
     from station.render.gpu.light_shader import MAX_BONES
 
     for name in kit_names():
-        rig = build_kit(load_kit(name), Detail(12, hardware=False))
+        rig = rig_of(kit := load_kit(name), kit_mesh(kit, Detail(12, hardware=False)))
         assert rig.bone_count + 2 * BONES + 2 * HELD_BONES <= MAX_BONES, (
             "the drummer, the student's double and his sticks"
         )

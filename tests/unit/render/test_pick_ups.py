@@ -9,7 +9,7 @@ from station.core.pieces import Piece
 from station.core.units import PPQ
 from station.music.drum_part import DrumPart
 from station.music.formats.music_xml.music_xml_format import MUSIC_XML
-from station.music.formats.music_xml.music_xml_writer import write_music_xml
+from station.music.formats.music_xml.writing.music_xml_writer import write_music_xml
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 from station.render.notation.engraving import Engraver

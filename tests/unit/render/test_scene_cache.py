@@ -11,7 +11,7 @@ from station.render.geometry.light import Light
 from station.render.gpu import scene_cache as module
 from station.render.gpu.scene_cache import Arrays, cached, cached_body, cached_kit, cached_light, cached_wall
 from station.render.kit.instrument_meshes import Detail
-from station.render.kit.kit_rig import build_kit, floor_discs
+from station.render.kit.kit_rig import floor_discs, kit_mesh, rig_of
 from station.render.kit.room import floor_light, wall_picture
 
 COARSE = Detail(8, hardware=False)
@@ -102,7 +102,7 @@ def test_only_the_latest_files_are_kept(tmp_path: Path) -> None:
 def test_kits_bodies_and_pictures_come_back_as_they_were_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "cache_folder", lambda _: tmp_path)
     kit, figure, light = load_kit(), figure_of(), Light()
-    rig, skin = build_kit(kit, COARSE), build_body(figure, 4.0)
+    rig, skin = rig_of(kit, kit_mesh(kit, COARSE)), build_body(figure, 4.0)
     falls, wall = floor_light(floor_discs(kit), light), wall_picture()
     for _ in range(2):  # made, and read
         again, body = cached_kit(kit, COARSE), cached_body(figure, 4.0)

@@ -11,9 +11,9 @@ from station.music.judgement import Judgement, Label
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoMap
 from station.render.notation import note_shapes
-from station.render.notation.highway import Highway, lanes
-from station.render.notation.judgement_marks import draw_dynamics, draw_mark, off_db, timing_colour
-from station.render.notation.score_view import ScorePlace, lead_spaces, pages, shown_s, visible_bars
+from station.render.notation.screen.highway import Highway, lanes
+from station.render.notation.screen.judgement_marks import draw_dynamics, draw_mark, off_db, timing_colour
+from station.render.notation.screen.score_view import ScorePlace, lead_spaces, pages, shown_s, visible_bars
 from station.render.palette import EARLY, GOOD, LATE
 from station.render.snapshot import MARK_DTYPE, PENDING, Snapshot, mark, no_marks
 from station.render.text.atlas import Atlas

@@ -8,7 +8,7 @@ from station.motion.kinematics.figure import figure_of
 from station.motion.kit.kit import load_kit
 from station.render.camera import Camera
 from station.render.framing import Stage, named
-from station.render.geometry.transforms import frame, gl_bytes, look_at, perspective, rotation, rotation_at
+from station.render.geometry.transforms import frame, gl_bytes, look_at, perspective, rotation
 
 
 def project(camera: Camera, point: tuple[float, float, float], aspect: float = 16 / 9) -> np.ndarray:
@@ -26,7 +26,6 @@ def test_a_frame_is_rigid() -> None:
 
 def test_turns() -> None:
     assert np.allclose(rotation([0, 0, 1], np.pi / 2) @ [1, 0, 0, 1], [0, 1, 0, 1])
-    assert np.allclose(rotation_at([1, 0, 0], [0, 0, 1], np.pi) @ [2, 0, 0, 1], [0, 0, 0, 1])
 
 
 def test_looking() -> None:

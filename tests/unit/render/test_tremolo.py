@@ -9,7 +9,7 @@ from station.drills.reading.lesson_file import parse_lesson
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.render.notation.engraving import Engraver
-from station.render.notation.written_strokes import feet_of, written_strokes
+from station.render.notation.voice.written_strokes import feet_of, written_strokes
 from station.render.text.atlas import Atlas
 from station.render.text.fonts import Face
 from tests.unit.render.scores import score_of

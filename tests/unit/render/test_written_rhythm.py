@@ -15,7 +15,7 @@ from station.music.tempo import TempoMap
 from station.render.notation.spelling.bar_spelling import spell_bar
 from station.render.notation.spelling.note_values import BeatGroup, Stroke
 from station.render.notation.spelling.written_rhythm import written_ticks
-from station.render.notation.written_strokes import feet_of, written_strokes
+from station.render.notation.voice.written_strokes import feet_of, written_strokes
 from tests.unit.render.rhythm_sums import gaps
 
 GMD = Path(__file__).parents[3].parent / "shared" / "data" / "gmd"

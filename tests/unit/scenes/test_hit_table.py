@@ -12,7 +12,7 @@ from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.practice.demonstration.compare_by_ear import BREATH_NS, bar_by_ear, students_bar
-from station.practice.session.listening import RING_NS
+from station.practice.session.cues.listening import RING_NS
 from station.practice.session.plan import TAIL_NS, PlanOptions, plan_practice
 from station.practice.session.session import Session, SessionResult
 from station.scenes.hit_table import dot_label, every_hit, nearest

@@ -245,7 +245,7 @@ def joined(seed: int, until_s: float, silence_s: float, again_s: float) -> Summa
         hit_label=np.where(note_of_hit >= 0, Label.MATCH, Label.EXTRA).astype(np.uint8),
         asynchrony_ns=np.where(paired, place_ns[hit_of_note] - FORM.onset_ns, 0),
         hit_score_ns=place_ns,
-        stretch=np.zeros(len(note), np.int64),
+        segment=np.zeros(len(note), np.int64),
         reference=Reference.PLAYER,
         sd_ms=None,
     )

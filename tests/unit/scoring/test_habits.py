@@ -215,7 +215,7 @@ def test_too_little_is_nothing() -> None:
     empty = Score.from_notes([], ROCK.tempo_map)
     silence = Performance.from_hits([])
     found = habits(empty, silence, align(empty, silence, clocked=True), hears_velocity=True)
-    assert (found.effects, found.timing_sd_ms) == ({}, None)
+    assert (found.effects, found.timing) == ({}, None)
 
 
 def test_a_fault_of_loudness_names_the_bars_where_it_is_heard() -> None:

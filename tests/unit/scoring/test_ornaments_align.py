@@ -13,7 +13,7 @@ from station.music.tempo import TempoMap
 from station.scoring.align import align
 from station.scoring.following.follower import Follower
 from station.scoring.matching.alignment import Alignment
-from station.scoring.matching.grace_strokes import main_of_grace
+from station.scoring.matching.played_graces import main_of_grace
 from tests.fakes.scores import flams
 
 

@@ -10,7 +10,7 @@ from station.music.judgement import Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.align import align
-from station.scoring.matching.reach import reach_of
+from station.scoring.matching.note_reach import reach_of
 from tests.fakes.played import played
 from tests.fakes.takes import noise_ms
 

@@ -8,7 +8,7 @@ from station.core.units import NS_PER_MS, PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.matching.assignment import Leaning, leaning_places
-from station.scoring.matching.reach import reach_of
+from station.scoring.matching.note_reach import reach_of
 from station.scoring.matching.running_lean import RunningLean
 
 

@@ -3,7 +3,7 @@
 Notes that nobody could tell apart count as one:
 * of bars that are alike, notes of one piece and place, and within a bar that repeats a figure, one place of the figure;
 * where a player turns from one place to another and the music goes on alike for a while, it cannot be told whether they
-  turned before or after that stretch: both readings are right within it;
+  turned before or after that segment: both readings are right within it;
 * a leg whose strokes, as they were played, fit another place of the score as well could have been there; where they
   fit nearly as well to go straight on, or to have begun at the beginning, whoever hears a turn guesses.
 

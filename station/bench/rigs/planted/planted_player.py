@@ -45,7 +45,7 @@ _OPEN = 0.8
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A stretch that is played in one go: the score from and until seconds, begun at `at_s` of the take."""
+    """A segment that is played in one go: the score from and until seconds, begun at `at_s` of the take."""
 
     from_s: float
     until_s: float

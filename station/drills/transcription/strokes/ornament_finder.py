@@ -140,13 +140,13 @@ def _line(piece: Piece, line: list[_Stroke], score: Score) -> list[_Stroke]:
     """The main strokes of one piece."""
     if piece not in _DRUMS:
         return line
-    return [found for stretch in _stretches(_with_drags(line), score) for found in stretch]
+    return [found for segment in _segments(_with_drags(line), score) for found in segment]
 
 
 # --- chains of close strokes ------------------------------------------------------------------------------------------
 
 
-def _stretches(line: Sequence[_Stroke], score: Score) -> Iterator[list[_Stroke]]:
+def _segments(line: Sequence[_Stroke], score: Score) -> Iterator[list[_Stroke]]:
     """The line, its rolls of rebounds parted into hands' strokes, and what lies between them as the strokes it is."""
     rest: list[_Stroke] = []
     together = list(_rolls(line))

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from station.core.pieces import Articulation, Piece
 from station.core.units import PPQ
-from station.drills.transcription.strokes.reach import Reach
+from station.drills.transcription.strokes.playable_strokes import Reach
 from station.drills.transcription.timing.grid_times import BeatCells, GridTimes
 from station.music.score import Note
 

@@ -20,8 +20,9 @@ from station.music.tempo import DEFAULT_US_PER_QUARTER, TempoChange, TempoMap
 
 MIN_STROKES = 24
 """Fewer have too many tempi that fit (our choice)."""
-HEARD_STROKES = 200
-"""A tempo shows in so many strokes."""
+HEARD_STROKES = 64
+"""A tempo shows in so many strokes, some four bars (our choice). In more the beat of a player who has no click walks by
+a cell, and they gather nowhere; the rest of the take is followed (`drift`)."""
 _SLOWEST_S, _FASTEST_S = 60 / 40, 60 / 220
 _STEP = 0.0007
 """Share by which the beats that are tried differ: over 30 s they part by 20 ms."""

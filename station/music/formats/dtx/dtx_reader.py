@@ -20,8 +20,8 @@ MOST_BYTES = 4 << 20
 """Our choice: the longest charts have some hundred kilobytes."""
 _MOST_CHIPS = 40_000
 """Our choice, of strokes and of tempo changes: the longest charts have some ten thousand."""
-_LONGEST_BAR = 16.0
-"""In whole notes; our choice, and more than any chart uses."""
+_LONGEST_BAR = 32.0
+"""In whole notes: a lesson's longest bar, 32/1, and more than any chart uses."""
 _LEAST_BPM = 0.1
 _WHOLE = 4 * PPQ
 _UNITS = (4, 8, 16, 32, 64)

@@ -62,7 +62,7 @@ class _Chip:
 def write_dtx(part: DrumPart) -> WrittenFile:
     """The part as a DTX chart in UTF-8, its sounds named but not there.
 
-    Raises `BadInput` for more than 3600 bars, and where no stroke has a lane.
+    Raises `BadInput` for more than 3600 bars, 1295 tempos, and where no stroke has a lane.
     """
     score = part.score
     if score.bar_count > _MOST_BARS:
@@ -158,9 +158,10 @@ def _lengths(score: Score, lost: LostBars) -> Iterator[str]:
 def _tempos(score: Score, lost: LostBars) -> Iterator[str]:
     """The changes of tempo, each with a name."""
     changes = score.tempo_map.tempos[1:]
-    names = {us: _base_36(i + 1) for i, us in enumerate(dict.fromkeys(t.us_per_quarter for t in changes))}
-    if len(names) > _MOST_NAMES:
+    named = list(dict.fromkeys(t.us_per_quarter for t in changes))
+    if len(named) > _MOST_NAMES:
         raise BadInput(score.title or "part", "", f"DTX names no more than {_MOST_NAMES} tempos")
+    names = {us: _base_36(i + 1) for i, us in enumerate(named)}
     yield from (f"#BPM{names[us]}: {_bpm(TempoChange(0, us))}" for us in names)
     placed = [(int(score.tempo_map.bars_at(t.tick)), t.tick, names[t.us_per_quarter]) for t in changes]
     for bar, group in groupby(placed, key=lambda row: row[0]):

@@ -5,9 +5,9 @@ from types import MappingProxyType
 
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import Feature, MusicFormat, WrittenFile
-from station.music.formats.music_xml.music_xml_reader import ROOTS, read_music_xml
-from station.music.formats.music_xml.music_xml_writer import write_music_xml
 from station.music.formats.music_xml.mxl_container import packed_score
+from station.music.formats.music_xml.reading.music_xml_reader import ROOTS, read_music_xml
+from station.music.formats.music_xml.writing.music_xml_writer import write_music_xml
 from station.music.formats.safe_xml import MOST_XML_BYTES, root_name
 from station.music.formats.safe_zip import is_zip
 

@@ -15,7 +15,7 @@ from station.render.notation.head_places import EDGE_X, HEAD_SIGNS, SMALL
 from station.render.notation.note_shapes import STEM_FROM, draw_brackets, draw_head, draw_letters
 from station.render.notation.staff import NoteHead, head_of, height, ledger_steps, step_of
 from station.render.notation.staff_rows import OPEN_FROM, WIDE_FROM, closing_hats, shown_limbs
-from station.render.notation.written_strokes import feet_of, written_strokes
+from station.render.notation.voice.written_strokes import feet_of, written_strokes
 from station.render.palette import INK, INK_SOFT
 from station.render.text.draw_list import DrawList, TypeStyle
 from station.render.text.fonts import Face

@@ -177,7 +177,7 @@ def crescendo_runs(score: Score) -> list[Indices]:
 
 
 def _trimmed(run: Indices, written: Floats) -> list[Indices]:
-    """The run without the level stretches at its ends, if it is a crescendo."""
+    """The run without the level segments at its ends, if it is a crescendo."""
     moves = np.flatnonzero(np.diff(written[run]) != 0)
     if not len(moves):
         return []

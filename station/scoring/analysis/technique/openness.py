@@ -162,6 +162,6 @@ def _score_ns(performance: Performance, alignment: Alignment) -> Floats:
     before = np.maximum(np.searchsorted(at_ns, grabs, side="right") - 1, 0)
     after = np.minimum(before + 1, len(at_ns) - 1)
     gap, passed = at_ns[after] - at_ns[before], alignment.hit_score_ns[after] - alignment.hit_score_ns[before]
-    same = (gap > 0) & (passed > 0) & (alignment.stretch[after] == alignment.stretch[before])
+    same = (gap > 0) & (passed > 0) & (alignment.segment[after] == alignment.segment[before])
     pace = np.where(same, passed / np.where(gap > 0, gap, 1), 1.0)
     return np.asarray(alignment.hit_score_ns[before] + (grabs - at_ns[before]) * pace)

@@ -21,7 +21,7 @@ from station.music.score import Score
 from station.scoring.analysis.loudness import level_db
 from station.scoring.analysis.technique.estimates import Estimate, figure
 from station.scoring.matching.alignment import Alignment
-from station.scoring.matching.grace_strokes import main_of_grace
+from station.scoring.matching.played_graces import main_of_grace
 
 USUAL_MS: Mapping[Ornament, tuple[float, float]] = MappingProxyType(
     {Ornament.FLAM: (15.0, 40.0), Ornament.DRAG: (40.0, 70.0)}

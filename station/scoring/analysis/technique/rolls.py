@@ -166,7 +166,7 @@ def _hits_of_buzz(score: Score, performance: Performance, alignment: Alignment, 
     end_ns = int(score.tempo_map.ns_at(int(note["tick"] + note["duration_ticks"]))) + BUZZ_REACH_NS
     mine = [press]
     for hit in range(press + 1, len(performance)):
-        if alignment.hit_score_ns[hit] > end_ns or alignment.stretch[hit] != alignment.stretch[press]:
+        if alignment.hit_score_ns[hit] > end_ns or alignment.segment[hit] != alignment.segment[press]:
             break
         if performance.hits["piece"][hit] == performance.hits["piece"][press]:
             if alignment.note_of_hit[hit] >= 0:

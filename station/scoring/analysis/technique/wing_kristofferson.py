@@ -138,9 +138,9 @@ def _runs(
     if not len(gaps):
         return [], None
     spacing = float(np.median(gaps[np.abs(gaps - _commonest(gaps)) <= _EVENLY * gaps]))
-    stretch = alignment.stretch[np.maximum(alignment.hit_of_note[rows], 0)] if len(alignment.stretch) else 0 * rows
+    segment = alignment.segment[np.maximum(alignment.hit_of_note[rows], 0)] if len(alignment.segment) else 0 * rows
     joined = (np.abs(gaps - spacing) <= _EVENLY * spacing) & timed[rows[:-1]] & timed[rows[1:]]
-    joined &= np.diff(stretch) == 0
+    joined &= np.diff(segment) == 0
     runs = [run for run in np.split(rows, np.flatnonzero(~joined) + 1) if len(run) > 1]
     return runs, spacing
 

@@ -202,6 +202,18 @@ def test_a_take_that_says_no_tempo_is_heard_at_its_own() -> None:
     assert strokes(found.score) == strokes(written)
 
 
+@pytest.mark.parametrize("seed", [15, 16])
+def test_a_take_that_says_no_tempo_and_has_no_click_is_heard_at_its_own(seed: int) -> None:
+    """It rushes by 4 % a minute: on the beats of one tempo nothing gathers in all of it, in its first bars it does."""
+    written = score_of(ROCK, 16, TempoMap.constant(104))
+    take = played(written, seed)
+    rows = take.notes.copy()
+    rows["tick"] = TempoMap().ticks_at(take.onset_s * (1 - 0.04 * take.onset_s / 60))
+    found = quantised_times(Score.from_array(rows, TempoMap()), is_played=True)
+    assert found.score.tempo_map.bpm_at(0) == pytest.approx(104, rel=0.03)
+    assert strokes(found.score) == strokes(written)
+
+
 def slowed(take: Score, by: float) -> Score:
     """The take of a player who keeps to another tempo than the file says."""
     rows = take.notes.copy()
