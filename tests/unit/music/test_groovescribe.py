@@ -5,6 +5,8 @@ import pytest
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
+from station.drills.library import find_lesson
+from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart
 from station.music.formats.groovescribe.groove_formats import (
     GROOVE_SHORTCUT,
@@ -13,6 +15,7 @@ from station.music.formats.groovescribe.groove_formats import (
     is_groove_url,
     read_url,
 )
+from station.music.formats.groovescribe.groove_writer import write_groove
 from station.music.formats.music_format import Feature
 from station.music.score import Note, Score
 from station.music.swing import Swing
@@ -312,3 +315,9 @@ def test_of_two_cymbals_at_once_one_is_told_as_left_out() -> None:
     part = snare_part(Note(0, Piece.HIHAT, Zone.BOW, openness=0.0), Note(0, Piece.CRASH_1, Zone.EDGE))
     assert "H=|c---|" in written(part)
     assert set(lost(part)) == {Feature.PIECES, Feature.TIMES}
+
+
+def test_a_swing_that_is_rounded_is_told_apart_from_what_it_was() -> None:
+    """GrooveScribe has whole percent: 23 % is 1.23 / 0.77."""
+    told = [loss.text for loss in write_groove(part_of(find_lesson("hip-hop-2"))).lost]
+    assert "swing of 1.6:1 becomes 1.597:1" in told

@@ -137,7 +137,7 @@ def _timed(part: DrumPart, losses: LostBars) -> tuple[Score, int, int]:
     said = swing_of(percent, unit)
     if abs(said.ratio - ratio) > _SAME_RATIO:
         for feature in (Feature.SWING, Feature.TIMES):
-            losses.add(feature, f"swing of {ratio:g}:1 becomes {said.ratio:.3g}:1")
+            losses.add(feature, f"swing of {ratio:g}:1 becomes {said.ratio:.4g}:1")
     return score, swung.division, percent
 
 
