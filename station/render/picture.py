@@ -44,6 +44,7 @@ class PictureMaker:
             self._target = RenderTarget(self._ctx, size, quality.samples)
             self._painter = Painter(self._ctx, quality)
         self._reader: Nv12Reader | None = None
+        self._is_released = False
 
     def draw(self, snapshot: Snapshot, camera: Camera | None = None, with_score: bool = True) -> NDArray[np.uint8]:
         """The picture, shape (height, width, 3), top row first."""
@@ -65,7 +66,7 @@ class PictureMaker:
     ) -> Iterator[Planes]:
         """The pictures of consecutive `snapshots` as planes for video; each is read back while later ones are drawn.
 
-        The size must be even.
+        The size must be even. A film that is given up may be closed after the maker was released.
         """
         with self._ctx:
             reader = Nv12Reader(self._ctx, self._target.resolved())
@@ -81,8 +82,9 @@ class PictureMaker:
             while (last := self._read(reader)) is not None:
                 yield last
         finally:
-            with self._ctx:
-                reader.release()
+            if not self._is_released:
+                with self._ctx:
+                    reader.release()
 
     def _read(self, reader: Nv12Reader) -> Planes | None:
         with self._ctx:
@@ -97,6 +99,7 @@ class PictureMaker:
 
     def release(self) -> None:
         """Give the driver its memory back."""
+        self._is_released = True
         with self._ctx:
             if self._reader is not None:
                 self._reader.release()

@@ -75,6 +75,14 @@ def test_a_film_given_up_in_the_middle_leaves_the_maker_ready(maker: PictureMake
     assert np.array_equal(next(iter(maker.film([picture_of(DRUMMER, TIMES_S[0])]))), first)
 
 
+def test_a_film_given_up_may_end_after_its_maker() -> None:
+    maker = PictureMaker((64, 48), QUALITIES[0])
+    frames = maker.film(picture_of(DRUMMER, at_s) for at_s in TIMES_S)
+    next(frames)
+    maker.release()
+    frames.close()  # type: ignore[attr-defined] # a generator, closed by whoever drops it last
+
+
 def test_a_film_shows_and_sounds_what_the_drummer_plays(maker: PictureMaker, tmp_path: Path) -> None:
     av = pytest.importorskip("av", reason="av is not installed: pip install av")
     told: list[int] = []

@@ -1,5 +1,6 @@
 """Makes a lesson of music that a user names, and keeps it among their own lessons."""
 
+import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -91,8 +92,8 @@ def _place(folder: Path, name: str, text: bytes) -> tuple[Path, bool]:
         path = folder / f"{name if number == 1 else f'{name}-{number}'}{ENDING}"
         if path.stem in shipped:
             continue
-        if not path.exists():
+        if not os.path.lexists(path):
             return path, True
-        if path.read_bytes() == text:
+        if path.is_file() and path.read_bytes() == text:
             return path, False
     raise BadInput(folder, "", f"{_MOST_OF_A_NAME} lessons are called {name} already")

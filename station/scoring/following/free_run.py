@@ -71,11 +71,13 @@ class FreeRun:
 
     def _follow_on(self, start: int, here: Place, first: Floats) -> tuple[Place, int]:
         """Follow from hit `start` through all jumps to the next pause; returns the place after it and its first hit."""
-        at = start
+        at, is_stuck = start, False
         self._trusted, self._wait = start, LOST_HITS
         while True:
             end = self._next_pause(at, here)
-            here, jump = self._follow_to_jump(at, end, here, first)
+            if is_stuck and len(self._jumps) >= MOST_JUMPS:
+                return self._follow(at, end, here), end
+            here, jump = self._follow_to_jump(at, end, here, first, at + is_stuck)
             if jump is None:
                 return here, end
             if jump > start:
@@ -103,15 +105,20 @@ class FreeRun:
         beats = self._written.beats.beat(self._score_s[start:end])
         return Blocks.of(self._written, self._hits.part(start, end), beats, 0, end - start, self._offsets)
 
-    def _follow_to_jump(self, start: int, end: int, here: Place, first: Floats) -> tuple[Place, int | None]:
-        """Follow from `start`; returns the place at the end and None, or that of the first jump and its hit."""
+    def _follow_to_jump(
+        self, start: int, end: int, here: Place, first: Floats, earliest: int
+    ) -> tuple[Place, int | None]:
+        """Follow from `start`; returns the place at the end and None, or that of the first jump and its hit.
+
+        No jump is before the hit `earliest`: where one led to the next at the same hit, it would never end.
+        """
         while start < end:
             until = min(start + AHEAD, end)
             after = self._follow(start, until, here)
             blocks = self._blocks(start, until)
             way = best_way(blocks.gains, first, self._offsets, self._written, self._end_cost(until))
             left = np.flatnonzero(way.states != self._offsets.here)
-            jump = start + blocks.split(int(left[0]), way) if len(left) else until
+            jump = max(start + blocks.split(int(left[0]), way), earliest) if len(left) else until
             settled = until if until == end else start + SETTLED
             lost = self._first_lost(blocks, way, start, until)
             if lost is not None and lost < min(jump, settled):

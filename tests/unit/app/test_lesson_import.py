@@ -1,5 +1,6 @@
 """What becomes a lesson of the user's own: where it lies, what it is called, what is refused."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -54,6 +55,16 @@ def test_the_same_again_is_kept_once_and_another_of_its_name_beside_it(tmp_path:
     assert (again.path, again.is_new) == (first.path, False)
     assert other.path == folder / "beat-2.toml"
     assert find_lesson(str(first.path)).title == "Beat", "what lay there stays"
+
+
+def test_a_name_that_a_folder_a_pipe_or_a_broken_link_has_is_left_alone(tmp_path: Path) -> None:
+    folder = tmp_path / "lessons"
+    (folder / "beat.toml").mkdir(parents=True)
+    os.mkfifo(folder / "beat-2.toml")
+    (folder / "beat-3.toml").symlink_to(tmp_path / "gone.toml")
+    kept = keep_import(str(tab(tmp_path / "beat.tab")), folder)
+    assert (kept.path, kept.is_new) == (folder / "beat-4.toml", True)
+    assert not (tmp_path / "gone.toml").exists()
 
 
 def test_no_own_lesson_takes_the_name_of_one_that_ships(tmp_path: Path) -> None:

@@ -7,10 +7,11 @@ import pytest
 
 from station.core.events import Hit
 from station.core.pieces import Piece, Zone
-from station.core.units import NS_PER_MS, NS_PER_S
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.library import find_lesson
 from station.music.performance import Performance
-from station.music.score import Score
+from station.music.score import Note, Score
+from station.music.tempo import TempoMap
 from station.scoring.following.passes import times_played
 from tests.fakes.played import played
 from tests.fakes.scores import rock_beat
@@ -55,3 +56,16 @@ def test_bounces_are_no_strokes() -> None:
 def test_silence_and_an_empty_score() -> None:
     assert times_played(rock_beat(2), Performance.from_hits([])) == 1
     assert times_played(Score.from_notes([], rock_beat(1).tempo_map), Performance.from_hits(looped(1))) == 1
+
+
+@pytest.mark.parametrize("seed", [37, 49])
+def test_hits_that_have_nothing_to_do_with_the_lesson_come_to_an_end(seed: int) -> None:
+    """These once led the clock round three places at one hit for ever."""
+    gaps_s = np.random.default_rng(seed).exponential(0.25, 120)
+    hits = [Hit(round(at_s * NS_PER_S), Piece.SNARE, Zone.BOW, 80) for at_s in np.cumsum(gaps_s).tolist()]
+    quarters = Score.from_notes([Note(k * PPQ, Piece.SNARE) for k in range(4)], TempoMap.constant(80))
+    assert (
+        1
+        <= times_played(quarters, Performance.from_hits(hits))
+        <= 2.2 * gaps_s.sum() / quarters.length_ns * NS_PER_S + 2
+    )
