@@ -179,9 +179,10 @@ class Snapshot:
 
     `position_s` is the score's time at the play line, negative in a count-in. `marks` (n,) of `MARK_DTYPE` belongs to
     the rows of `score`; nobody writes to it after it was put here. `limbs` (n,) of `Limb` shows the sticking, None what
-    the score says. Written tempi count beats of `beat_ticks`; `spelling` is how a take is written. `pose` None draws the
-    kit alone. Where there is a `strip`, it stands in place of the score. `double` is the student beside the demonstrator, for those who want to see
-    it. `view` is from where the lesson's teacher wants it to be seen, None where they leave it to whoever looks.
+    the score says. Written tempi count beats of `beat_ticks`; `spelling` is how a take is written. `pose` None draws
+    the kit alone. Where there is a `strip`, it stands in place of the score. `double` is the student beside the
+    demonstrator, for those who want to see it. `view` is from where the lesson's teacher wants it to be seen, None
+    where they leave it to whoever looks.
     """
 
     score: Score

@@ -41,7 +41,7 @@ def feet_of(score: Score) -> NDArray[np.bool_]:
 
 
 def written_strokes(score: Score, is_foot: NDArray[np.bool_], ticks: NDArray[np.int64] | None = None) -> WrittenStrokes:
-    """All strokes of `score`; `is_foot`, shape (n,), tells the two voices, `ticks` (n,) where each is written if known."""
+    """All strokes of `score`; `is_foot`, shape (n,), tells the two voices, `ticks` (n,) where each stands if known."""
     ticks = written_ticks(score, is_foot) if ticks is None else ticks
     until = held_until(score, is_foot, ticks)
     is_measured, is_hidden = np.zeros(len(score), np.bool_), np.zeros(len(score), np.bool_)
