@@ -162,15 +162,27 @@ class Strip:
     beats: int = 4
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class TakeSpelling:
+    """How a score that is shown as it was played is written: where each stroke stands, `tick` of shape (n,), straight.
+
+    `meant` is the music on the grid, which says how it swings.
+    """
+
+    tick: NDArray[np.int64]
+    meant: Score
+
+
 @dataclass(frozen=True, eq=False)
 class Snapshot:
     """One instant of the practice room.
 
     `position_s` is the score's time at the play line, negative in a count-in. `marks` (n,) of `MARK_DTYPE` belongs to
     the rows of `score`; nobody writes to it after it was put here. `limbs` (n,) of `Limb` shows the sticking, None what
-    the score says. Written tempi count beats of `beat_ticks`. `pose` None draws the kit alone. Where there is a
-    `strip`, it stands in place of the score. `double` is the student beside the demonstrator, for those who want to see
-    it. `view` is from where the lesson's teacher wants it to be seen, None where they leave it to whoever looks.
+    the score says. Written tempi count beats of `beat_ticks`; `spelling` is how a take is written. `pose` None draws
+    the kit alone. Where there is a `strip`, it stands in place of the score. `double` is the student beside the
+    demonstrator, for those who want to see it. `view` is from where the lesson's teacher wants it to be seen, None
+    where they leave it to whoever looks.
     """
 
     score: Score
@@ -185,6 +197,7 @@ class Snapshot:
     hud: Hud = field(default_factory=Hud)
     bar_numbers: BarNumbers = BarNumbers()
     beat_ticks: int = PPQ
+    spelling: TakeSpelling | None = None
     strip: Strip | None = None
     double: StudentShown | None = None
     view: NamedView | None = None

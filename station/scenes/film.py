@@ -91,8 +91,8 @@ class FilmLoop:
 
     @classmethod
     def of(cls, drummer: Drummer, first_bar: int, bar_count: int, words: ScoreWords) -> "FilmLoop":
-        """The loop of a drummer who plays what `score` gave."""
-        return cls(drummer.score.length_ns / NS_PER_S / _PASSES, first_bar, bar_count, words)
+        """The loop of a drummer who plays what `score` gave, where no take's spelling fits."""
+        return cls(drummer.score.length_ns / NS_PER_S / _PASSES, first_bar, bar_count, replace(words, spelling=None))
 
     @staticmethod
     def score(score: Score, first_bar: int, last_bar: int) -> Score:

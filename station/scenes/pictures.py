@@ -95,6 +95,7 @@ def picture_of(drummer: Drummer, at_s: float, words: ScoreWords = NO_WORDS) -> S
         hud=hud,
         bar_numbers=bar_numbers(words.sections, 0, score.bar_count),
         beat_ticks=words.beat_ticks,
+        spelling=words.spelling,
     )
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from station.core.units import PPQ
 from station.drills.lesson import BarCue, Section
 from station.music.drum_part import PartSection
-from station.render.snapshot import BarNumbers
+from station.render.snapshot import BarNumbers, TakeSpelling
 
 Names = tuple[tuple[int, str], ...]
 """A bar, from 0, and the name of what begins with it."""
@@ -14,11 +14,15 @@ Names = tuple[tuple[int, str], ...]
 
 @dataclass(frozen=True, slots=True)
 class ScoreWords:
-    """What a lesson or a part says beside its notes: its `sections`, the beat that is counted, its teacher's `cues`."""
+    """What a lesson or a part says beside its notes: its `sections`, the beat that is counted, its teacher's `cues`.
+
+    `spelling` is how a take is written.
+    """
 
     sections: tuple[Section | PartSection, ...] = ()
     beat_ticks: int = PPQ
     cues: tuple[BarCue, ...] = ()
+    spelling: TakeSpelling | None = None
 
 
 NO_WORDS = ScoreWords()

@@ -63,10 +63,11 @@ def kit_of_lesson(name: str) -> str:
 def words_of(name: str) -> ScoreWords:
     """What the score that `name` means says beside its notes."""
     from station.scenes.score_words import ScoreWords
+    from station.scenes.take_spelling import take_spelling
 
     if not is_lesson(name):
         part = load_part(name)
-        return ScoreWords(part.sections, part.beat_ticks)
+        return ScoreWords(part.sections, part.beat_ticks, spelling=take_spelling(part))
     from station.app.music_files.find_own_lesson import find_any_lesson
 
     lesson = find_any_lesson(name)

@@ -4,6 +4,8 @@ A score on the screen is written out as it is played: repeat signs stand where a
 of an ending over its bars in every pass. Units are staff spaces, y down, x from the bar's first beat.
 """
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from station.core.units import PPQ
@@ -17,7 +19,7 @@ from station.render.notation.beat_note import draw_beat_note
 from station.render.notation.chord_width import GRACE, GRACE_GAP, GRACE_STEP
 from station.render.notation.head_places import EDGE_X
 from station.render.notation.sheet_words import RAMPS
-from station.render.notation.swing_words import draw_swing_mark, swing_marks
+from station.render.notation.swing_words import SwingMark, draw_swing_mark
 from station.render.palette import BRAND, INK, INK_SOFT
 from station.render.snapshot import BarNumbers
 from station.render.text.draw_list import DrawList, TypeStyle
@@ -45,13 +47,16 @@ _WORD_GAP = 0.9
 
 
 class BarSigns:
-    """What stands at the bar lines of `score`; `numbers` says which bars come again, `beat_ticks` what tempi count."""
+    """What stands at the bar lines of `score`; `numbers` says which bars come again, `beat_ticks` what tempi count.
 
-    def __init__(self, score: Score, numbers: BarNumbers, beat_ticks: int) -> None:
+    `swing` are the marks by bar, from 0.
+    """
+
+    def __init__(self, score: Score, numbers: BarNumbers, beat_ticks: int, swing: Mapping[int, SwingMark]) -> None:
         self._score, self._numbers, self._beat_ticks = score, numbers, beat_ticks
         self._tempo_words = read_tempo_words(score.tempo_map)
         self._has_pickup = numbers.first == 0 and _begins_with_pickup(score, numbers)
-        self._swing = swing_marks(score)
+        self._swing = swing
         self._voltas = _voltas(score, numbers)
 
     def draw_line(self, draw_list: DrawList, bar: int) -> None:

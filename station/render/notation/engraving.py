@@ -6,6 +6,7 @@ Proportions follow Gould, "Behind Bars" (2011): stems 3½ spaces, beams half a s
 """
 
 from collections.abc import Sequence
+from copy import copy
 from functools import cached_property
 
 import numpy as np
@@ -20,11 +21,12 @@ from station.render.notation.rests import draw_rest
 from station.render.notation.spelling.note_values import Value
 from station.render.notation.staff_rows import closing_hats, shown_limbs, staff_rows
 from station.render.notation.staff_strokes import staff_strokes
+from station.render.notation.swing_words import swing_marks
 from station.render.notation.voice.chord_pen import Chord, ChordPen
 from station.render.notation.voice.voice_pen import BarSpan, VoicePen
 from station.render.notation.voice.written_strokes import feet_of, written_strokes
 from station.render.notation.whole_score import whole_score
-from station.render.snapshot import BarNumbers
+from station.render.snapshot import BarNumbers, TakeSpelling
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import DrawList
 
@@ -58,12 +60,24 @@ class Engraver:
         self.rows_y = staff_rows(self._whole, self._limbs)
         self._closing = closing_hats(self._whole)
         self._staff_strokes = staff_strokes(self._whole, self._limbs, self._is_small, self._closing)
-        self.strokes = written_strokes(self._whole, feet_of(self._whole))
+        self._meant = score
+        self._write()
+
+    def of_take(self, spelling: TakeSpelling) -> "Engraver":
+        """The same of a take, written as `spelling` says; nothing in it is beyond the player."""
+        found = copy(self)
+        found._meant = spelling.meant
+        found._write(spelling.tick)
+        return found
+
+    def _write(self, ticks: NDArray[np.int64] | None = None) -> None:
+        """Find where strokes are written, or have them at `ticks`."""
+        self.strokes = written_strokes(self._whole, feet_of(self._whole), ticks)
         self._order = np.argsort(self.strokes.tick, kind="stable")
         self._in_order = self.strokes.tick[self._order]
-        ticks = np.union1d(self.strokes.tick, self._whole.notes["tick"])
+        known = np.union1d(self.strokes.tick, self._whole.notes["tick"])
         self._seconds: dict[int, float] = dict(
-            zip(ticks.tolist(), score.tempo_map.seconds_at(ticks).tolist(), strict=True)
+            zip(known.tolist(), self.score.tempo_map.seconds_at(known).tolist(), strict=True)
         )
 
     def bar(self, bar: int, with_line: bool = True, opens_line: bool = False) -> NDArray[np.void]:
@@ -76,7 +90,7 @@ class Engraver:
     @cached_property
     def signs(self) -> BarSigns:
         """What stands at the bar lines."""
-        return BarSigns(self.score, self._numbers, self._beat_ticks)
+        return BarSigns(self.score, self._numbers, self._beat_ticks, swing_marks(self._meant))
 
     # --- what a bar asks ------------------------------------------------------------------------------------------
 

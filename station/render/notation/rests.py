@@ -26,20 +26,22 @@ _ON_A_LINE, _STAFF = (1, 2), 2.0
 """Rests that hang from a line or sit on it, and have a ledger line where there is none: beyond the staff (Gould)."""
 
 
-def draw_rest(draw_list: DrawList, value: Value, is_up: bool, other_steps: Sequence[int] | None) -> None:
+def draw_rest(
+    draw_list: DrawList, value: Value, is_up: bool, other_steps: Sequence[int] | None, x: float = 0.0
+) -> None:
     """A rest of `value` in the hands' voice (`is_up`) or the feet's; `other_steps`: the other voice's heads there.
 
-    None where the other voice is silent in the bar.
+    None where the other voice is silent in the bar. Its middle is at `x`.
     """
     name = f"rest_{min(value.base, 128)}"
     y = _lone_y(name) if other_steps is None else _shared_y(name, is_up, [height(step) for step in other_steps])
-    draw_list.sign(name, (0.0, y), INK)
+    draw_list.sign(name, (x, y), INK)
     if value.base in _ON_A_LINE and abs(y) > _STAFF:
         half = sign_box(name).width / 2 + LEDGER_OUT
-        draw_list.line((-half, y), (half, y), LEDGER_LINE, INK_SOFT)
+        draw_list.line((x - half, y), (x + half, y), LEDGER_LINE, INK_SOFT)
     for k in range(value.dots):
-        x = sign_box(name).right + _DOT_GAP + sign_box("dot").width * 1.5 * k
-        draw_list.sign("dot", (x, y - 0.5), INK)
+        right = x + sign_box(name).right + _DOT_GAP + sign_box("dot").width * 1.5 * k
+        draw_list.sign("dot", (right, y - 0.5), INK)
 
 
 def rest_edge(base: int, is_up: bool, other_steps: Sequence[int]) -> float:

@@ -457,3 +457,15 @@ def test_a_half_rest_below_the_staff_has_a_line_to_sit_on(hands: bool, count: in
     assert all(line["half"][0] > sign_box("rest_2").width / 2 for line in lines)
     draw_rest(quarter := DrawList(ATLAS), Value(4), False, [])
     assert len(quarter.shapes()) == 1, "a quarter's hangs nowhere"
+
+
+def test_a_short_rest_keeps_clear_of_the_grace_note_after_it() -> None:
+    """Where time rolls sixteenths are 1.6 spaces apart; a beat begins with a rest, and a flam follows."""
+    at = PPQ + PPQ // 4
+    flam = (Note(at, Piece.SNARE, lead_ms=20.0), Note(at, Piece.SNARE, ornament=Ornament.FLAM))
+    shapes = bar_of(Note(0, Piece.SNARE), *flam, Note(2 * PPQ, Piece.SNARE))
+    rest = of_sign(shapes, "rest_16")
+    heads = of_sign(shapes, "head_round")
+    grace = heads[heads["half"][:, 0].argmin()]
+    reach = rest["centre"][0, 0] + sign_box("rest_16").width / 2
+    assert reach < 1.6 + grace["centre"][0] - 0.62 * sign_box("head_round").width / 2

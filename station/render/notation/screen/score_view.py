@@ -215,8 +215,14 @@ class ScoreView:
         engraver = self._engraver
         if engraver is None or engraver.score is not snapshot.score or self._limbs is not snapshot.limbs:
             engraver = self._engraver = Engraver(
-                snapshot.score, self._atlas, snapshot.limbs, snapshot.bar_numbers, snapshot.beat_ticks
+                snapshot.score,
+                self._atlas,
+                snapshot.limbs,
+                snapshot.bar_numbers,
+                snapshot.beat_ticks,
             )
+            if snapshot.spelling is not None:
+                engraver = self._engraver = engraver.of_take(snapshot.spelling)
             self._limbs = snapshot.limbs
             self._bars.clear()
         return engraver

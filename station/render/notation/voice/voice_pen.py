@@ -33,6 +33,11 @@ _INCOMING, _OVER_LINE = 1.7, 0.9
 """A tie from the line before begins so far left of its head, one over a bar line on paper ends so far right of it."""
 
 
+_LEAN, _LEANS_FROM = -1.0, 16
+"""So far left of its time stands a sixteenth rest, or a shorter one, before a grace note where time rolls: strokes are
+1.6 spaces apart there, of which the grace note takes 1.9 and half the rest 0.6 (our choice)."""
+
+
 @dataclass(frozen=True, slots=True)
 class BarSpan:
     """A bar from tick `start` to `end`; `with_line`: its line is drawn, `opens_line`: it is the first on its line."""
@@ -58,7 +63,7 @@ class VoicePen:
         mains = [*self._held_at(self._bar.start, voice), *(c for c in chords if c.mains)]
         for group in spell_bar([self._stroke(c) for c in mains], self._bar.meter, self._bar.end - self._bar.start):
             for rest in group.rests:
-                self._rest(rest, voice, beside)
+                self._rest(rest, voice, beside, self._lean(rest, mains))
             self._group(group, [self._chord(mains, value) for value in group.strokes], voice)
         if tied := self._strokes.held_into(self._bar.end, voice is FEET):
             over = 0.0 if self._bar.with_line else _OVER_LINE
@@ -109,11 +114,18 @@ class VoicePen:
 
     # --- groups ---------------------------------------------------------------------------------------------------
 
-    def _rest(self, rest: TimedValue, voice: StaffVoice, beside: bool) -> None:
+    def _lean(self, rest: TimedValue, mains: Sequence[Chord]) -> float:
+        """How far from its time a rest stands: left of it where a short one would touch the grace note after it."""
+        tick = self._bar.start + rest.tick
+        after = next((chord for chord in mains if chord.written > tick), None)
+        is_near = after is not None and bool(after.graces) and after.written - tick <= rest.value.ticks
+        return _LEAN if is_near and self._bar.with_line and rest.value.base >= _LEANS_FROM else 0.0
+
+    def _rest(self, rest: TimedValue, voice: StaffVoice, beside: bool, x: float) -> None:
         tick = self._bar.start + rest.tick
         self._anchor.at(tick)
         others = self._pen.heads_at(tick, voice) if beside else None
-        draw_rest(self._anchor.draw_list, rest.value, voice.is_up, others)
+        draw_rest(self._anchor.draw_list, rest.value, voice.is_up, others, x)
 
     def _group(self, group: BeatGroup, chords: Sequence[Chord], voice: StaffVoice) -> None:
         if not chords:

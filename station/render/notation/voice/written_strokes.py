@@ -40,9 +40,9 @@ def feet_of(score: Score) -> NDArray[np.bool_]:
     return np.isin(score.notes["piece"], [int(piece) for piece in FOOT_PIECES])
 
 
-def written_strokes(score: Score, is_foot: NDArray[np.bool_]) -> WrittenStrokes:
-    """All strokes of `score`; `is_foot`, shape (n,), tells the two voices."""
-    ticks = written_ticks(score, is_foot)
+def written_strokes(score: Score, is_foot: NDArray[np.bool_], ticks: NDArray[np.int64] | None = None) -> WrittenStrokes:
+    """All strokes of `score`; `is_foot`, shape (n,), tells the two voices, `ticks` (n,) where each stands if known."""
+    ticks = written_ticks(score, is_foot) if ticks is None else ticks
     until = held_until(score, is_foot, ticks)
     is_measured, is_hidden = np.zeros(len(score), np.bool_), np.zeros(len(score), np.bool_)
     for first, second, end in measured_cells(score, is_foot, ticks):
