@@ -215,8 +215,9 @@ def _farness(named: Mapping[Dynamic, Level]) -> float:
 
 
 def _makes_sense(named: Mapping[Dynamic, Level], may_be_filled: bool) -> bool:
-    """Whether what is marked is no more than half of the strokes, ghosts apart where they may fill in."""
-    most = sum(level.count for level in named.values()) / 2
+    """Whether what is marked is half of the strokes at most, strays apart, and ghosts where they may fill in."""
+    count = sum(level.count for level in named.values())
+    most = count / 2 + max(1, _STRAYS * count)
     rare = [Dynamic.ACCENT] if may_be_filled else [Dynamic.ACCENT, Dynamic.GHOST]
     return all(named[d].count <= most for d in rare if d in named)
 

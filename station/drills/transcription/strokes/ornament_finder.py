@@ -310,7 +310,7 @@ def _with_drags(line: Sequence[_Stroke]) -> list[_Stroke]:
     """The strokes with two soft ones before a louder one made its drag."""
     kept: list[_Stroke] = []
     for stroke in line:
-        if len(kept) >= 2 and _is_drag(kept[-3:-2], kept[-2], kept[-1], stroke):
+        if len(kept) >= 2 and _is_drag(kept[-4:-2], kept[-2], kept[-1], stroke):
             graces = [kept.pop(-2), kept.pop()]
             kept.append(_graced(stroke, Ornament.DRAG, graces))
         else:
@@ -320,13 +320,15 @@ def _with_drags(line: Sequence[_Stroke]) -> list[_Stroke]:
 
 def _is_drag(before: Sequence[_Stroke], first: _Stroke, second: _Stroke, main: _Stroke) -> bool:
     three = (first, second, main)
-    if any(s.note.ornament is not Ornament.NONE or s.note.articulation is not Articulation.NORMAL for s in three):
+    if _are_rebounds((*before, first, second)) or any(
+        s.note.ornament is not Ornament.NONE or s.note.articulation is not Articulation.NORMAL for s in three
+    ):
         return False
     gaps = (second.ms - first.ms, main.ms - second.ms)
     if not all(DRAG_MS[0] <= gap <= DRAG_MS[1] for gap in gaps) or _is_written_run(three):
         return False
     low, high = sorted((first.note.velocity, second.note.velocity))
-    is_alone = not before or first.ms - before[0].ms >= _ALONE * max(gaps)
+    is_alone = not before or first.ms - before[-1].ms >= _ALONE * max(gaps)
     is_even = max(gaps) <= _APART * min(gaps)
     heard = (low + high) / 2 if is_even else high
     if (not is_alone and heard > _DRAG_SOFT * main.note.velocity) or high > _SOFT * main.note.velocity:
@@ -335,7 +337,13 @@ def _is_drag(before: Sequence[_Stroke], first: _Stroke, second: _Stroke, main: _
         return False
     if gaps[0] > _EVEN * gaps[1] and first.note.velocity > second.note.velocity / _SOFT:
         return False
-    return not before or first.ms - before[0].ms >= _APART * gaps[0] or before[0].note.velocity >= _APART * high
+    return not before or first.ms - before[-1].ms >= _APART * gaps[0] or before[-1].note.velocity >= _APART * high
+
+
+def _are_rebounds(strokes: Sequence[_Stroke]) -> bool:
+    """Whether so many strokes follow each other as closely as rebounds: a drag's two come after a hand's one."""
+    is_close = all(b.ms - a.ms <= CLOSE_MS for a, b in pairwise(strokes))
+    return len(strokes) > _FEWEST and is_close and not any(s.leads_ms for s in strokes)
 
 
 def _is_written_run(strokes: Sequence[_Stroke]) -> bool:

@@ -59,6 +59,12 @@ def test_what_is_mostly_struck_is_no_accent() -> None:
     assert dynamics([60, 127, 127, 127] * 4, Piece.HIHAT) == [G, N, N, N] * 4
 
 
+def test_one_stray_among_as_many_accents_as_other_strokes_makes_no_ghosts_of_those() -> None:
+    """Eighths on a hi-hat, each quarter an accent, the last upbeat struck as loudly: no hi-hat of ghosts at 58."""
+    eighths = [100, 58, 98, 61, 104, 56, 101, 60, 97, 55, 102, 59, 99, 57, 103, 96]
+    assert dynamics(eighths, Piece.HIHAT) == [A, N] * 7 + [A, A]
+
+
 def test_what_is_mostly_struck_is_a_ghost_on_drums_alone() -> None:
     assert dynamics([127, 18, 18, 18] * 4) == [A, G, G, G] * 4
     assert dynamics([127, 18, 18, 18] * 4, Piece.HIHAT) == [A, N, N, N] * 4

@@ -96,6 +96,13 @@ def test_a_press_roll_whose_rebounds_are_as_loud_is_told_by_the_beat() -> None:
     assert result.buzzes == 8
 
 
+def test_the_last_rebounds_before_the_other_hand_are_no_drag() -> None:
+    """Sixteenths at 90 bpm, each hand's stroke with four rebounds, of which some lose a quarter and some little."""
+    rebounds = ((0, 80), (34, 64), (64, 48), (97, 36), (131, 33))
+    strokes = [(500 + 166.7 * i + ms, velocity) for i in range(3) for ms, velocity in rebounds]
+    assert names(*strokes) == ["buzz"] * 3
+
+
 def test_a_soft_stroke_alone_before_a_louder_one_is_a_wide_flam() -> None:
     assert names((0, 80), (446, 35), (500, 100), (1000, 80)) == ["stroke", "flam", "stroke"]
 
