@@ -30,7 +30,8 @@ def times_of(path: Path) -> GridTimes:
 def test_a_groove_in_sixteenths_is_cut_into_sixteenths(path: Path) -> None:
     found = times_of(path)
     cells = Counter(beat.cells for beat in found.beats)
-    assert cells[2] + cells[4] >= cells.total() / 2
+    sixteenths = cells.pop(2, 0) + cells.pop(4, 0)
+    assert sixteenths > max(cells.values(), default=0)  # one drummer rebounds a thirty-second after half of the beats
     assert 5 < found.spread_ms < 28  # HUMANS, Timing: 10–20 ms of professionals, 26–28 of this dataset at large
 
 
