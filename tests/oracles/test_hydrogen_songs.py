@@ -21,6 +21,8 @@ FOLDER = ORACLES / "charts" / "hydrogen"
 DATA = FOLDER / "src" / "tests" / "data"
 pytestmark = [pytest.mark.oracle, pytest.mark.skipif(not DATA.exists(), reason=f"no {DATA}")]
 
+ELECTRIC_SNARE = 40
+
 COLUMNS = [["First"], ["Third"], ["First"], [], ["First"], ["Fourth"]]
 TEMPOS = "".join(f"<newBPM><BAR>{bar}</BAR><BPM>{130 + 5 * bar}</BPM></newBPM>" for bar in range(1, 7))
 TAGS = "".join(f"<newTAG><BAR>{bar}</BAR><TAG>Column {bar + 1}</TAG></newTAG>" for bar in range(5))
@@ -40,8 +42,12 @@ TIMELINE = song(
 def check_same(ours: DrumPart, export: Path) -> None:
     theirs = read_part(export)
     assert len(ours.score) > 0
-    for name in ("tick", "piece", "zone", "articulation", "velocity", "openness", "midi_note"):
-        np.testing.assert_array_equal(ours.score.notes[name], theirs.score.notes[name], name)
+    mine, exported = ours.score.notes, theirs.score.notes
+    for name in ("tick", "piece", "velocity", "openness", "midi_note"):
+        np.testing.assert_array_equal(mine[name], exported[name], name)
+    told = mine["midi_note"] != ELECTRIC_SNARE  # the song's is called Snare Rimshot; its export has the number alone
+    for name in ("zone", "articulation"):
+        np.testing.assert_array_equal(mine[name][told], exported[name][told], name)
 
 
 @pytest.mark.parametrize("export", ["smf0.test.ref.mid", "smf1multi.test.ref.mid"])
