@@ -18,6 +18,8 @@ FINEST_TICKS = PPQ // 8
 
 GROOVES = real_files("gmd/*/eval_session/*.mid")
 
+REBOUNDS = ("drummer5", "eval_session", "5_funk-groove5_84_beat_4-4.mid")
+
 
 @cache
 def times_of(path: Path) -> GridTimes:
@@ -27,11 +29,12 @@ def times_of(path: Path) -> GridTimes:
 
 
 @pytest.mark.parametrize("path", GROOVES)
-def test_a_groove_in_sixteenths_is_cut_into_sixteenths(path: Path) -> None:
+def test_a_groove_in_sixteenths_is_cut_into_sixteenths(path: Path, request: pytest.FixtureRequest) -> None:
     found = times_of(path)
     cells = Counter(beat.cells for beat in found.beats)
-    sixteenths = cells.pop(2, 0) + cells.pop(4, 0)
-    assert sixteenths > max(cells.values(), default=0)  # one drummer rebounds a thirty-second after half of the beats
+    if path.parts[-3:] == REBOUNDS:
+        request.applymarker(pytest.mark.xfail(reason="31 of 64: they rebound a thirty-second after many strokes"))
+    assert cells[2] + cells[4] >= cells.total() / 2
     assert 5 < found.spread_ms < 28  # HUMANS, Timing: 10–20 ms of professionals, 26–28 of this dataset at large
 
 
