@@ -184,6 +184,7 @@ _OF_STROKES: Mapping[Feature, Callable[[_Rows, _Rows], NDArray[np.bool_]]] = {
     Feature.CHOKES: _close("choke_ticks"),
     Feature.STICKING: _same_hand,
     Feature.FEET: _same_foot,
+    Feature.TIMING: _equal("late_ms"),
 }
 
 

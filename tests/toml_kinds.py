@@ -12,6 +12,7 @@ from station.devices.mapping.device_file import read_kit
 from station.devices.mapping.stick_file import STICK
 from station.drills.course import read_course
 from station.drills.library import lessons_for, read_lesson
+from station.drills.songs.song_file import read_song
 from station.motion.kinematics.figure import load_figure
 from station.motion.kit.kit import load_kit
 from station.motion.style.style_file import Slots, load_style
@@ -42,6 +43,12 @@ GOOD = {
         needs="title",
     ),
     "course": Good('title = "C"\nlevel = 2\nlessons = ["rock-1", "rock-2"]\n', "level = 2", needs="lessons"),
+    "song": Good(
+        'title = "S"\npart = "s.mid"\nsound = ["bass.ogg", "guitar.ogg"]\nquarters_s = [0.5, 1.0]\n[[point]]\nbar = 2\n'
+        'beat = 1.5\nat_s = 2.5\n[[section]]\nname = "verse"\nbar = 2\n',
+        "at_s = 2.5",
+        needs="title",
+    ),
     "device kit": Good(
         'base = "roland-td-17"\nnotes.66 = { piece = "ride", zone = "edge" }\npads.kick = { curve = { bend = 0.3 } }\n'
         '[foot]\nleast_travel = 0.3\n[[crosstalk]]\nsource = "kick"\nvictim = "snare"\nshare = 0.3\n',
@@ -99,6 +106,7 @@ GOOD = {
 _READERS: dict[str, Callable[[Path], object]] = {
     "lesson": read_lesson,
     "course": lambda path: read_course(path, lessons_for(path.parent)),
+    "song": read_song,
     "device kit": read_kit,
     "drummer's kit": load_kit,
     "figure": load_figure,

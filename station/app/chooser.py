@@ -12,7 +12,9 @@ from station.app.room_state import LessonCard, Stage
 from station.app.selection import Selection
 from station.app.sessions.session_control import Launch, SessionControl
 from station.app.settings.settings_store import SettingsStore
-from station.drills.reading.lesson_file import read_lesson
+from station.core.errors import BadInput
+from station.drills.daily.daily_items import DailyItem
+from station.drills.library import lessons_dir, read_any
 from station.practice.control.tap_tempo import TapTempo as Taps
 
 
@@ -30,7 +32,7 @@ class Chooser:
         self.selection = Selection.of([sessions.catalog.first_card()], first)
         self._shown: tuple[str, tuple[int, int] | None] | None = (first.lesson, first.bars)
         self._has_catalog = False
-        self._to_open: Path | None = None
+        self._to_open: tuple[Path, ...] = ()
         sessions.player.repeat(first.bars)
 
     @property
@@ -38,6 +40,12 @@ class Chooser:
         """The bars, from 0, of the lesson on the player that are practised."""
         bars = self.selection.bars
         return self._sessions.player.lesson.loop if bars is None else (bars[0] - 1, bars[1] - 1)
+
+    @property
+    def lesson_name(self) -> str:
+        """The lesson that is chosen, empty where none is."""
+        request = self.selection.request()
+        return "" if request is None else request.lesson
 
     def act(self, action: ChoiceAction) -> None:
         """Do what the user asks."""
@@ -58,6 +66,24 @@ class Chooser:
             case _:
                 assert_never(action)
 
+    def take_block(self, item: DailyItem) -> None:
+        """Choose what a block of the day's plan has; raises `BadInput` where its lesson is not there."""
+        known = self.selection.for_block(item)
+        if known is self.selection:
+            still = "the lessons are still being read: again in a moment"
+            raise BadInput(item.title, "", "this lesson is no longer there" if self._has_catalog else still)
+        if known.course is not None and all(card.name != item.lesson for card in known.visible()):
+            known = replace(known, course=None)
+        self.selection = known
+
+    def take_up(self, lesson: str) -> None:
+        """Choose the lesson of that name; raises `BadInput` where it is not there."""
+        found = next((card for card in self.selection.lessons if card.name == lesson), None)
+        if found is None:
+            still = "the lessons are still being read: again in a moment"
+            raise BadInput(lesson, "", "this lesson is no longer there" if self._has_catalog else still)
+        self.selection = replace(self.selection, course=None, search="").choose(found)
+
     def offer_all(self) -> None:
         """Offer every lesson there is, as soon as they are read."""
         if self._reading is None and not self._has_catalog:
@@ -71,20 +97,26 @@ class Chooser:
             courses, course = self._sessions.catalog.courses(), self._store.now.course
             self.selection = self.selection.offer(reading.result(), courses, course)
 
-    def open(self, path: Path) -> None:
-        """Choose the lesson of the user's own in that file, as soon as all are listed and nobody plays."""
-        self._to_open = path
+    def open(self, *paths: Path) -> None:
+        """List the lessons in these files and choose the first, as soon as all others are listed and nobody plays."""
+        self._to_open = paths
 
     def _choose_opened(self) -> None:
-        """Raises `BadInput` where the file has gone bad meanwhile."""
-        if self._to_open is None or not self._has_catalog or self._sessions.practice.stage is not Stage.IDLE:
+        """Raises `BadInput` where a file has gone bad meanwhile."""
+        if not self._to_open or not self._has_catalog or self._sessions.practice.stage is not Stage.IDLE:
             return
-        path, self._to_open = self._to_open, None
+        paths, self._to_open = self._to_open, ()
         catalog = self._sessions.catalog
-        added = catalog.add(read_lesson(path))
+        first, *_ = [self._listed(path) for path in paths]
         listed = replace(self.selection.offer(catalog.cards(), catalog.courses()), search="")
-        self.selection = listed.choose(added)
+        self.selection = listed.choose(first)
         self._shown = None  # a lesson of that name may have been shown
+
+    def _listed(self, path: Path) -> LessonCard:
+        """The card of the lesson in that file, which is one of the user's own from now on unless it ships."""
+        catalog = self._sessions.catalog
+        shipped = {card.name: card for card in catalog.cards() if path.is_relative_to(lessons_dir())}
+        return shipped[path.stem] if path.stem in shipped else catalog.add(read_any(path))
 
     def close(self) -> None:
         """End the reader; what it reads is dropped."""
@@ -118,7 +150,7 @@ class Chooser:
         request = self.selection.request()
         if self._sessions.practice.stage is not Stage.IDLE:
             self._shown = None
-        elif request is not None:
+        elif request is not None or self.selection.free:
             self._sessions.preview(request)
 
     def begin(self, bar: int | None = None) -> None:

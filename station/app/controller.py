@@ -9,9 +9,12 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import replace
+from datetime import date
+from pathlib import Path
 from typing import assert_never
 
-from station.app.actions.action import Action, Notify, Show
+from station.app.actions.action import Action, DeskAction, Notify, Show
+from station.app.actions.editor_actions import CloseEditor, EditorAction
 from station.app.actions.equipment_actions import (
     CalibrationAction,
     CancelMeasuring,
@@ -22,10 +25,21 @@ from station.app.actions.equipment_actions import (
     Measure,
     StickAction,
 )
-from station.app.actions.file_actions import FileAction, ImportAction
+from station.app.actions.exam_actions import ExamAction, LeaveExam, ReadyForExam
+from station.app.actions.file_actions import FileAction, Import, ImportAction
 from station.app.actions.phase_actions import PhaseAction
 from station.app.actions.player_actions import PlayerAction
-from station.app.actions.practice_actions import Begin, ChoiceAction, Drill, Leave, Pause, PracticeAction, StrikeKey
+from station.app.actions.practice_actions import (
+    Begin,
+    ChoiceAction,
+    ChooseBars,
+    Drill,
+    EndSession,
+    Leave,
+    Pause,
+    PracticeAction,
+    StrikeKey,
+)
 from station.app.actions.settings_actions import (
     Embody,
     FinishFirstStart,
@@ -37,17 +51,23 @@ from station.app.actions.settings_actions import (
     SettingsAction,
     SetView,
 )
+from station.app.actions.song_actions import BringSound, SaveSong, SongAction
 from station.app.actions.style_actions import StyleAction
+from station.app.actions.teacher_actions import AssignedAction, SendReturn, TeacherAction
+from station.app.actions.today_actions import StartBlock, TodayAction
 from station.app.child_programs import ChildPrograms
 from station.app.chooser import Chooser
+from station.app.editor.draft_files import DraftFiles
+from station.app.editor.lesson_editor import LessonEditor
 from station.app.engine_client import EngineClient
 from station.app.equipment.calibration import Calibration, CalibrationView
 from station.app.equipment.mapping_editor import MappingEditor
 from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_editor import SticksEditor
 from station.app.equipment.sticks_view import SticksView
+from station.app.exam_page import ExamPage, ExamSurroundings, ExamView
 from station.app.export import Exporter
-from station.app.importer import Importer, told
+from station.app.importer import Importer, lessons_of, told
 from station.app.phase_page import PhasePage, PhaseView
 from station.app.room_state import Stage
 from station.app.sessions.pad_control import PadControl
@@ -56,12 +76,18 @@ from station.app.settings.first_start import answered, student_level
 from station.app.settings.preferences import Preferences
 from station.app.settings.settings_store import SettingsStore
 from station.app.settings.view_settings import ViewSettings, view_settings_of, with_view_settings
+from station.app.songs.song_page import Ear, SongPage
 from station.app.style_editor import StyleEditor
+from station.app.teacher_desk.assigned_page import AssignedPage, AssignedView
+from station.app.teacher_desk.teacher_page import TeacherPage, TeacherView
 from station.app.toasts import Toasts
+from station.app.today_page import TodayPage, TodayView
 from station.app.window_state import State
 from station.core.errors import DeviceError, StationError
 from station.core.events import DeviceLost
 from station.core.measured_latency import StoredCalibration, load_calibration
+from station.drills.songs.song_file import is_song
+from station.drills.songs.song_folder import SOUND_ENDINGS
 from station.engine.messages import EngineEvent
 from station.practice.records.recovery import offer
 from station.practice.session.device_latency import latency_of
@@ -84,7 +110,11 @@ class Controller:
         self._view_settings = view_settings_of(store.now)
         self._engine = EngineClient(processes.engine, store.now.rate_hz)
         self._style = StyleEditor(store, notify)
-        self.sessions = SessionControl(self._engine, store, launch, self._style.demonstrator, notify)
+        self.sessions = SessionControl(
+            self._engine, store, launch, self._style.demonstrator, notify, ThreadPoolExecutor(1, "drummer")
+        )
+        self._drafts = DraftFiles(self.sessions.catalog, store, notify, ThreadPoolExecutor(1, "draft reader"))
+        self.editor = LessonEditor(self._drafts, self.sessions, notify)
         self.mapping = MappingEditor(self._engine.forward)
         self.calibration = Calibration(self._rest, self._engine.wake, processes.measure)
         self.sticks = SticksEditor(self._engine.forward, store, self._start_anew)
@@ -96,7 +126,21 @@ class Controller:
         self.phase = PhasePage(
             self.sessions.listen_to, self.sessions.is_listening_to, self.sessions.quiet, ThreadPoolExecutor(1, "motion")
         )
+        sessions = self.sessions
+        ear = Ear(sessions.listen_to, sessions.is_listening_to, sessions.quiet, sessions.heard_ns)
+        self.song = SongPage(store, ear, lambda: self._engine.rate_hz, processes.work)
         self._chooser = Chooser(self.sessions, store, launch, ThreadPoolExecutor(1, "catalog"))
+        self.today = TodayPage(store, notify, ThreadPoolExecutor(1, "book"))
+        around = ExamSurroundings(lambda: self._chooser.lesson_name, self._make_ready, self._chooser.show_anew)
+        self.exam = ExamPage(store, self.sessions, around)
+        self.teacher = TeacherPage(
+            store,
+            self.sessions.look_at,
+            self.sessions.catalog.lesson,
+            processes.work,
+            ThreadPoolExecutor(1, "returns"),
+        )
+        self.assigned = AssignedPage(store, ThreadPoolExecutor(1, "assignments"))
         self._shown = Show()
         self._now_ns = 0
         self._view: State | None = None
@@ -107,15 +151,25 @@ class Controller:
         """Take in what has happened until `now_ns` and move on; returns whether the engine has said anything."""
         self._view, self._now_ns = None, now_ns
         self._tried(self.calibration.advance)
-        self._tried(self._chooser.update)
+        if not self.editor.is_open and not self.exam.looks:
+            self._tried(self._chooser.update)
         events = self._heard()
         asked = [action for event in events if (action := self._handle(event)) is not None]
         self.mapping.advance(now_ns)
         self._tried(lambda: self.sticks.advance(now_ns))
-        self.sessions.advance(now_ns)
+        self._tried(lambda: self.sessions.advance(now_ns))
+        self._tried(lambda: self.exam.advance(now_ns))
+        self._tried(lambda: self.editor.advance(now_ns))
         self._tried(lambda: self.phase.advance(now_ns))
+        self._tried(lambda: self.song.advance(now_ns))
         self._tried(lambda: self._toasts.notify(self.export.news() or self.export.written() or ""))
         self._tried(self._import)
+        if self._shown.today:
+            self._tried(lambda: self.today.advance(date.today(), self.sessions.practice.stage))
+        if self._shown.teacher:
+            self._tried(self.teacher.advance)
+        if self._shown.assigned:
+            self._tried(lambda: self.assigned.advance(date.today(), self.sessions.practice.stage))
         for action in asked:
             self.dispatch(action)
         if not self.sessions.practice.is_playing:
@@ -128,7 +182,10 @@ class Controller:
         kept = self.imports.advance()
         if kept is not None:
             self._toasts.notify(told(kept))
-            self._chooser.open(kept.path)
+            self.teacher.look_again()
+            self.assigned.look_again()
+            if lessons := lessons_of(kept):
+                self._chooser.open(*lessons)
 
     def _heard(self) -> list[EngineEvent]:
         try:
@@ -136,14 +193,21 @@ class Controller:
         except DeviceError as fault:
             self._toasts.notify(str(fault))
             self.sessions.died()
+            self.editor.died()
             return []
 
     def _handle(self, event: EngineEvent) -> Begin | None:
         """Handle one event; a session that it asks for begins when all others are handled, anything else at once."""
         self.mapping.handle(event)
         self.sticks.handle(event)
+        self._tried(lambda: self.song.handle(event))
         self.sessions.handle(event, self._now_ns)
         if self.mapping.learns or self.sticks.learns:  # strokes teach, and ask for nothing
+            return None
+        if self.editor.is_open:  # they write, and ask for nothing
+            self._tried(lambda: self.editor.handle(event))
+            return None
+        if self.exam.is_on:  # whoever tries a piece, plays it or reads their marks asks for nothing
             return None
         asked = self._pads.handle(event, self.sessions.practice)
         if asked is None or isinstance(asked, Begin):
@@ -169,7 +233,7 @@ class Controller:
         sessions, shown = self.sessions, self._shown
         snapshot = sessions.snapshot(self._now_ns) if shown.picture else None
         return State(
-            room=sessions.room(),
+            room=replace(sessions.room(), exam=self.exam.is_on),
             selection=self._chooser.selection,
             player=sessions.player.view(),
             settings=self._store.now,
@@ -181,7 +245,7 @@ class Controller:
             mapping=self.mapping.view() if shown.devices else MappingView(),
             calibration=self.calibration.view() if shown.devices else _NO_CALIBRATION,
             sticks=self.sticks.view() if shown.sticks else SticksView(),
-            snapshot=snapshot,
+            snapshot=snapshot if snapshot is None else self.exam.named(snapshot),
             report=sessions.practice.last_result.report,
             curves=sessions.curves() if shown.curves else None,
             phase=self.phase.view() if shown.phase else PhaseView(),
@@ -190,6 +254,13 @@ class Controller:
             export=self.export.view(),
             played=sessions.played,
             imports=self.imports.view(),
+            editor=self.editor.view(),
+            drafts=self._drafts.left if shown.catalog and not self.editor.is_open else (),
+            today=self.today.view() if shown.today else TodayView(),
+            song=self.song.view(),
+            exam=self.exam.view() if shown.exam or self.exam.is_on else ExamView(),
+            teacher=self.teacher.view() if shown.teacher else TeacherView(),
+            assigned=self.assigned.view() if shown.assigned else AssignedView(),
             toast=self._toasts.text,
             is_lively=sessions.is_lively(self._now_ns) or (shown.sticks and self.sticks.is_lively),
         )
@@ -212,7 +283,9 @@ class Controller:
         if isinstance(action, PlayerAction):
             self.sessions.player.act(action)
         elif isinstance(action, ChoiceAction):
-            self._chooser.act(action)
+            self._choose(action)
+        elif isinstance(action, DeskAction):
+            self._at_desk(action)
         elif isinstance(action, PracticeAction):
             self._practise(action)
         elif isinstance(action, EquipmentAction):
@@ -221,11 +294,8 @@ class Controller:
             self._restyle(action)
         elif isinstance(action, SettingsAction):
             self._set(action)
-        elif isinstance(action, FileAction):
-            lesson, bars = self.sessions.player.lesson, self._chooser.bars
-            self._toasts.notify(self.export.act(action, lesson, bars, self._store.now, self._view_settings))
-        elif isinstance(action, ImportAction):
-            self._toasts.notify(self.imports.act(action))
+        elif isinstance(action, FileAction | ImportAction):
+            self._toasts.notify(self._transfer(action))
         elif isinstance(action, PhaseAction):
             self.phase.act(action)
         elif isinstance(action, Show):
@@ -234,6 +304,84 @@ class Controller:
             self._toasts.notify(action.line)
         else:
             assert_never(action)
+
+    def _at_desk(self, action: DeskAction) -> None:
+        if isinstance(action, EditorAction):
+            self._edit(action)
+        elif isinstance(action, TodayAction):
+            self._on_today(action)
+        elif isinstance(action, ExamAction):
+            self._sit(action)
+        elif isinstance(action, TeacherAction):
+            self.teacher.act(action)
+        elif isinstance(action, AssignedAction):
+            self._on_assigned(action)
+        else:
+            self._at_song(action)
+
+    def _choose(self, action: ChoiceAction) -> None:
+        if isinstance(action, ChooseBars) and self.editor.is_open:
+            self.editor.choose_played(action.bars)
+        else:
+            self._chooser.act(action)
+
+    def _transfer(self, action: FileAction | ImportAction) -> str:
+        """Bring music in or take it along; returns a line for the user."""
+        if isinstance(action, ImportAction):
+            return self._bring(action)
+        lesson, bars = self.sessions.player.lesson, self._chooser.bars
+        return self.export.act(action, lesson, bars, self._store.now, self._view_settings)
+
+    def _edit(self, action: EditorAction) -> None:
+        was_open = self.editor.is_open
+        if not was_open and self.sessions.practice.stage is not Stage.IDLE:
+            raise DeviceError("end the session first: the editor takes its place")
+        if not was_open:
+            self._leave_look()
+        self.editor.act(action)
+        if was_open and not self.editor.is_open:
+            self._turn_back()
+
+    def _turn_back(self) -> None:
+        """The editor is left: the lessons again, with what was saved."""
+        if self._drafts.kept is not None:
+            self._chooser.open(self._drafts.kept)
+            self._drafts.kept = None
+        self._chooser.show_anew()
+
+    def _on_today(self, action: TodayAction) -> None:
+        if not isinstance(action, StartBlock):
+            self.today.act(action)
+            return
+        item = self.today.block(action.place)
+        if item is not None:
+            self._chooser.take_block(item)
+            self._begin()
+
+    def _on_assigned(self, action: AssignedAction) -> None:
+        if isinstance(action, SendReturn):
+            self.assigned.send(action)
+        else:
+            self._chooser.take_up(action.lesson)
+
+    def _bring(self, action: ImportAction) -> str:
+        """Choose a song, make a sound a song's, a lesson of anything else; returns a line for the user."""
+        path = Path(action.source) if isinstance(action, Import) else Path()
+        if is_song(path):
+            self._chooser.open(path)
+            return ""
+        if path.suffix.lower() in SOUND_ENDINGS:
+            self.song.act(BringSound(str(path)))
+            return f"{path.name} is the sound of a song: choose its part on the page Song"
+        return self.imports.act(action)
+
+    def _at_song(self, action: SongAction) -> None:
+        if isinstance(action, SaveSong):
+            path = self.song.save(action.title)
+            self._chooser.open(path)
+            self._toasts.notify(f"kept in {path}: it is among your lessons")
+        else:
+            self.song.act(action)
 
     def _equip(self, action: EquipmentAction) -> None:
         if isinstance(action, MappingAction):
@@ -245,6 +393,10 @@ class Controller:
 
     def _practise(self, action: PracticeAction) -> None:
         match action:
+            case Begin() if self.exam.looks:
+                self.exam.act(ReadyForExam())
+            case Begin() | Drill() if self.exam.is_on:
+                raise DeviceError("an exam is one take: go back to the lessons to practise")
             case Begin():
                 self._begin()
             case Drill(bar):
@@ -261,10 +413,25 @@ class Controller:
                 self.sessions.act(action)
 
     def _begin(self, bar: int | None = None) -> None:
+        self._make_ready()
+        self._leave_look()
+        self._chooser.begin(bar)
+
+    def _make_ready(self) -> None:
+        """Let the kit be heard for what is played alone; raises `DeviceError` while it is measured."""
         self.calibration.refuse()
         self.sticks.give_up()
         self.preferences.learn(on=False)  # what is played from now on is no gesture to be learnt
-        self._chooser.begin(bar)
+
+    def _sit(self, action: ExamAction) -> None:
+        if self.editor.is_open:
+            raise DeviceError("close the editor first: an exam takes its place")
+        self.exam.act(action)
+
+    def _leave_look(self) -> None:
+        """Whoever begins something else takes no exam."""
+        if self.exam.looks:
+            self.exam.act(LeaveExam())
 
     def _leave(self) -> None:
         stage = self.sessions.practice.stage
@@ -275,7 +442,12 @@ class Controller:
             self.sessions.practice.end()
         elif stage is Stage.RESULT:
             self.sessions.dismiss()
+        elif self.exam.looks:
+            self.exam.act(LeaveExam())
+        elif self.editor.is_open and not self.sessions.player.player.playing:
+            self._edit(CloseEditor())
         else:
+            self.sessions.act(EndSession())  # one that waits for its track
             self.sessions.player.halt()
 
     def _show(self, shown: Show) -> None:
@@ -285,7 +457,7 @@ class Controller:
             self.sticks.give_up()
         if not shown.practice:
             self.preferences.learn(on=False)
-        if shown.catalog:
+        if shown.catalog or shown.today or shown.teacher or shown.assigned:
             self._chooser.offer_all()
         if shown.devices and not before.devices:
             self.calibration.look_up()
@@ -376,6 +548,11 @@ class Controller:
         self.export.close()
         self.imports.close()
         self.phase.close()
+        self.editor.close()
+        self.today.close()
+        self.teacher.close()
+        self.assigned.close()
+        self.song.close()
         self._chooser.close()
         if self.sessions.practice.is_playing:
             self.sessions.practice.end()

@@ -24,9 +24,10 @@ from station.app.worker_process import StartWork, Work, WorkerProcess
 from station.core.disk.files import growing, write_whole
 from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
+from station.core.toml.toml_edits import with_value
 from station.drills.lesson import BarCue, Lesson
 from station.drills.reading.lesson_file import parse_lesson
-from station.drills.writing.lesson_text import show, with_value
+from station.drills.writing.lesson_text import plain, show
 from station.drills.writing.lesson_writer import write_lesson
 from station.practice.records.session_files import folder_name
 
@@ -260,7 +261,7 @@ def lesson_file_of(lesson: Lesson, bars: Bars) -> str:
     """The text of a lesson that repeats these bars: its own, or one written anew where it came from no file."""
     if not lesson.text:
         return write_lesson(replace(lesson, loop=bars))
-    return show(with_value(lesson.text, "loop", [bar + 1 for bar in bars]))
+    return show(with_value(plain(lesson.text), ("loop",), [bar + 1 for bar in bars]))
 
 
 def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:

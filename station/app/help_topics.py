@@ -16,6 +16,8 @@ class Topic(Enum):
     PLAYING = "Playing"
     QUESTION = "The question before the result"
     RESULT = "The result"
+    EDITOR = "The editor"
+    EXAM = "An exam"
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,16 +92,43 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("Once more", "or Enter, or two kicks; Esc goes back to the lessons"),
             ),
         ),
+        Topic.EXAM: Help(
+            "One take, marked by the rubric beside it: nothing is demonstrated, and nothing is said until it is over.",
+            (
+                ("The time", "runs down while you look; try on the kit what you like"),
+                ("I am ready", "or Enter: a count-in, then the piece once, from beginning to end"),
+                ("Leave", "or Esc: nothing is played, but the piece counts as one that you have met"),
+                ("The notes", "stay as they were looked at; a prepared lesson has its score under the picture"),
+                ("Stop", "ends the take: it is marked over the whole piece"),
+                ("The marks", "stand beside what was asked; the result behind them is that of any session"),
+            ),
+        ),
+        Topic.EDITOR: Help(
+            "Write a lesson: the drummer plays what stands there while you write. Every change is kept as a draft.",
+            (
+                ("The grid", "a click writes a stroke or takes it away, a drag paints; right click: all letters"),
+                ("The bars' numbers", "a click goes there, a drag selects bars and repeats them, a double click none"),
+                ("A line's name", "a click goes into the line; a right click takes it away"),
+                ("Keys", "letters write at the cursor and go on; all keys are on the other leaf"),
+                ("Record, Kit", "play it in over the click, or let each stroke write at the cursor"),
+                ("How fine", "what a click and the arrows go by; bars are cut finer where they must be"),
+                ("Text", "the lesson as it is kept; what you change there is in the grid at once"),
+                ("Save", "or Ctrl+S: among your own lessons; a lesson that ships is saved as a copy"),
+                ("A line in orange", "what is wrong in the text, and where; the drummer plays the last good music"),
+            ),
+        ),
     }
 )  # fmt: skip
 
 
-def topic_of(room: RoomState, free: bool) -> Topic:
-    """What the page is about; `free` where Just play is chosen or runs."""
-    if room.question:
-        return Topic.QUESTION
+def topic_of(room: RoomState, free: bool, edits: bool = False) -> Topic:
+    """What the page is about; `free` where Just play is chosen or runs, `edits` where a lesson is written."""
+    if room.exam:
+        return Topic.EXAM
     if room.stage is Stage.RESULT:
-        return Topic.RESULT
+        return Topic.QUESTION if room.question else Topic.RESULT
+    if edits:
+        return Topic.EDITOR
     if free:
         return Topic.JUST_PLAY
     return Topic.PLAYING if room.stage is Stage.PLAYING else Topic.LESSONS

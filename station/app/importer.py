@@ -5,14 +5,19 @@ from pathlib import Path
 from typing import assert_never
 
 from station.app.actions.file_actions import CancelImport, Import, ImportAction
-from station.app.music_files.lesson_import import KeptLesson, keep_import
+from station.app.music_files.lesson_import import KeptLesson
 from station.app.settings.settings_store import SettingsStore
+from station.app.teacher_desk.incoming import KeptParcel, keep_incoming
 from station.app.worker_process import StartWork, Work, WorkerProcess
 from station.core.errors import StationError
 from station.music.formats.groovescribe.groove_formats import is_groove_url
 
 _MOST_WAITING = 50
 """So many files at once (our choice: an album or two; a whole library is the command line's affair)."""
+
+
+Kept = KeptLesson | KeptParcel
+"""What was kept: a lesson, or what teacher and student send each other."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +29,7 @@ class ImportView:
 
     source: str = ""
     waiting: int = 0
-    kept: KeptLesson | None = None
+    kept: Kept | None = None
     fault: str = ""
 
 
@@ -34,8 +39,8 @@ class Importer:
     def __init__(self, store: SettingsStore, start: StartWork = WorkerProcess) -> None:
         self._store, self._start = store, start
         self._sources: list[str] = []
-        self._work: Work[KeptLesson] | None = None
-        self._kept: KeptLesson | None = None
+        self._work: Work[Kept] | None = None
+        self._kept: Kept | None = None
         self._fault = ""
 
     def view(self) -> ImportView:
@@ -57,8 +62,8 @@ class Importer:
             case _:
                 assert_never(action)
 
-    def advance(self) -> KeptLesson | None:
-        """Move on; returns a lesson that was kept since the last call. Raises `StationError` for one that was not."""
+    def advance(self) -> Kept | None:
+        """Move on; returns what was kept since the last call. Raises `StationError` for what was not."""
         if self._work is None and self._sources:
             self._begin()
         if self._work is None:
@@ -76,7 +81,7 @@ class Importer:
 
     def _begin(self) -> None:
         try:
-            self._work = self._start(keep_import, self._sources[0], self._store.now.own_lessons_dir)
+            self._work = self._start(keep_incoming, self._sources[0], self._store.now)
         except StationError:
             self._sources.clear()
             raise
@@ -93,12 +98,19 @@ class Importer:
         self._sources.clear()
 
 
+def lessons_of(kept: Kept) -> tuple[Path, ...]:
+    """The lessons that are listed after it was kept, the first of which is shown."""
+    return kept.lessons if isinstance(kept, KeptParcel) else (kept.path,)
+
+
 def _short(source: str) -> str:
     return "the link" if is_groove_url(source) else Path(source).name
 
 
-def told(kept: KeptLesson) -> str:
-    """A line about a lesson that was kept."""
+def told(kept: Kept) -> str:
+    """A line about what was kept."""
+    if isinstance(kept, KeptParcel):
+        return kept.told
     bars = f"{kept.bars} bar{'' if kept.bars == 1 else 's'}"
     lost = f", {len(kept.lost)} lost: see Import" if kept.lost else ""
     return f"{kept.title}: {bars}{lost}" if kept.is_new else f"{kept.title} is among your lessons already"

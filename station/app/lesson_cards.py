@@ -12,7 +12,14 @@ def request_of(plan: Plan) -> SessionRequest:
     demonstrations = sum(segment.phase is Phase.DEMONSTRATION for segment in plan.segments)
     bars = None if plan.bars == plan.lesson.loop else (first + 1, last + 1)
     return SessionRequest(
-        plan.lesson.name, plan.tempo_bpm, plan.passes, bars, demonstrations, click=plan.click is not None
+        plan.lesson.name,
+        plan.tempo_bpm,
+        plan.passes,
+        bars,
+        demonstrations,
+        click=plan.click is not None,
+        gap=None if plan.click is None else plan.click.gap,
+        rise=plan.rise,
     )
 
 
@@ -34,4 +41,5 @@ def card(row: LessonRow) -> LessonCard:
         levels=row.levels,
         kind=row.folder,
         prerequisites=row.prerequisites,
+        is_song=row.is_song,
     )

@@ -9,6 +9,8 @@ import numpy as np
 
 from station.drills.level_range import ANY_LEVEL, LevelRange
 from station.practice.records.previous_session import NONE_KEPT, PreviousSession
+from station.practice.session.cues.quiet_bars import QuietBars
+from station.practice.session.rising_tempo import Rise
 from station.render.report.result_facts import ResultFacts
 from station.scenes.heat_map import HeatMap
 from station.scenes.hit_table import DOT_DTYPE, EveryHit
@@ -21,7 +23,8 @@ class LessonCard:
 
     `level` 1–5 says how hard it is, `levels` how strictly it may be judged.
     `tempo_bpm` counts quarter notes, `beat_quarters` is how many make the beat that a teacher counts. `kind` is the
-    folder that it ships in, empty for the user's own; `prerequisites` name the lessons that come before.
+    folder that it ships in, empty for the user's own; `prerequisites` name the lessons that come before. Of
+    a song (`is_song`) the tempo stays, for its sound has one.
     """
 
     name: str
@@ -39,6 +42,7 @@ class LessonCard:
     levels: LevelRange = ANY_LEVEL
     kind: str = ""
     prerequisites: tuple[str, ...] = ()
+    is_song: bool = False
 
     @property
     def beats_a_minute(self) -> float:
@@ -51,7 +55,8 @@ class SessionRequest:
     """What the user chose: a lesson by name, quarter notes a minute, passes, bars from 1 (None: the lesson's).
 
     With `adapt` the tempo follows the student from pass to pass, and `tempo_bpm` says nothing. Without
-    `click` the score follows them within a pass; the two exclude each other.
+    `click` the score follows them within a pass; the two exclude each other. `gap` is where the click falls silent,
+    None as the settings have it; with `rise` the tempo rises, which neither of the two allows.
     """
 
     lesson: str
@@ -61,6 +66,8 @@ class SessionRequest:
     demonstrations: int | None = None
     adapt: bool = False
     click: bool = True
+    gap: QuietBars | None = None
+    rise: Rise | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +104,8 @@ class RoomState:
     `take` is the capture of the last free take, None where there is none to be heard;
     `listening` while something sounds that was played or is written;
     `paused` while a session stands still, `can_pause` where it may. `clock` is where a session is, None outside;
-    `free` where no lesson is chosen, to just play.
+    `free` where no lesson is chosen, to just play; `exam` while a piece is looked at or played for marks, or its result
+    is shown. `student` sent the result that is shown, empty for one's own.
     """
 
     stage: Stage = Stage.IDLE
@@ -113,6 +121,8 @@ class RoomState:
     free: bool = False
     can_pause: bool = False
     paused: bool = False
+    exam: bool = False
+    student: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,7 +130,8 @@ class ShownResult:
     """The result of the last session: the page's `facts`, the JSON `document`, the `folder` of both.
 
     `heat` says how right each bar was, `hits` has every stroke, `before` is an earlier session of the lesson, or says
-    why there is none to be compared with, `wrong_pads` says what was struck for what.
+    why there is none to be compared with, `wrong_pads` says what was struck for what. `student` is who played, empty
+    for whoever sits here.
     """
 
     facts: ResultFacts
@@ -130,3 +141,4 @@ class ShownResult:
     hits: EveryHit = field(default_factory=lambda: EveryHit(np.empty(0, DOT_DTYPE)))
     before: PreviousSession | str = NONE_KEPT
     wrong_pads: tuple[WrongPad, ...] = ()
+    student: str = ""

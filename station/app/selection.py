@@ -7,8 +7,11 @@ from types import MappingProxyType
 
 from station.app.room_state import FreeRequest, LessonCard, SessionRequest
 from station.drills.course import Course
+from station.drills.daily.daily_items import DailyItem
 from station.practice.records.lesson_order import first_words, is_finished, is_mastered
 from station.practice.records.lesson_progress import LessonProgress
+from station.practice.session.cues.quiet_bars import QuietBars, gap_of
+from station.practice.session.rising_tempo import Rise, rise_of
 from station.scoring.matching.hit_windows import Level
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 30, 260
@@ -34,7 +37,8 @@ class Selection:
 
     `course` is the one whose lessons are listed, None for all; `progress` how far the student is and `levels` how
     strictly they are judged where they chose it or came to it, by the names of lessons; `bars` (first, last, from 1)
-    are to be practised, None for the lesson's own; `first` what the window was opened on.
+    are to be practised, None for the lesson's own; `first` what the window was opened on. With `gap` the click falls
+    silent in some bars, with `rise` the tempo rises; both hold for the lesson that is chosen.
     """
 
     lessons: tuple[LessonCard, ...] = ()
@@ -51,6 +55,8 @@ class Selection:
     bars: tuple[int, int] | None = None
     adapt: bool = True
     click: bool = True
+    gap: QuietBars | None = None
+    rise: Rise | None = None
 
     @classmethod
     def of(cls, lessons: Sequence[LessonCard], first: SessionRequest | None = None) -> "Selection":
@@ -62,7 +68,8 @@ class Selection:
         selection = selection.choose(named[0] if named else lessons[0])
         if first is None or not named:
             return selection
-        return replace(selection, tempo_bpm=first.tempo_bpm, loops=first.loops, adapt=first.adapt, bars=first.bars)
+        asked = replace(selection, tempo_bpm=first.tempo_bpm, loops=first.loops, adapt=first.adapt)
+        return replace(asked, bars=first.bars, gap=first.gap, rise=first.rise)
 
     def offer(self, lessons: Sequence[LessonCard], courses: Sequence[Course] = (), course: str = "") -> "Selection":
         """Choose among these from now on; the lesson that is chosen stays, and `course` is listed if there is one."""
@@ -98,12 +105,32 @@ class Selection:
     def choose(self, card: LessonCard) -> "Selection":
         """Take a lesson at the tempo, with the passes and the bars that its author wants."""
         loops = min(card.passes, MAX_LOOPS)
-        return replace(self, free=False, card=card, tempo_bpm=card.tempo_bpm, loops=loops, bars=None)
+        chosen = replace(self, free=False, card=card, tempo_bpm=card.tempo_bpm, loops=loops)
+        return replace(chosen, bars=None, gap=None, rise=None)
 
     @property
     def level(self) -> Level | None:
         """How strictly the chosen lesson is judged, None where none is chosen."""
         return None if self.card is None else self.card.levels.level(reached=self.levels.get(self.card.name))
+
+    def for_block(self, item: DailyItem) -> "Selection":
+        """A block of the day's plan; the same where its lesson is not offered."""
+        if not item.lesson:
+            return replace(self, free=True)
+        named = [card for card in self.lessons if card.name == item.lesson]
+        if not named:
+            return self
+        chosen = replace(self.choose(named[0]), search="")
+        return replace(
+            chosen,
+            tempo_bpm=item.beats_a_minute * chosen.beat_quarters,
+            loops=min(item.passes, MAX_LOOPS),
+            bars=(item.bars[0] + 1, item.bars[1] + 1),
+            adapt=item.follows,
+            click=True,
+            gap=gap_of(item.gap) if item.gap and not item.follows else None,
+            rise=rise_of(item.rise) if item.rise else None,
+        )
 
     def at_beats(self, beats_a_minute: float) -> "Selection":
         """At a tempo in the beat that is counted; one that the slider does not reach is the nearest."""
@@ -156,9 +183,17 @@ class Selection:
         """What to start; None where no lesson is chosen."""
         if self.card is None or self.free:
             return None
-        adapt = self.adapt and self.click
+        adapt = self.adapt and self.click and not self.card.is_song
+        rise = self.rise if self.click and not adapt else None
         request = SessionRequest(
-            self.card.name, float(self.tempo_bpm), self.loops, self.bars, adapt=adapt, click=self.click
+            self.card.name,
+            float(self.tempo_bpm),
+            self.loops,
+            self.bars,
+            adapt=adapt,
+            click=self.click,
+            gap=self.gap,
+            rise=rise,
         )
         if self.first is not None and self.first.lesson == self.card.name:
             return replace(request, demonstrations=self.first.demonstrations)

@@ -15,6 +15,7 @@ from station.drills.lesson import Lesson
 from station.drills.library import course_prerequisites, lesson_prerequisites, lessons_for
 from station.drills.prerequisites import order_faults
 from station.drills.reading import lesson_fields, lesson_file
+from station.drills.songs import song_file
 from station.motion.kinematics import figure
 from station.motion.kit import kit
 from station.motion.style import style_file
@@ -22,7 +23,7 @@ from station.sound.samples import kit_folder
 from station.sync.air import air_file
 from station.sync.phase import model_file
 
-_ENDING = "*.toml"
+_NAMES = ("*.toml", f"*{song_file.SONG_ENDING}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +45,7 @@ COURSE = TomlKind("course", course.FIELDS, _course)
 KINDS = (
     LESSON,
     COURSE,
+    TomlKind("song", song_file.FIELDS, song_file.song_reader, (f"*{song_file.SONG_ENDING}",)),
     TomlKind("device kit", device_file.KEYS, lambda path: device_file.kit_reader(path.stem), ("kits/*.toml",)),
     TomlKind("drummer's kit", kit.KEYS, lambda path: kit.kit_reader(path.stem)),
     TomlKind("figure", figure.FIELDS, lambda _: figure.FIGURE),
@@ -76,7 +78,7 @@ def check_files(paths: Sequence[str]) -> tuple[list[Fault], int]:
     read: list[TomlFile] = []
     for given in paths:
         path = Path(given)
-        files = sorted(path.rglob(_ENDING)) if path.is_dir() else [path]
+        files = sorted(file for name in _NAMES for file in path.rglob(name)) if path.is_dir() else [path]
         if not files:
             faults.append(Fault(given, 0, 0, "no lesson in this folder; expected .toml files"))
         read += map(read_file, files)

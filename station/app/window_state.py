@@ -3,9 +3,12 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from station.app.editor.draft_journal import LeftDraft
+from station.app.editor.editor_view import EditorView
 from station.app.equipment.calibration import CalibrationView
 from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_view import SticksView
+from station.app.exam_page import ExamView
 from station.app.export import ExportView
 from station.app.importer import ImportView
 from station.app.phase_page import PhaseView
@@ -14,7 +17,11 @@ from station.app.selection import Selection
 from station.app.sessions.demo_player import PlayerView
 from station.app.settings.preferences import PracticePreferences
 from station.app.settings.view_settings import ViewSettings
+from station.app.songs.song_page import SongView
 from station.app.style_editor import StyleView
+from station.app.teacher_desk.assigned_page import AssignedView
+from station.app.teacher_desk.teacher_page import TeacherView
+from station.app.today_page import TodayView
 from station.core.settings import Settings
 from station.motion.sticking.hand_notes import Hands
 from station.music.score import Score
@@ -31,8 +38,10 @@ class State:
     last, once the question before it was answered. `score` is the lesson that is shown, at its own tempo, `hands` who
     leads. `phase` is the motion whose phase sounds, empty while its panel is closed. `export_bars` (from 0) are what
     files are made of, `export` what was made, `played` the capture of the last take or session, `imports` what comes
-    in. `toast` is shown in passing; `is_lively` whether something moves or
-    may at any moment, so that no frame is to be spared.
+    in, `editor` the lesson that is edited, None for none, `drafts` those that were left unsaved, `today` the day's
+    plan and the lesson book, `song` the one that is pinned to its sound, `exam` how far an exam is, `teacher` what
+    students sent and `assigned` what a teacher gave, each empty while nobody looks at it. `toast` is shown
+    in passing; `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
     """
 
     room: RoomState
@@ -56,6 +65,13 @@ class State:
     export: ExportView = field(default_factory=ExportView)
     played: Path | None = None
     imports: ImportView = field(default_factory=ImportView)
+    editor: EditorView | None = None
+    drafts: tuple[LeftDraft, ...] = ()
+    today: TodayView = field(default_factory=TodayView)
+    song: SongView = field(default_factory=SongView)
+    exam: ExamView = field(default_factory=ExamView)
+    teacher: TeacherView = field(default_factory=TeacherView)
+    assigned: AssignedView = field(default_factory=AssignedView)
     toast: str = ""
     is_lively: bool = True
 

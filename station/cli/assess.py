@@ -19,7 +19,7 @@ from station.cli.options.option_fields import Command, argument, choice, flag, o
 from station.core.errors import BadInput
 from station.core.settings import load_settings
 from station.core.units import NS_PER_MS
-from station.practice.session.cues.click_pattern import Gap
+from station.practice.session.cues.quiet_bars import QuietBars
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, LEVELS, Windows
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ class AssessOptions:
     score: str = argument("SCORE", "a lesson or a MIDI file", str)
     performance: str = argument("PERFORMANCE", "a MIDI file or a capture", str)
     level: Windows | None = choice(LEVELS, f"how strictly (the lesson's, else {DEFAULT_LEVEL.name})", None)
-    gap: Gap | None = option("ON/OFF", "the click it was played to fell silent in turn", bars_of_gap, None)
+    gap: QuietBars | None = option("ON/OFF", "the click it was played to fell silent in turn", bars_of_gap, None)
     pairs: Path | None = option("FILE.csv", "write which hit answers which note", Path, None)
     json: bool = flag("print one JSON document")
 
@@ -93,11 +93,12 @@ def run(options: AssessOptions) -> int:
 def _session(options: AssessOptions) -> SessionResult | None:
     """The session of this lesson that the capture holds; None of anything else."""
     from station.app.music_files.find_own_lesson import find_any_lesson
+    from station.devices.capture.capture import read_capture
     from station.practice.records.recovery import session_of
 
     if not is_lesson(options.score) or not is_capture(options.performance):
         return None
-    return session_of(Path(options.performance), find_any_lesson(options.score))
+    return session_of(read_capture(Path(options.performance)), find_any_lesson(options.score))
 
 
 COMMAND = Command(AssessOptions, run)

@@ -6,8 +6,10 @@ standard output and nothing else.
 
 import importlib
 import io
+import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from station.cli.console import say, written_output
@@ -16,11 +18,16 @@ from station.core.errors import DeviceError, StationError
 
 _COMMANDS = {
     "practice": "practise a lesson",
+    "today": "show the plan of the day",
+    "book": "show the lesson book: planned, practised, and what returns",
+    "exam": "one take of a piece, prepared or unseen, marked by a rubric",
     "assess": "align and score a recorded performance against a score",
     "animate": "draw the drummer who plays a score",
     "sheet": "write a score as a sheet to print",
     "limbs": "say which limb plays every note of a score",
     "lesson": "list, show, check, write, import and export lessons",
+    "song": "make a song of a drum part and a band's sound, time it by points, check it",
+    "assignment": "give, take, return and answer what is to be practised",
     "devices": "list, monitor, teach, calibrate, record and replay kits and sound outputs",
     "sync": "fit a periodic model to a motion, and tell the phase of another",
     "doctor": "say what works on this computer, and what to do about what does not",
@@ -54,13 +61,18 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(words: list[str]) -> int:
     top = Parser(prog="station", description="A practice room for electronic drum kits; alone it opens the window.")
     top.add_argument("--version", action="version", version=_version())
-    name = chosen(top, "COMMAND", _COMMANDS, words)
+    name = None if _names_file(words) else chosen(top, "COMMAND", _COMMANDS, words)
     command: Command[Any] | Verbs = importlib.import_module(f"station.cli.{name or _WINDOW}").COMMAND
     return command.main(
         f"station {name or ''}".strip(),
         sentence(_COMMANDS.get(name or "", "open the practice room")),
         words[1:] if name else words,
     )
+
+
+def _names_file(words: list[str]) -> bool:
+    """Whether the first word is a file to open in the window, and no command."""
+    return bool(words) and words[0] not in _COMMANDS and Path(words[0]).suffix != "" and os.path.isfile(words[0])  # noqa: PTH113 - no error for long names
 
 
 def _version() -> str:

@@ -4,7 +4,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from datetime import date
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from station.app.equipment.diagnostics import has_screen
 from station.app.sessions.session_checks import check_settings
@@ -19,6 +19,7 @@ from station.cli.options.option_fields import (
     choice,
     flag,
     group,
+    number,
     option,
     optional_argument,
     switch,
@@ -28,8 +29,10 @@ from station.cli.options.option_fields import (
 from station.cli.options.sound_options import SoundOptions, TrackOptions
 from station.cli.options.watch_options import WatchOptions
 from station.core.errors import BadInput, StationError
+from station.core.pieces import Piece
 from station.core.settings import Settings, setting_source, with_said
 from station.core.units import PPQ
+from station.drills.grid.tab_symbols import LINE_PIECES
 from station.drills.lesson import Lesson
 from station.practice.headless.guarded_output import GuardedOutput
 from station.practice.records.lesson_order import first_words, followed_course, shipped_title
@@ -39,11 +42,14 @@ from station.practice.records.save_session import SessionFolder, SessionRecord, 
 from station.practice.records.session_files import TEXT_NAME
 from station.practice.records.session_report import practice_document, report_text, with_truth
 from station.practice.records.student_progress import student_progress
-from station.practice.session.backing_track import BackingRequest
+from station.practice.records.teachers_wishes import wishes_of
+from station.practice.session.backing_track import BackingRequest, song_request
 from station.practice.session.cues.click_options import parse_click
-from station.practice.session.cues.click_pattern import Gap
+from station.practice.session.cues.quiet_bars import QuietBars, drawn
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
+from station.practice.session.rising_tempo import EXPECTED as EXPECTED_RISE
+from station.practice.session.rising_tempo import Rise, rise_of
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 from station.scoring.report.assessment_document import Json
 
@@ -60,12 +66,30 @@ def _tempo(text: str) -> float | Literal["tap"]:
         raise unread(f"a number, or {TAP} to tap it", text) from None
 
 
+def _percent(text: str) -> float:
+    return number(text.removesuffix("%").strip())
+
+
 def _bars(text: str) -> tuple[int, int]:
     first, dash, last = text.partition("-")
     try:
         return int(first), int(last if dash else first)
     except ValueError:
         raise unread("two bars such as 1-4", text) from None
+
+
+def _pieces(text: str) -> frozenset[Piece]:
+    words = [part.strip() for part in text.split(",")]
+    if not all(part in LINE_PIECES for part in words):
+        raise unread("pieces such as kick,snare,hihat", text)
+    return frozenset(LINE_PIECES[part] for part in words)
+
+
+def _rise(text: str) -> Rise:
+    try:
+        return rise_of(text)
+    except BadInput:
+        raise unread(EXPECTED_RISE, text) from None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,13 +103,30 @@ class PracticeOptions:
         _tempo,
         None,
     )
+    speed: float | None = option("PERCENT", "of the lesson's own tempo, such as 60%", _percent, None)
     adapt: bool | None = switch(
         "let tempo, bars and feedback follow the student from pass to pass (on in the window, unless --tempo)"
     )
+    rise: Rise | None = option(
+        "BPM/BARS[:TOP]",
+        "so many bpm more every so many bars such as 5/8, up to the lesson's target or TOP",
+        _rise,
+        None,
+    )
     loops: int | None = option("N", "how often the loop is played (the lesson's)", whole_number, None)
     bars: tuple[int, int] | None = option("A-B", "bars to practise, from 1 (the lesson's loop)", _bars, None)
-    gap: Gap | None = option("ON/OFF", "bars with a click and bars without, in turn", bars_of_gap, None, rivals="click")
+    gap: QuietBars | None = option(
+        "ON/OFF|random[:SHARE]",
+        "bars with a click and bars without, in turn such as 4/1, or at random such as random:30%",
+        bars_of_gap,
+        None,
+        rivals="click",
+    )
+    fold: frozenset[Piece] | None = option(
+        "PIECES", "on a smaller kit: these pieces alone, such as kick,snare,hihat (the lesson's)", _pieces, None
+    )
     no_click: bool = flag("no click after the count-in: the score follows you, and waits", rivals="click")
+    today: bool = flag("the next block of today's plan (station today)")
     device: tuple[str, ...] = devices_option()
     sticks: tuple[str, ...] = sticks_option()
     virtual_student: str | None = option("SPEC", "who plays instead of a person, such as pro,seed=3", str, None)
@@ -111,21 +152,48 @@ def run(options: PracticeOptions) -> int:
     settings = store.now
     if options.recover is not None:
         return _recover(SessionFolder.left_over(options.recover), options, settings)
+    return _todays_block(options, store) if options.today else _practise(options, store)
+
+
+def _todays_block(options: PracticeOptions, store: SettingsStore) -> int:
+    """Practise what the day's plan has next, and say what follows."""
+    from station.cli.practising.todays_block import block_options, next_block, say_block, say_what_follows
+
+    item = next_block(store.now)
+    planned: dict[str, Any] = block_options(item, _lesson(item.lesson))
+    for name in planned:
+        if getattr(options, name) is not None:
+            raise BadInput("--today", name, "the plan says so already; leave one of them out")
+    say_block(item)
+    status = _practise(replace(options, **planned), store)
+    say_what_follows(store.now)
+    return status
+
+
+def _practise(options: PracticeOptions, store: SettingsStore) -> int:
+    settings = store.now
     backing = options.track.backing(adapts=bool(options.adapt))
     if options.no_click and options.adapt:
         raise BadInput("--no-click", "--adapt", "the tempo follows you either within a pass or from pass to pass")
+    _check_rise(options, backing)
     lesson = _lesson(options.lesson)
+    _refuse_for_songs(lesson, options)
+    if options.fold is not None:
+        from station.drills.editing.folded_lesson import folded
+
+        lesson = folded(lesson, options.fold)
     plan_options = replace(_plan_options(options, lesson, settings), level=_level(options, lesson, settings))
     plan = plan_practice(lesson, plan_options)
-    if backing is not None:
-        backing.check(plan, settings.rate_hz)
+    sounding = backing or song_request(plan, settings.band_drums)
+    if sounding is not None:
+        sounding.check(plan, settings.rate_hz)
     if options.virtual_student is not None:
         return _virtual(plan, plan_options, options.virtual_student, options, settings)
     in_terminal = options.headless or options.json or options.report is not None
     if not in_terminal and has_screen():
         from station.cli.window import open_window
 
-        by_default = options.tempo is None and not options.no_click and backing is None
+        by_default = options.tempo is None and options.rise is None and not options.no_click and sounding is None
         adapt = by_default if options.adapt is None else options.adapt
         return open_window(store, plan, adapt, backing, options.watch.watch())
     if not in_terminal and not options.device and not _is_kit_there(settings.kit):
@@ -133,6 +201,26 @@ def run(options: PracticeOptions) -> int:
         return _virtual(plan, plan_options, STAND_IN, options, settings)
     _say_what_comes_first(lesson, settings)
     return _live(plan, plan_options, options, settings, backing)
+
+
+def _refuse_for_songs(lesson: Lesson, options: PracticeOptions) -> None:
+    """Raise `BadInput` for what a song has of its own, or cannot do."""
+    if options.speed is not None and options.tempo is not None:
+        raise BadInput("--speed", "--tempo", "both say how fast")
+    if lesson.band is not None and options.adapt:
+        raise BadInput("--adapt", lesson.name, "the track of a song has one tempo; without --adapt the tempo stays")
+    if lesson.band is not None and options.fold is not None:
+        raise BadInput("--fold", lesson.name, "a song's drum part is played as it is")
+    if lesson.band is not None and options.track.track is not None:
+        raise BadInput("--track", lesson.name, "this is a song, and brings its own sound")
+
+
+def _check_rise(options: PracticeOptions, backing: BackingRequest | None) -> None:
+    """Raise `BadInput` where something else has a say in the tempo."""
+    if options.rise is not None and options.adapt:
+        raise BadInput("--rise", "--adapt", "the tempo follows either the plan or you")
+    if options.rise is not None and backing is not None:
+        raise BadInput("--rise", "--track", "a track has one tempo; without --track it may rise")
 
 
 def _say_what_comes_first(lesson: Lesson, settings: Settings) -> None:
@@ -170,7 +258,7 @@ def _virtual(plan: Plan, plan_options: PlanOptions, spec: str, options: Practice
 def _live(
     plan: Plan, plan_options: PlanOptions, options: PracticeOptions, settings: Settings, backing: BackingRequest | None
 ) -> int:
-    from station.cli.terminal import practise_in_terminal
+    from station.cli.practising.terminal import practise_in_terminal
 
     cut_off = offer(settings)
     if cut_off is not None:
@@ -191,7 +279,10 @@ def _live(
 def _remembered(plan: Plan, plan_options: PlanOptions, settings: Settings, keeps: bool) -> Remembered:
     """Practice that follows the student; what could not be read is said at once."""
     memory = Memory.of(settings.sessions_dir, settings.student, plan.lesson.name, plan.bars) if keeps else None
-    followed = Remembered.of(plan.lesson, plan_options, date.today(), memory, followed_course(settings))
+    today = date.today()
+    followed = Remembered.of(
+        plan.lesson, plan_options, today, memory, followed_course(settings), wishes_of(settings, today)
+    )
     if followed.fault is not None:
         say(followed.fault)
     return followed
@@ -270,12 +361,24 @@ def _lesson(name: str | None) -> Lesson:
 
 def _plan_options(options: PracticeOptions, lesson: Lesson, settings: Settings) -> PlanOptions:
     tempo_bpm = tapped_tempo(lesson.beat_ticks / PPQ) if options.tempo == TAP else options.tempo
+    if options.speed is not None:
+        tempo_bpm = lesson.tempo_bpm * options.speed / 100.0
     demonstrations = 0 if options.no_demonstration else None
     pattern = parse_click(settings.click_pattern, setting_source("click_pattern"))
-    click = None if options.no_click else replace(pattern, gap=options.gap)
+    gap = options.gap or pattern.gap
+    gap = gap if options.virtual_student else drawn(gap)  # a virtual student plays the same every time
+    click = None if options.no_click else replace(pattern, gap=gap)
     hands = hands_of(settings)
     return PlanOptions(
-        tempo_bpm, options.loops, options.bars, demonstrations, click, settings.guide, hands, stands=settings.stands
+        tempo_bpm,
+        options.loops,
+        options.bars,
+        demonstrations,
+        click,
+        settings.guide,
+        hands,
+        stands=settings.stands,
+        rise=options.rise,
     )
 
 

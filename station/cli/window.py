@@ -1,11 +1,12 @@
 """`station` without a command: opens the practice room."""
 
 from contextlib import ExitStack
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from station.app.equipment.diagnostics import has_screen
 from station.app.settings.settings_store import SettingsStore
-from station.cli.options.option_fields import Command
+from station.cli.options.option_fields import Command, group, optional_argument
 from station.cli.options.watch_options import WatchOptions
 from station.core.errors import DeviceError
 from station.core.measured_latency import load_calibration
@@ -17,13 +18,21 @@ if TYPE_CHECKING:
     from station.practice.session.backing_track import BackingRequest
 
 
-def run(options: WatchOptions) -> int:
-    """Open the window on the first lesson."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OpenOptions:
+    """What is opened in the window."""
+
+    file: str | None = optional_argument("FILE", "a lesson, music, a take, an assignment, a return or a note to open")
+    watch: WatchOptions = group(WatchOptions)
+
+
+def run(options: OpenOptions) -> int:
+    """Open the window on the first lesson, or on the file that is named."""
     from station.drills.library import FIRST_LESSON, find_lesson
 
     store = SettingsStore()
     first = plan_practice(find_lesson(FIRST_LESSON), PlanOptions(hands=hands_of(store.now), stands=store.now.stands))
-    return open_window(store, first, adapt=True, watch=options.watch())
+    return open_window(store, first, adapt=True, watch=options.watch.watch(), file=options.file or "")
 
 
 def open_window(
@@ -32,13 +41,15 @@ def open_window(
     adapt: bool,
     backing: "BackingRequest | None" = None,
     watch: "Watch | None" = None,
+    file: str = "",
 ) -> int:
     """Show the practice room, by the settings of `store`, until it is closed, or the system wants it to end.
 
     What was played until then is kept.
 
     `adapt` whether the tempo follows the student, until another choice is made in the window; `backing` a track to
-    play along to in every session whose tempo stays; a `watch` sees each frame, and says when the window closes.
+    play along to in every session whose tempo stays; `file`, if there is one, is taken in as if it were dropped; a
+    `watch` sees each frame, and says when the window closes.
     """
     if not has_screen():
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
@@ -58,7 +69,7 @@ def open_window(
         controller = Controller(ChildPrograms(wake), store, launch)
         try:
             goes_on = lambda drawn: not asked and (watch is None or watch.shown(drawn))  # noqa: E731
-            run_window(controller, WindowOptions(shown=goes_on))
+            run_window(controller, WindowOptions(shown=goes_on, opens=file))
         finally:
             fault = controller.close()
         if fault is not None:
@@ -68,4 +79,4 @@ def open_window(
     return 0
 
 
-COMMAND = Command(WatchOptions, run)
+COMMAND = Command(OpenOptions, run)

@@ -49,7 +49,8 @@ class Settings:
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
     sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click,
     `click_pattern` what clicks (`practice.session.cues.click_options`), `levels` of what sounds (`engine.level_words`),
-    `guide` whether the demonstration plays along in the passes, `midi_out` part of the name of a MIDI output that gets
+    `guide` whether the demonstration plays along in the passes, `band_drums` whether the drums of a song's own
+    recording are heard, `midi_out` part of the name of a MIDI output that gets
     it, empty for none; `own_sound` false where the kit's module sounds itself and the strokes of the student stay
     silent; latencies in milliseconds, subtracted from every hit (input) and added to every written time (output) on
     devices that nobody has measured (`core.measured_latency`). `thresholds` says of pads the least velocity that they
@@ -83,6 +84,7 @@ class Settings:
     click_pattern: str = ""
     levels: str = ""
     guide: bool = False
+    band_drums: bool = True
     midi_out: str = ""
     sessions: str = ""
     thresholds: str = ""

@@ -28,6 +28,7 @@ from station.core.toml.toml_faults import Faults, Noted
 from station.core.toml.toml_places import KeyPath
 from station.core.toml.toml_source import read_source
 from station.drills.lesson import LEVELS
+from station.drills.songs.song_file import SONG_ENDING
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 
 ENDING = ".course.toml"
@@ -88,7 +89,7 @@ class Course:
 
 def lesson_name(found_by: str) -> str:
     """The name of a lesson that is found by its name or its file."""
-    return Path(found_by).stem if found_by.endswith(".toml") else found_by
+    return Path(found_by).stem if found_by.endswith((".toml", SONG_ENDING)) else found_by
 
 
 def is_course(path: Path) -> bool:

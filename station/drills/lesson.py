@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb
 from station.core.units import PPQ
+from station.drills.band_sound import BandSound
 from station.drills.grid.stroke_settings import Velocities
 from station.drills.level_range import OF_DIFFICULTY, LevelRange
 from station.music.score import NOTE_DTYPE, Score
@@ -85,13 +86,15 @@ class Goals:
 class Section:
     """A run of bars as it is played, such as "groove" or "fill": bars `first_bar` to `last_bar` inclusive, from 0.
 
-    A section that the form plays twice stands here twice; `name` may be empty.
+    A section that the form plays twice stands here twice; `name` may be empty. `grid` is the grid of the file, from 0,
+    whose bars it repeats.
     """
 
     name: str
     first_bar: int
     last_bar: int
     swing: Swing = field(default_factory=Swing)
+    grid: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,6 +125,8 @@ class Lesson:
     `swing` is the first section's. `cues` are in the order of their bars. `prerequisites` name the lessons that come
     before; `hints` say by a fault's word what helps against it; `landing` (n,) of `NOTE_DTYPE`, its ticks 0, is struck
     where the last loop ends, empty where nothing is. `text` is what its file says, empty where it comes from none.
+    A song has a `band`, which it is played along to, and whose tempo moves with every beat: `mean_bpm`, quarter notes a
+    minute, stands for it, where None the tempo of the first bar.
     """
 
     name: str
@@ -146,15 +151,19 @@ class Lesson:
     hints: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     landing: NDArray[np.void] = field(default_factory=lambda: np.zeros(0, NOTE_DTYPE))
     text: str = field(default="", repr=False)
+    band: BandSound | None = None
+    mean_bpm: float | None = None
 
     @property
     def tempo_bpm(self) -> float:
-        """Tempo of the first bar in quarter notes a minute, as it was written."""
-        return self.score.tempo_map.tempos[0].short_bpm()
+        """Tempo of the first bar in quarter notes a minute, as it was written; of a song its mean."""
+        return self.mean_bpm or self.score.tempo_map.tempos[0].short_bpm()
 
     @property
     def beats_a_minute(self) -> float:
-        """Tempo of the first bar in the lesson's own beat, as it was written."""
+        """The same in the lesson's own beat."""
+        if self.mean_bpm is not None:
+            return self.mean_bpm * PPQ / self.beat_ticks
         return self.score.tempo_map.tempos[0].short_bpm(self.beat_ticks / PPQ)
 
     @property
@@ -181,6 +190,10 @@ class Lesson:
     def beyond(self) -> NDArray[np.void]:
         """The strokes of the music that this player cannot make besides, written `*`: shown, never asked."""
         return self.score.beyond
+
+    def passes_of(self, bars: tuple[int, int]) -> int:
+        """How often `bars` (first, last, from 0) are played: some bars of a song that is played once come again."""
+        return DEFAULT_PASSES if self.band is not None and bars != self.loop else self.passes
 
     @property
     def loop_score(self) -> Score:

@@ -36,7 +36,7 @@ class LessonRow:
     `tempo_bpm` counts quarter notes, `beat_quarters` is how many make the beat that a teacher counts; `bars` are all,
     `loop_bars` those that are practised. `level` 1–5 says how hard it is, `suggested` and `strictest` how strictly it
     may be judged. `difficulty` is measured at the tempo to reach, 0–100 (docs/difficulty.md). `prerequisites` name the
-    lessons that come before.
+    lessons that come before. `is_song`: a band plays along, in its own time.
     """
 
     name: str
@@ -56,6 +56,7 @@ class LessonRow:
     about: str = ""
     tags: tuple[str, ...] = ()
     prerequisites: tuple[str, ...] = ()
+    is_song: bool = False
 
     @property
     def beats_a_minute(self) -> float:
@@ -88,6 +89,7 @@ def row_of(lesson: Lesson, folder: str = "") -> LessonRow:
         about=lesson.about,
         tags=lesson.tags,
         prerequisites=lesson.prerequisites,
+        is_song=lesson.band is not None,
     )
 
 

@@ -18,6 +18,8 @@ from station.drills.lesson import Lesson
 from station.drills.lesson_row import LessonRow, rows_below
 from station.drills.reading.lesson_file import read_lesson
 from station.drills.rudiments import find_rudiment
+from station.drills.songs.song_file import SONG_ENDING, is_song
+from station.drills.songs.song_lesson import read_song_lesson
 from station.music.formats.format_table import is_music_file
 
 FIRST_LESSON = "rock-1"
@@ -34,6 +36,7 @@ __all__ = [
     "lessons_dir",
     "lessons_for",
     "own_lessons",
+    "read_any",
     "read_lesson",
     "shipped_courses",
     "shipped_lessons",
@@ -77,10 +80,15 @@ def find_lesson(name_or_path: str) -> Lesson:
     if is_course(path) and _is_file(path):
         raise BadInput(path, "", "this is a course; name one of its lessons, or follow it in the window")
     if _is_file(path) or _is_path(path):
-        return read_lesson(path)
+        return read_any(path)
     with suppress(BadInput):
         return read_lesson(files[find_rudiment(name_or_path).name])
     raise BadInput(name_or_path, "", f"no such lesson{_like(name_or_path, list(files))}")
+
+
+def read_any(path: Path) -> Lesson:
+    """The lesson or the song in the file at `path`; raises `BadInput`."""
+    return read_song_lesson(path) if is_song(path) else read_lesson(path)
 
 
 def lessons_for(folder: Path) -> Where:
@@ -93,7 +101,7 @@ def _found_in(folder: Path, shipped: Collection[str]) -> Where:
         path = folder / word
         if word in shipped:
             return word
-        return str(path) if word.endswith(_ENDING) and not is_course(path) and _is_file(path) else None
+        return str(path) if word.endswith((_ENDING, SONG_ENDING)) and not is_course(path) and _is_file(path) else None
 
     return where
 
@@ -126,16 +134,17 @@ def own_lessons(courses: Iterable[Course], folder: Path, shipped: Collection[str
     """
     brought = [lesson for course in courses for lesson in course.lessons]
     own: dict[str, Lesson] = {}
-    for found_by in dict.fromkeys([*brought, *map(str, _files(folder).values())]):
+    songs = {path.stem: path for path in sorted(folder.rglob(f"*{SONG_ENDING}"))}
+    for found_by in dict.fromkeys([*brought, *map(str, (songs | _files(folder)).values())]):
         if lesson_name(found_by) not in {*shipped, *own}:
             with suppress(BadInput):  # `station lesson check` tells what is wrong with it
-                own[lesson_name(found_by)] = read_lesson(Path(found_by))
+                own[lesson_name(found_by)] = read_any(Path(found_by))
     return own
 
 
 def _is_path(path: Path) -> bool:
     """Whether it is written as a file, there or not, rather than as a name."""
-    return len(path.parts) > 1 or path.suffix.lower() == _ENDING or is_music_file(path.name)
+    return len(path.parts) > 1 or path.suffix.lower() in (_ENDING, SONG_ENDING) or is_music_file(path.name)
 
 
 def _is_file(path: Path) -> bool:

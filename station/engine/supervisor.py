@@ -223,6 +223,8 @@ class _Standing:
         match command:
             case Play():
                 self._play, self._sent_ns, self._zero_ns = command, now_ns, None
+            case Resume(cues, zero_ns):
+                self._play, self._sent_ns, self._zero_ns = Play(cues, 0), now_ns, zero_ns
             case Stop():
                 self._play = None
             case SetLevel():

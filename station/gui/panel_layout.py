@@ -12,24 +12,31 @@ from imgui_bundle import hello_imgui
 from station.app.actions.action import Action, Show
 from station.app.actions.player_actions import Seek
 from station.app.actions.practice_actions import Drill
+from station.app.exam_page import ExamStage
 from station.app.room_state import Stage
 from station.app.window_state import State
 from station.core.units import ns_from_s
 from station.gui import theme
 from station.gui.panels import (
+    exam_panel,
     export_panel,
     graph_panel,
     hits_panel,
     import_panel,
     phase_panel,
     practice_panel,
+    song_panel,
+    today_panel,
 )
 from station.gui.panels.bars_panel import bars_panel
 from station.gui.panels.devices import devices_panel, sticks_panel
+from station.gui.panels.editor.editor_panel import EDITOR, EditorPanel
+from station.gui.panels.exam_notes import NOTES, ExamNotes
 from station.gui.panels.figure import style_panel
 from station.gui.panels.lessons_panel import LessonsPanel
 from station.gui.panels.panel import DockSide, Panel, panels_popup
 from station.gui.panels.playback_row import PlaybackRow
+from station.gui.panels.teacher import assigned_panel, teacher_panel
 from station.gui.panels.transport_bar import TransportBar
 from station.gui.panels.view_popup import ViewActions
 from station.gui.view_keys import ViewKeys
@@ -45,6 +52,7 @@ class Pages:
         self._dispatch = dispatch
         self.view_keys = ViewKeys(viewport, dispatch)
         self._lessons = LessonsPanel(dispatch, self.open_import)
+        self.editor = EditorPanel(dispatch, viewport.canvas)
         self._playback = PlaybackRow(dispatch)
         self.hits = hits_panel.HitsPanel(self._playback)
         self.figure = style_panel.StylePanel(dispatch)
@@ -55,6 +63,13 @@ class Pages:
         self.imports = import_panel.ImportPanel(dispatch)
         self.graph = graph_panel.GraphPanel(lambda to_s: dispatch(Seek(ns_from_s(to_s))))
         self._phase = phase_panel.PhasePanel(dispatch)
+        self._today = today_panel.TodayPanel(dispatch)
+        self.song = song_panel.SongPanel(dispatch)
+        self._exam = exam_panel.ExamPanel(dispatch)
+        self._exam_notes = ExamNotes(dispatch, viewport.canvas)
+        self._exam_stage = ExamStage.ASKED
+        self.teacher = teacher_panel.TeacherPanel(dispatch, self._playback)
+        self.assigned = assigned_panel.AssignedPanel(dispatch)
         viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go)
         self._transport = TransportBar(dispatch, viewpoints, self._open_tools)
         self.controls = self._transport.controls
@@ -66,8 +81,14 @@ class Pages:
         """Every panel; those without `shown` are tools that the user opens."""
         beside, right, strip = DockSide.BESIDE, DockSide.RIGHT, DockSide.STRIP
         return (
-            Panel(LESSONS, beside, self._lessons.gui, shown=lambda state: state.room.stage is Stage.IDLE),
+            Panel(LESSONS, beside, self._lessons.gui, shown=_chooses),
+            Panel(EDITOR, DockSide.EDITOR, self.editor.gui, shown=lambda state: state.editor is not None),
+            Panel(NOTES, DockSide.EDITOR, self._exam_notes.gui, shown=lambda state: state.exam.shows_notes),
             Panel(BARS, beside, self._bars_gui, shown=lambda state: state.shows_result),
+            Panel(today_panel.TODAY, right, self._today.gui, today_panel.ABOUT, help=today_panel.HELP),
+            Panel(exam_panel.EXAM, right, self._exam.gui, exam_panel.ABOUT, help=exam_panel.HELP),
+            Panel(teacher_panel.TEACHER, right, self.teacher.gui, teacher_panel.ABOUT, help=teacher_panel.HELP),
+            Panel(assigned_panel.ASSIGNMENTS, right, self.assigned.gui, assigned_panel.ABOUT, help=assigned_panel.HELP),
             Panel(hits_panel.HITS, strip, self._hits_gui, hits_panel.ABOUT),
             Panel(style_panel.FIGURE, right, self.figure.gui, style_panel.ABOUT, help=style_panel.HELP),
             Panel(practice_panel.PRACTICE, right, self._practice.gui, practice_panel.ABOUT, help=practice_panel.HELP),
@@ -76,6 +97,7 @@ class Pages:
             Panel(import_panel.IMPORT, right, self._import_gui, import_panel.ABOUT, help=import_panel.HELP),
             Panel(export_panel.EXPORT, right, self._export.gui, export_panel.ABOUT, help=export_panel.HELP),
             Panel(GRAPH, strip, self._graph_gui, graph_panel.ABOUT, help=graph_panel.HELP),
+            Panel(song_panel.SONG, right, self._song_gui, song_panel.ABOUT, help=song_panel.HELP),
             Panel(phase_panel.PHASE, strip, self._phase_gui, phase_panel.ABOUT, help=phase_panel.HELP),
             Panel(TRANSPORT, DockSide.BELOW, self._transport_gui, shown=lambda state: True),
         )
@@ -99,11 +121,36 @@ class Pages:
         """Show the panel that brings music in."""
         self._docked(import_panel.IMPORT).is_visible = True
 
+    def open_song(self) -> None:
+        """Show the panel that pins a part to a band's sound."""
+        self._docked(song_panel.SONG).is_visible = True
+
+    def open_teacher(self) -> None:
+        """Show the panel of what students sent."""
+        self._to_front(teacher_panel.TEACHER)
+
+    def open_assigned(self) -> None:
+        """Show the panel of what a teacher gave."""
+        self._to_front(assigned_panel.ASSIGNMENTS)
+
+    def _to_front(self, name: str) -> None:
+        """Show a panel before those that share its place."""
+        docked = self._docked(name)
+        docked.is_visible = docked.focus_window_at_next_frame = True
+
+    def poll(self) -> None:
+        """Take what the system's dialogs have brought."""
+        for asks in (self.imports, self.song, self.teacher, self.assigned):
+            asks.poll()
+
     def show(self, state: State, is_welcomed: bool) -> None:
         """Show what belongs to `state`, nothing before the first questions were answered."""
         for page in self.table:
             if page.shown is not None:
                 self._docked(page.name).is_visible = is_welcomed and page.shown(state)
+        if state.exam.stage is not self._exam_stage:  # whatever was closed meanwhile, the marks are seen
+            self._exam_stage = state.exam.stage
+            self._docked(exam_panel.EXAM).is_visible = True
 
     def seen(self, shown: Show) -> Show:
         """What the window shows, as the tools that are open have it."""
@@ -114,6 +161,10 @@ class Pages:
             practice=self.is_open(practice_panel.PRACTICE),
             curves=self.is_open(GRAPH),
             phase=self.is_open(phase_panel.PHASE),
+            today=self.is_open(today_panel.TODAY),
+            exam=self.is_open(exam_panel.EXAM),
+            teacher=self.is_open(teacher_panel.TEACHER),
+            assigned=self.is_open(assigned_panel.ASSIGNMENTS),
         )
 
     # --- drawing -----------------------------------------------------------------------------------------------------
@@ -131,7 +182,7 @@ class Pages:
 
     def _bars_gui(self, state: State) -> None:
         self._playback.is_listening = state.room.listening
-        bar = None if state.report is None else bars_panel(state.report, self._playback)
+        bar = None if state.report is None else bars_panel(state.report, self._playback, can_drill=not state.room.exam)
         if bar is not None:
             self._dispatch(Drill(bar))
 
@@ -142,5 +193,13 @@ class Pages:
     def _graph_gui(self, state: State) -> None:
         self.graph.gui(state.curves, can_seek=state.room.stage is Stage.IDLE)
 
+    def _song_gui(self, state: State) -> None:
+        self.song.gui(state.song, can_play=state.room.stage is not Stage.PLAYING)
+
     def _phase_gui(self, state: State) -> None:
         self._phase.gui(state.phase, can_play=state.room.stage is not Stage.PLAYING)
+
+
+def _chooses(state: State) -> bool:
+    """Whether lessons are chosen from."""
+    return state.room.stage is Stage.IDLE and state.editor is None and not state.room.exam

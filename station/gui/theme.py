@@ -52,6 +52,11 @@ def choose(theme: Theme, scale: float) -> None:
     _Current.theme, _Current.scale = theme, scale
 
 
+def chosen() -> Theme:
+    """The colours that are shown."""
+    return _Current.theme
+
+
 def themed(colour: Colour) -> Colour:
     """What the present theme shows for a colour of the night."""
     return palette.themed(colour, _Current.theme)
@@ -59,6 +64,11 @@ def themed(colour: Colour) -> Colour:
 
 def _vec(colour: Colour) -> imgui.ImVec4:
     return imgui.ImVec4(*colour)
+
+
+def packed(colour: Colour) -> int:
+    """What the present theme shows for a colour of the night, as draw lists take it."""
+    return int(imgui.color_convert_float4_to_u32(_vec(themed(colour))))
 
 
 def apply() -> None:
@@ -199,13 +209,13 @@ def part(title: str) -> None:
 
 def checkbox(label: str, value: bool) -> tuple[bool, bool]:
     """A box to tick; its words are broken where the panel ends, and tick it too. Returns whether it changed, and it."""
-    inner = imgui.get_style().item_inner_spacing.x
-    if imgui.get_frame_height() + inner + imgui.calc_text_size(label).x <= imgui.get_content_region_avail().x:
+    inner, words = imgui.get_style().item_inner_spacing.x, label.partition("##")[0]
+    if imgui.get_frame_height() + inner + imgui.calc_text_size(words).x <= imgui.get_content_region_avail().x:
         changed, value = imgui.checkbox(label, value)
         return bool(changed), bool(value)
     changed, value = imgui.checkbox(f"##{label}", value)
     imgui.same_line(0.0, inner)
-    imgui.text_wrapped(label)
+    imgui.text_wrapped(words)
     if imgui.is_item_clicked():
         changed, value = True, not value
     return bool(changed), bool(value)

@@ -32,7 +32,7 @@ class ViewKeys:
     def handle(self, view_settings: ViewSettings) -> None:
         """Do what was pressed since the last frame, which `view_settings` is from."""
         io = imgui.get_io()
-        slot, view = slot_pressed(), view_pressed()
+        slot = slot_pressed()
         if slot is not None and io.key_ctrl and not io.key_shift:
             self.keep(slot)
         elif io.key_ctrl and (way := next((way for key, way in _SIZES if imgui.is_key_pressed(key)), 0)):
@@ -41,13 +41,19 @@ class ViewKeys:
             return
         elif slot is not None:
             self.go(slot)
-        elif view is not None:
-            self._viewport.back_to(view)
-            self._dispatch(SetView(replace(view_settings, view=view)))
-        else:
+        elif not self.turn(view_settings):
             for change in (change for key, change in _LOOKS if imgui.is_key_pressed(key, repeat=False)):
                 view_settings = change(view_settings)
                 self._dispatch(SetView(view_settings))
+
+    def turn(self, view_settings: ViewSettings) -> bool:
+        """Go to the named view whose key was pressed since the last frame; returns whether one was."""
+        view = view_pressed()
+        if view is None:
+            return False
+        self._viewport.back_to(view)
+        self._dispatch(SetView(replace(view_settings, view=view)))
+        return True
 
     def keep(self, slot: int) -> None:
         """Keep where the user looks from as a slot (from 0)."""

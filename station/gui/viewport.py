@@ -24,6 +24,7 @@ from station.app.settings.view_settings import ViewSettings
 from station.core.errors import DeviceError
 from station.core.named_view import NamedView
 from station.gui import theme
+from station.gui.flat_canvas import FlatCanvas
 from station.render.camera import Camera
 from station.render.framing import Stage, named, stage_of
 from station.render.gpu.gl import GL_VERSION, RenderTarget
@@ -60,6 +61,8 @@ class Viewport:
         self._painter: Painter | None = None
         self._ctx: moderngl.Context | None = None
         self._target: RenderTarget | None = None
+        self.canvas = FlatCanvas(self._ready)
+        """What panels draw notation with."""
         self._samples = 0
         self._times_ms: list[float] = []
         self._page: tuple[ShownResult, ReportPage, NDArray[np.void]] | None = None
@@ -120,10 +123,11 @@ class Viewport:
         if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
             self._back_to_the_view()
 
-    def begin(self, snapshot: Snapshot, area: Area) -> Finish:
+    def begin(self, snapshot: Snapshot, area: Area, with_score: bool = True) -> Finish:
         """Draw all that moves in the room; returns what draws the rest of the picture.
 
-        `area` is what the panels leave free. Both raise `DeviceError` if OpenGL fails.
+        `area` is what the panels leave free; `with_score` is false where a panel shows the music. Both raise
+        `DeviceError` if OpenGL fails.
         """
         ctx, painter = self._ready()
         screen, whole = self.clear()
@@ -137,7 +141,7 @@ class Viewport:
         arrangement = Arrangement(self._inset, self.view_settings.score, is_rough, self.view_settings.double)
         self._seen_from = self.camera
         with self._watched():
-            rest = painter.begin(snapshot, target.framebuffer, area, self.camera, arrangement=arrangement)
+            rest = painter.begin(snapshot, target.framebuffer, area, self.camera, with_score, arrangement)
             if painter.quality.is_layered:
                 ctx.finish()  # else what is drawn would still be to do when the engine is asked what it has heard
 
@@ -194,6 +198,10 @@ class Viewport:
 
     def release(self) -> None:
         """Give the driver its memory back before the window goes."""
+        self.canvas.release()
+        self._drop_target()
+
+    def _drop_target(self) -> None:
         if self._target is not None:
             self._target.release()
             self._target = None
@@ -210,7 +218,7 @@ class Viewport:
     def _target_for(self, painter: Painter, ctx: moderngl.Context, whole: tuple[int, int]) -> RenderTarget:
         """Where the picture is made: off the screen, with as many samples a pixel as the quality asks for."""
         if self._target is None or self._target.size != whole or self._samples != painter.quality.samples:
-            self.release()
+            self._drop_target()
             self._samples = painter.quality.samples
             self._target = RenderTarget(ctx, whole, self._samples)
         if not painter.quality.is_layered:

@@ -5,6 +5,9 @@ back, and hands over what the user does. It starts no thread of its own, and not
 judgement.
 """
 
+from collections.abc import Callable
+from pathlib import Path
+
 from imgui_bundle import hello_imgui, imgui, implot
 
 from station.app.actions.action import Notify, Show
@@ -13,22 +16,25 @@ from station.app.actions.practice_actions import Begin, Leave, Pause, StrikeKey
 from station.app.actions.settings_actions import FinishFirstStart
 from station.app.controller import Controller
 from station.app.help_topics import topic_of
-from station.app.room_state import Stage
+from station.app.room_state import RoomState, Stage
 from station.app.settings.first_start import FirstAnswers
 from station.app.window_state import State
 from station.core.clock import Clock, MonotonicClock
 from station.core.errors import DeviceError
+from station.drills.songs.song_folder import SOUND_ENDINGS
 from station.gui import theme
 from station.gui.display import MonitorWatch
 from station.gui.draw_toasts import ABOVE_RESULT, draw_toast
 from station.gui.file_drop import FileDrop, file_drop
 from station.gui.keyboard_kit import pressed
 from station.gui.panel_layout import Pages
+from station.gui.panels.editor.editor_keys import editor_keys
 from station.gui.panels.help_window import help_window
 from station.gui.panels.welcome_page import WelcomePage
 from station.gui.player_keys import player_keys
 from station.gui.viewport import Viewport
 from station.gui.window_frame import Calls, WindowOptions, central_area, runner, splits
+from station.practice.exchange.parcel import Kind, kind_by_name
 from station.render.snapshot import Snapshot
 
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
@@ -60,6 +66,7 @@ class Window:
         self._fault: DeviceError | None = None
         self.monitors: MonitorWatch | None = None
         self._drop: FileDrop | None = None
+        self._to_open = [options.opens] if options.opens else []
         calls = Calls(self._opened, self._before_frame, self._background, self._over_all, self._swapped, self._leaving)
         windows = [page.window(lambda: self.state) for page in self.pages.table]
         self.params = runner(options, calls, windows, self.state.view_settings.scale)
@@ -103,17 +110,32 @@ class Window:
         self.params.fps_idling.enable_idling = not self.state.is_lively
         io = imgui.get_io()
         nav = imgui.ConfigFlags_.nav_enable_keyboard
-        is_playing = self.state.room.stage is Stage.PLAYING
-        io.config_flags = io.config_flags & ~nav if is_playing else io.config_flags | nav
+        takes_keys = self.state.room.stage is Stage.PLAYING or self.pages.editor.is_writing
+        io.config_flags = io.config_flags & ~nav if takes_keys else io.config_flags | nav
 
     def _bring_in(self) -> None:
-        """Import what was dropped on the window, and what the system's dialog has brought."""
-        self.pages.imports.poll()
-        dropped = [] if self._drop is None else self._drop.paths()
+        """Import what the window was opened with, what was dropped on it, and what the system's dialog has brought."""
+        self.pages.poll()
+        self._to_open += [] if self._drop is None else self._drop.paths()
+        if self.welcome is not None:  # nobody knows yet whose it is
+            return
+        dropped, self._to_open = self._to_open, []
         for path in dropped:
             self._controller.dispatch(Import(path))
-        if dropped:
-            self.pages.open_import()
+        for path in dropped:
+            self._page_of(path)()
+
+    def _page_of(self, path: str) -> Callable[[], None]:
+        """What shows the page where a file that was dropped is found again."""
+        if Path(path).suffix.lower() in SOUND_ENDINGS:
+            return self.pages.open_song
+        match kind_by_name(path):
+            case None:
+                return self.pages.open_import
+            case Kind.RETURN:
+                return self.pages.open_teacher
+            case Kind.ASSIGNMENT | Kind.NOTE:
+                return self.pages.open_assigned
 
     def _show(self) -> None:
         """Say what the window shows: first the panels alone, for the picture takes half a second to build."""
@@ -157,7 +179,8 @@ class Window:
             height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
             self.viewport.draw_report(state.report, (left, low, width, height))
         else:
-            finish = self.viewport.begin(state.snapshot, (left, low, width, height))
+            has_page = state.editor is not None or state.exam.shows_notes
+            finish = self.viewport.begin(state.snapshot, (left, low, width, height), with_score=not has_page)
             if self._controller.update(self._clock.now_ns()):
                 self.state = self._controller.view()
             self._drawn = self.state.snapshot or state.snapshot
@@ -197,6 +220,11 @@ class Window:
         room, dispatch = self.state.room, self._controller.dispatch
         if imgui.is_key_pressed(imgui.Key.f1, repeat=False):
             self._show_help = not self._show_help
+        if imgui.is_key_pressed(imgui.Key.escape, repeat=False) and self._close_what_is_open():
+            return
+        if self.state.editor is not None:
+            self._editor_keys()
+            return
         if room.stage is Stage.PLAYING or not imgui.get_io().nav_visible:
             for hit in pressed(self._clock.now_ns()):
                 dispatch(StrikeKey(hit))
@@ -209,17 +237,33 @@ class Window:
             dispatch(Leave())
         elif imgui.is_key_pressed(imgui.Key.backspace, repeat=False):
             dispatch(Pause())
-        elif imgui.is_key_pressed(imgui.Key.enter, repeat=False) and self._enter_starts(room.stage):
+        elif imgui.is_key_pressed(imgui.Key.enter, repeat=False) and self._enter_starts(room):
             dispatch(Begin())
 
+    def _close_what_is_open(self) -> bool:
+        """Escape closes what lies over the page, a list before the help; whether anything did."""
+        if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
+            imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
+            return True
+        is_closed, self._show_help = self._show_help, False
+        return is_closed
+
+    def _editor_keys(self) -> None:
+        """What keys mean while a lesson is written: neither the kit nor the player has any."""
+        if not imgui.get_io().want_text_input:
+            editor_keys(self._controller.dispatch, self.pages.editor.is_writing)
+            self.pages.view_keys.turn(self.state.view_settings)
+
     @staticmethod
-    def _enter_starts(stage: Stage) -> bool:
-        """Enter belongs to the control that has the keyboard's focus, if there is one."""
-        return stage is Stage.RESULT or (stage is Stage.IDLE and not imgui.is_any_item_focused())
+    def _enter_starts(room: RoomState) -> bool:
+        """Enter belongs to the control that has the keyboard's focus, if there is one; no result of an exam has it."""
+        if room.stage is Stage.RESULT:
+            return not room.exam and not room.student
+        return room.stage is Stage.IDLE and (room.exam or not imgui.is_any_item_focused())
 
     def _help(self) -> None:
         is_open = [page for page in self.pages.tools if self.pages.is_open(page.name)]
-        topic = topic_of(self.state.room, self.state.selection.free)
+        topic = topic_of(self.state.room, self.state.selection.free, self.state.editor is not None)
         self._show_help = help_window(topic, is_open, self._frame_ms)
 
 

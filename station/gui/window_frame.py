@@ -23,8 +23,11 @@ _SPLITS = (
     (DockSide.BESIDE, imgui.Dir.left, 0.26, 0.45),
     (DockSide.RIGHT, imgui.Dir.right, 0.42, 0.62),
     (DockSide.STRIP, imgui.Dir.down, 0.5, 0.72),
+    (DockSide.EDITOR, imgui.Dir.down, 0.7, 0.8),
 )
 """Where panels dock, in this order: side, way, their share of what is left, and the most of it when they are large."""
+_WITHOUT_TABS = (DockSide.BELOW, DockSide.EDITOR, DockSide.BESIDE)
+"""Where one panel stands alone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +38,8 @@ class WindowOptions:
     and makes it run, without a pause between frames; `picture_every` draws the picture in every so manieth frame alone
     and leaves it dark between them, for whoever watches the panels. `shown` is called whenever a frame is on the
     screen, with what it shows behind the panels; the window closes when it says no. `screen` is asked for the monitors
-    once the window is open: None where windows cannot be placed.
+    once the window is open: None where windows cannot be placed. `opens` names a file that is taken in as if it were
+    dropped, empty for none.
     """
 
     size: tuple[int, int] = (1280, 720)
@@ -45,6 +49,7 @@ class WindowOptions:
     picture_every: int = 1
     shown: Callable[[Snapshot | None], bool] | None = None
     screen: Callable[[], Screen | None] = glfw_screen
+    opens: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +121,7 @@ def splits(scale: float) -> list[hello_imgui.DockingSplit]:
     made = [
         hello_imgui.DockingSplit(_DOCK, str(side), way, min(share * scale, most)) for side, way, share, most in _SPLITS
     ]
-    for split in made[:2]:
+    for split in (split for split in made if split.new_dock in _WITHOUT_TABS):
         split.node_flags = imgui.DockNodeFlags_.auto_hide_tab_bar
     return made
 

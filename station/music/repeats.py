@@ -74,9 +74,12 @@ def folded(score: Score, sections: Mapping[int, str] = _NO_NAMES, apart: Collect
     return [passage for first, last in pairwise(ends) for passage in _best(bars, first, last)]
 
 
-def written_forms(score: Score) -> list[tuple[int, str]]:
-    """What is written in each bar, as numbers with the loudness that is new there: bars with one form look alike."""
-    return [(form.lasting, form.new[2]) for form in _bar_forms(score)]
+def written_forms(score: Score, known: dict[object, int] | None = None) -> list[tuple[int, str]]:
+    """What is written in each bar, as numbers with the loudness that is new there: bars with one form look alike.
+
+    `known` has the forms of other scores by their numbers and gets those of this one, so that bars of both compare.
+    """
+    return [(form.lasting, form.new[2]) for form in _bar_forms(score, known)]
 
 
 # --- which bars are alike ---------------------------------------------------------------------------------------------
@@ -95,7 +98,7 @@ class _BarForm:
     section: str = ""
 
 
-def _bar_forms(score: Score) -> Iterator[_BarForm]:
+def _bar_forms(score: Score, numbers: dict[object, int] | None = None) -> Iterator[_BarForm]:
     whole, is_beyond = score.whole
     rows = whole.notes.copy()
     for name in _UNWRITTEN:
@@ -104,7 +107,7 @@ def _bar_forms(score: Score) -> Iterator[_BarForm]:
     edges = np.searchsorted(rows["tick"], starts).tolist()
     loudness, tempi = _Loudness(score), _Tempi(score)
     held_over = _held_over(score)
-    known: dict[object, int] = {}
+    known = {} if numbers is None else numbers
     for bar, (start, end) in enumerate(pairwise(starts)):
         strokes = rows[edges[bar] : edges[bar + 1]].copy()
         strokes["tick"] -= start

@@ -7,7 +7,7 @@ longer than a nanosecond at any legal tempo, ticks -> ns -> ticks is the identit
 """
 
 from bisect import bisect_right
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate
@@ -141,13 +141,19 @@ class BarPosition:
 
 @dataclass(frozen=True)
 class TempoMap:
-    """The tempo and meter of a score from tick 0 to infinity; see the module's head for its exactness."""
+    """The tempo and meter of a score from tick 0 to infinity; see the module's head for its exactness.
+
+    `is_played`: the tempi are those of a band that was listened to; nobody wrote them, and nobody reads them.
+    """
 
     tempos: tuple[TempoChange, ...] = (TempoChange(0, DEFAULT_US_PER_QUARTER),)
     meters: tuple[MeterChange, ...] = (MeterChange(0, 4, 4),)
+    is_played: bool = False
 
     @classmethod
-    def build(cls, tempos: Iterable[TempoChange], meters: Iterable[MeterChange] = ()) -> "TempoMap":
+    def build(
+        cls, tempos: Iterable[TempoChange], meters: Iterable[MeterChange] = (), is_played: bool = False
+    ) -> "TempoMap":
         """A map from changes in any order: the last on a tick counts; tick 0 gets 120 bpm and 4/4 if unsaid.
 
         Changes that change nothing are left out. Raises `BadInput` for what is no tempo or no meter.
@@ -168,7 +174,7 @@ class TempoMap:
         for tick in sorted(meter_by_tick):
             if not kept_meters or not meter_by_tick[tick].continues(kept_meters[-1]):
                 kept_meters.append(meter_by_tick[tick])
-        return cls(tuple(kept_tempos), tuple(kept_meters))
+        return cls(tuple(kept_tempos), tuple(kept_meters), is_played)
 
     @classmethod
     def constant(cls, tempo_bpm: float, beats: int = 4, unit: int = 4) -> "TempoMap":
@@ -241,7 +247,20 @@ class TempoMap:
         return TempoMap(
             tuple(TempoChange(t.tick, max(1, round(t.us_per_quarter / factor))) for t in self.tempos),
             self.meters,
+            self.is_played,
         )
+
+    def sped(self, speeds: Sequence[tuple[int, float]]) -> "TempoMap":
+        """The same music, from each tick of `speeds`, which rise from 0, so many times as fast as here."""
+        starts = [tick for tick, _ in speeds]
+        assert starts[:1] == [0], "the speed is known from the first tick on"
+        ticks = sorted({*starts, *(tempo.tick for tempo in self.tempos)})
+        factors = [speeds[bisect_right(starts, tick) - 1][1] for tick in ticks]
+        changes = [
+            TempoChange(tick, max(1, round(self.us_per_quarter_at(tick) / factor)))
+            for tick, factor in zip(ticks, factors, strict=True)
+        ]
+        return TempoMap.build(changes, self.meters, self.is_played)
 
     # --- bars ---------------------------------------------------------------------------------------------------------
 
@@ -314,7 +333,7 @@ class TempoMap:
         meters = [replace(at_start, tick=0)] + [
             replace(m, tick=m.tick - start) for m in self.meters if start < m.tick < end
         ]
-        return TempoMap.build(tempos, meters)
+        return TempoMap.build(tempos, meters, self.is_played)
 
 
 def _tick(change: TempoChange | MeterChange) -> int:

@@ -37,6 +37,8 @@ def tempo_words(tempo_map: TempoMap) -> list[TempoWord]:
 
 def read_tempo_words(tempo_map: TempoMap) -> list[TempoWord]:
     """Those that somebody reads who plays from a staff: how a played tempo wavers is left out."""
+    if tempo_map.is_played:
+        return []
     changes = [change.tick for change in tempo_map.tempos]
     found, holds = list[TempoWord](), tempo_map.tempos[0].tempo_bpm
     for word in tempo_words(tempo_map):

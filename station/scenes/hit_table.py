@@ -80,8 +80,12 @@ def nearest(at: NDArray[np.float64], point: tuple[float, float], within: float) 
 
 def dot_label(dot: np.void) -> str:
     """The words for a dot: bar, beat, piece, ms, pass."""
-    where = f"Bar {dot['bar']}, beat {round(float(dot['beat']), 2):g}, {piece_name(Piece(int(dot['piece'])))}"
-    return f"{where}: {_judged(dot)} (pass {dot['pass']})"
+    return f"Bar {dot['bar']}, {beat_label(dot)} (pass {dot['pass']})"
+
+
+def beat_label(dot: np.void) -> str:
+    """The words for a dot within its bar: beat, piece, ms."""
+    return f"beat {round(float(dot['beat']), 2):g}, {piece_name(Piece(int(dot['piece'])))}: {_judged(dot)}"
 
 
 def _judged(dot: np.void) -> str:

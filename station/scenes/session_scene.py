@@ -44,10 +44,17 @@ class SessionView:
     """One session's pictures: that of `demonstrator` on the plan's kit."""
 
     def __init__(
-        self, plan: Plan, demonstrator: Demonstrator | None = None, before: "SessionView | None" = None
+        self,
+        plan: Plan,
+        demonstrator: Demonstrator | None = None,
+        before: "SessionView | None" = None,
+        demonstrates: bool = True,
     ) -> None:
-        """`before` is the view that was shown last: its drummer sits there while this one's is made."""
-        self.plan = plan
+        """`before` is the view that was shown last: its drummer sits there while this one's is made.
+
+        Where nobody `demonstrates` they sit still, and hands are those that the score writes.
+        """
+        self.plan, self._demonstrates = plan, demonstrates
         self._demonstrator = demonstrator or Demonstrator()
         self._sits = None if before is None else before.sitting
         demonstrations = [s for s in plan.segments if s.phase is Phase.DEMONSTRATION]
@@ -117,8 +124,8 @@ class SessionView:
                 hud=self._hud(session, now_ns, message or _why(session)),
             )
         drummer = part.drummer(self._demonstrator.style)
-        double, drummer_s = None, position_s
-        if part is self._passes:
+        double, drummer_s = None, position_s if self._demonstrates else WAITING_S
+        if part is self._passes and self._demonstrates:
             if self._student_s is not None and state.segment.phase is Phase.PASS:
                 drummer_s = self._student_s
             self._double.heard(session.heard.recent, drummer, drummer_s, now_ns)
@@ -129,7 +136,7 @@ class SessionView:
             kit=drummer.kit,
             figure=drummer.figure,
             pose=drummer.pose(drummer_s),
-            limbs=drummer.assignment.limbs,
+            limbs=drummer.assignment.limbs if self._demonstrates else part.score.notes["limb"],
             marks=self._marks if part is self._passes else None,
             extras=self._extras(session) if part is self._passes and session.feedback is not Feedback.NONE else (),
             strikes=strikes(session.heard.recent, now_ns),
@@ -219,8 +226,9 @@ class SessionView:
         state, plan = session.state(), self.plan
         if state.transport_ns is None or state.segment.phase not in (Phase.DEMONSTRATION, Phase.PASS):
             return plan.beats_a_minute
-        tempo_map = plan.section.tempo_map
-        tick = int(tempo_map.ticks_at_ns(max(state.transport_ns - state.segment.start_ns, 0)))
+        music, start_ns = plan.music_of(state.segment)
+        tempo_map = music.tempo_map
+        tick = int(tempo_map.ticks_at_ns(max(state.transport_ns - start_ns, 0)))
         return tempo_map.bpm_at(tick) * PPQ / plan.lesson.beat_ticks
 
     def _counts(self, session: Session, pass_index: int) -> tuple[int, int]:

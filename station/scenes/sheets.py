@@ -25,7 +25,8 @@ Bars = tuple[int, int]
 def lesson_labels(lesson: Lesson, bars: Bars) -> SheetWords:
     """What stands on the sheet of a lesson's bars; where they hold its loop, that is repeated."""
     first, last = bars
-    beats = lesson.played_once.bars(*bars).tempo_map.tempos[0].short_bpm(lesson.beat_ticks / PPQ)
+    first_bpm = lesson.played_once.bars(*bars).tempo_map.tempos[0].short_bpm(lesson.beat_ticks / PPQ)
+    beats = first_bpm if lesson.band is None else round(lesson.beats_a_minute)
     loop = (lesson.loop[0] - first, lesson.loop[1] - first)
     return SheetWords(
         title=lesson.title,

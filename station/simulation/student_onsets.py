@@ -83,6 +83,7 @@ class OnsetPlayer:
         """When each row is struck, missed or not, shape (n,)."""
         score = reading.score
         shift_ms = timing.shift_ms + habits.shift_ms[reading.main] - self._leads_ms(reading, timing, habits)
+        shift_ms += score.notes["late_ms"].astype(np.float64)
         at_ns = self._written_ns(score, score.notes["tick"]) + shift_ms * NS_PER_MS
         onsets = np.rint(at_ns).astype(np.int64)
         for piece in np.unique(slips.piece):

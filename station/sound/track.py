@@ -14,10 +14,15 @@ from numpy.typing import NDArray
 from station.core.errors import DeviceError
 from station.sound.drum_kit import Frames
 
+MAX_TRACK_S = 600.0
+"""Our choice: ten minutes of a song, at half speed 230 MB in memory."""
 SEAM_S = 0.01
 """The end of a loop fades into its beginning within so long (our choice)."""
 EDGE_S = 0.005
 """A track that starts or stops in mid-music fades in or out within so long."""
+LEAVE_S = 0.6
+"""After the last turn of a loop the music goes on, and fades out within so long (our choice: a beat or so is heard of
+it, less than a session stands still after its last pass)."""
 TRACK_SLACK = 2
 """Frames by which a track may be off its place: the clock's own noise (our choice)."""
 TRACK_JUMP_S = 0.03
@@ -30,12 +35,16 @@ Pcm = NDArray[np.int16]
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Track:
-    """Sound to play along to: `pcm` at `rate_hz`, from frame `start` on; `loop` (first, past the last), None: once."""
+    """Sound to play along to: `pcm` at `rate_hz`, from frame `start` on; `loop` (first, past the last), None: once.
+
+    With `turns` the loop is played so often, and left for what follows it, which fades out within `LEAVE_S`.
+    """
 
     pcm: Pcm
     rate_hz: int
     start: int = 0
     loop: tuple[int, int] | None = None
+    turns: int | None = None
 
     def __post_init__(self) -> None:
         assert self.pcm.ndim == 2, "stereo"
@@ -44,16 +53,18 @@ class Track:
             first, end = self.loop
             assert 0 <= first < end <= len(self.pcm), "a loop lies within its track"
             assert self.start < end, "a track starts before its loop's end"
+        assert self.turns is None or (self.turns > 0 and self.loop is not None), "what turns has a loop"
 
 
 @dataclass(frozen=True, slots=True)
 class PreparedTrack:
-    """A file of int16 frames ready to play at `rate_hz`; `start` and `loop` in frames of it."""
+    """A file of int16 frames ready to play at `rate_hz`; `start` and `loop` in frames of it, `turns` a `Track`'s."""
 
     file: Path
     rate_hz: int
     start: int
     loop: tuple[int, int] | None
+    turns: int | None = None
 
 
 def load(prepared: PreparedTrack) -> Track:
@@ -64,7 +75,7 @@ def load(prepared: PreparedTrack) -> Track:
         raise DeviceError(f"the play-along track cannot be read: {fault}; choose its file again") from fault
     if prepared.start >= len(pcm) or (prepared.loop is not None and prepared.loop[1] > len(pcm)):
         raise DeviceError(f"the play-along track {prepared.file} is cut short; choose its file again")
-    return Track(pcm, prepared.rate_hz, prepared.start, prepared.loop)
+    return Track(pcm, prepared.rate_hz, prepared.start, prepared.loop, prepared.turns)
 
 
 class TrackVoice:
@@ -77,6 +88,7 @@ class TrackVoice:
         self._seam = min(round(SEAM_S * track.rate_hz), track.loop[1] - track.loop[0]) if track.loop else 0
         self._plain_until = track.loop[1] - self._seam if track.loop else len(track.pcm)
         """Up to here frames are simply those of the array."""
+        self._leave = max(1, round(LEAVE_S * track.rate_hz))
         self._edge = max(1, round(EDGE_S * track.rate_hz))
         self._fade_in_left = self._edge if track.start else 0
         self._fade_out_left: int | None = None
@@ -96,6 +108,9 @@ class TrackVoice:
         """Whether nothing more will sound."""
         if self._fade_out_left is not None:
             return self._fade_out_left <= 0
+        if self._track.loop is not None and self._track.turns is not None:
+            first, end = self._track.loop
+            return self._track.start + self._at >= first + self._track.turns * (end - first) + self._leave
         return self._track.loop is None and self._track.start + self._at >= len(self._track.pcm)
 
     def move(self, frames: int) -> None:
@@ -138,16 +153,23 @@ class TrackVoice:
         places = np.arange(begin, begin + count)
         if self._track.loop is None:
             return self._sound(places)
-        first, end = self._track.loop
-        turning = places >= end
-        if turning.any():
-            places[turning] = first + (places[turning] - end) % (end - first)
+        return self._turning(places, *self._track.loop)
+
+    def _turning(self, places: NDArray[np.int64], first: int, end: int) -> Frames:
+        """The frames at `places` counted on through all turns of the loop."""
+        turn, turns = np.maximum(places - first, 0) // (end - first), self._track.turns
+        is_last = np.zeros(len(places), np.bool_) if turns is None else turn >= turns - 1
+        if turns is not None:
+            turn = np.minimum(turn, turns - 1)
+        places = places - turn * (end - first)
         frames = self._sound(places)
         left = end - places
-        near = left <= self._seam
+        near = (left <= self._seam) & ~is_last
         if near.any():  # the loop's last frames fade into what leads up to its first
             ahead = (1.0 - left[near] / np.float32(self._seam)).astype(np.float32)[:, None]
             frames[near] += ahead * (self._sound(first - left[near]) - frames[near])
+        if is_last.any():
+            frames *= np.clip(1.0 + left / self._leave, 0.0, 1.0).astype(np.float32)[:, None]
         return frames
 
     def _sound(self, places: NDArray[np.int64]) -> Frames:

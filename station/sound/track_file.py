@@ -21,11 +21,10 @@ from station.core.disk_cache import cache_folder, forget_oldest
 from station.core.errors import BadInput, DeviceError
 from station.sound.drum_kit import Frames
 from station.sound.samples.audio_file import opened, read_audio
-from station.sound.track import Pcm, PreparedTrack
+from station.sound.songs.softer_drums import softer_drums
+from station.sound.track import MAX_TRACK_S, Pcm, PreparedTrack
 
 MIN_SPEED, MAX_SPEED = 0.5, 1.5
-MAX_TRACK_S = 600.0
-"""Our choice: ten minutes of a song, at half speed 230 MB in memory."""
 MIN_LOOP_S = 0.25
 TRACK_DB = -20.0
 """RMS of a track as a whole (our choice: a groove on the synthesised kit lies some 4 dB above)."""
@@ -42,7 +41,9 @@ _LOUDEST = 0.98
 class TrackRequest:
     """What to play along to: a sound file, how fast (0.5 … 1.5), from where, and which part again and again.
 
-    Times are seconds of the file at its own speed.
+    Times are seconds of the file at its own speed. The files `beside` it sound with it. With a `piece_s` (from, until)
+    only that much is made ready, at the level that it has in the whole, and silence where the files have nothing. What
+    is struck at `softer`, seconds of the file and `Piece` values, is turned down. `turns` are a `Track`'s.
     """
 
     path: Path
@@ -50,6 +51,15 @@ class TrackRequest:
     speed: float = 1.0
     start_s: float = 0.0
     loop_s: tuple[float, float] | None = None
+    beside: tuple[Path, ...] = ()
+    piece_s: tuple[float, float] | None = None
+    softer: tuple[tuple[float, int], ...] = ()
+    turns: int | None = None
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """All that sounds."""
+        return self.path, *self.beside
 
 
 def tracks_folder() -> Path:
@@ -71,15 +81,17 @@ def prepare(request: TrackRequest, folder: Path | None = None) -> PreparedTrack:
     home = folder or tracks_folder()
     file = home / f"{_digest(request)}{_ENDING}"
     if not file.exists():
-        write_whole(file, pcm_of(stretched(_read(request), request.rate_hz, request.speed)).tobytes())
+        write_whole(file, _pcm(request).tobytes())
         forget_oldest(home, _ENDING, CACHED_FILES)
     scale = request.rate_hz / request.speed
     frames = file.stat().st_size // 4
+    begin_s, end_s = request.piece_s or (0.0, length_s)
     loop = None
     if request.loop_s is not None:
-        first, end = (min(frames, round(second * scale)) for second in request.loop_s)
-        loop = first, (frames if request.loop_s[1] >= length_s else end)
-    return PreparedTrack(file, request.rate_hz, min(frames - 1, round(request.start_s * scale)), loop)
+        first, end = (min(frames, round((second - begin_s) * scale)) for second in request.loop_s)
+        loop = first, (frames if request.loop_s[1] >= end_s else end)
+    start = min(frames - 1, round((request.start_s - begin_s) * scale))
+    return PreparedTrack(file, request.rate_hz, start, loop, request.turns)
 
 
 def stretched(frames: Frames, rate_hz: int, speed: float) -> Frames:
@@ -96,21 +108,29 @@ def stretched(frames: Frames, rate_hz: int, speed: float) -> Frames:
     return np.ascontiguousarray(np.asarray(stretcher.process(np.ascontiguousarray(frames.T)), np.float32).T)
 
 
-def pcm_of(frames: Frames) -> Pcm:
-    """`frames` at `TRACK_DB`, less where that would exceed full scale, as int16."""
-    rms = float(np.sqrt(np.mean(np.square(frames, dtype=np.float64))))
-    peak = float(np.abs(frames).max())
-    gain = min(10.0 ** (TRACK_DB / 20.0) / rms, _LOUDEST / peak) if rms > 0.0 else 1.0
-    pcm: Pcm = np.rint(frames * np.float32(32767.0 * gain)).astype(np.int16)
+def pcm_of(frames: Frames, gain: float | None = None) -> Pcm:
+    """`frames` times `gain` (`level_gain` where None) as int16; what exceeds full scale is cut off."""
+    scale = np.float32(32767.0 * (level_gain(frames) if gain is None else gain))
+    pcm: Pcm = np.clip(np.rint(frames * scale), -32768, 32767).astype(np.int16)
     return pcm
 
 
+def level_gain(frames: Frames) -> float:
+    """What brings `frames` to `TRACK_DB`, less where that would exceed full scale; 1 where there is silence."""
+    rms = float(np.sqrt(np.mean(np.square(frames, dtype=np.float64))))
+    peak = float(np.abs(frames).max())
+    return min(10.0 ** (TRACK_DB / 20.0) / rms, _LOUDEST / peak) if rms > 0.0 else 1.0
+
+
 def checked_length_s(request: TrackRequest) -> float:
-    """How long the file is, at most `MAX_TRACK_S`; raises `BadInput` for no sound file, or a part that it lacks."""
+    """How long the files are, at most `MAX_TRACK_S`; raises `BadInput` for no sound file, or a part that they lack."""
     name = str(request.path)
     if not MIN_SPEED <= request.speed <= MAX_SPEED:
         raise BadInput(name, "speed", f"expected {MIN_SPEED:g} to {MAX_SPEED:g}, found {request.speed:g}")
-    length_s = min(MAX_TRACK_S, file_length_s(request.path))
+    whole_s = max(map(file_length_s, request.files))
+    if request.piece_s is not None:
+        return _checked_piece_s(request, request.piece_s, whole_s)
+    length_s = min(MAX_TRACK_S, whole_s)
     if not 0.0 <= request.start_s < length_s:
         raise BadInput(name, "start", f"expected 0 to {length_s:.1f} s, found {request.start_s:g}")
     if request.loop_s is not None:
@@ -121,6 +141,22 @@ def checked_length_s(request: TrackRequest) -> float:
     return length_s
 
 
+def _checked_piece_s(request: TrackRequest, piece_s: tuple[float, float], whole_s: float) -> float:
+    """Where the piece ends; raises `BadInput` for a piece of what is too long, or one that has nothing of the files."""
+    begin_s, end_s = piece_s
+    first, end = request.loop_s or (request.start_s, end_s)
+    assert begin_s <= request.start_s < end_s, "a piece holds where it starts"
+    assert begin_s <= first < end <= end_s, "a piece holds its loop"
+    name = str(request.path)
+    if whole_s > MAX_TRACK_S and end_s > MAX_TRACK_S:
+        raise BadInput(name, "", f"lasts {whole_s:.0f} s; at most the first {MAX_TRACK_S:.0f} s are played along to")
+    if not (end > 0.0 and first < whole_s):
+        raise BadInput(name, "", f"lasts {whole_s:.1f} s, and has nothing from {first:.1f} to {end:.1f} s")
+    if end_s - begin_s > 2 * MAX_TRACK_S:
+        raise BadInput(name, "", f"{end_s - begin_s:.0f} s at once; expected at most {2 * MAX_TRACK_S:.0f} s")
+    return end_s
+
+
 def file_length_s(path: Path) -> float:
     """How long a sound file is by its head; raises `BadInput` for what is none."""
     with opened(path, str(path)) as file:
@@ -128,15 +164,47 @@ def file_length_s(path: Path) -> float:
     return length_s
 
 
+def _pcm(request: TrackRequest) -> Pcm:
+    """All that is asked for as it is kept."""
+    whole = _read(request)
+    piece = whole if request.piece_s is None else _piece(whole, request.rate_hz, request.piece_s)
+    soft = _with_softer_drums(request, piece)
+    return pcm_of(stretched(soft, request.rate_hz, request.speed), None if piece is whole else level_gain(whole))
+
+
 def _read(request: TrackRequest) -> Frames:
-    return read_audio(request.path, str(request.path), request.rate_hz, MAX_TRACK_S)
+    """The sum of all files, as long as the longest."""
+    whole = np.zeros((0, 2), np.float32)
+    for path in request.files:
+        frames = read_audio(path, str(path), request.rate_hz, MAX_TRACK_S)
+        whole, other = (whole, frames) if len(whole) >= len(frames) else (frames, whole)
+        whole[: len(other)] += other
+    return whole
+
+
+def _piece(whole: Frames, rate_hz: int, piece_s: tuple[float, float]) -> Frames:
+    """The frames of `piece_s`, silent before the first of `whole` and after the last."""
+    begin, end = (round(second * rate_hz) for second in piece_s)
+    piece = np.zeros((end - begin, 2), np.float32)
+    inside = whole[max(begin, 0) : max(end, 0)]
+    at = max(-begin, 0)
+    piece[at : at + len(inside)] = inside
+    return piece
+
+
+def _with_softer_drums(request: TrackRequest, piece: Frames) -> Frames:
+    if not request.softer:
+        return piece
+    at_s, pieces = np.array(request.softer, np.float64).T
+    begin_s = request.piece_s[0] if request.piece_s is not None else 0.0
+    return softer_drums(piece, request.rate_hz, at_s - begin_s, pieces.astype(np.uint8))
 
 
 def _digest(request: TrackRequest) -> str:
-    """Names what the frames depend on: the file as it is now, the rate and the speed; raises `DeviceError`."""
+    """Names what the frames depend on: the files as they are now, rate and request; raises `DeviceError`."""
     try:
-        stat, path = request.path.stat(), request.path.resolve()
-    except OSError as fault:  # it was there a moment ago
+        stats = [(str(path.resolve()), (stat := path.stat()).st_size, stat.st_mtime_ns) for path in request.files]
+    except OSError as fault:  # they were there a moment ago
         raise DeviceError(f"{request.path}: cannot be read: {fault.strerror or fault}") from fault
-    facts = (str(path), stat.st_size, stat.st_mtime_ns, request.rate_hz, request.speed, TRACK_DB)
+    facts = (stats, request.rate_hz, request.speed, request.piece_s, request.softer, TRACK_DB)
     return hashlib.sha256(repr(facts).encode()).hexdigest()[:24]

@@ -79,14 +79,31 @@ from station.simulation.student_spec import parse_spec
 from tests.fakes.stick_physics import FINE_HZ, Sensor, Stroke, measured, strokes_by_angle
 from tests.fakes.walker_files import write_walker
 from tests.gui.dropped_files import drop_files
+from tests.gui.editor_scenarios import EDITOR_SCENARIOS
+from tests.gui.exam_scenario import exam
 from tests.gui.figure import figure
+from tests.gui.key_chord import chord
 from tests.gui.legible import present_faults
+from tests.gui.planned_day import planned_day
 from tests.gui.room import KIT, station
 from tests.gui.screen_shot import screen_shot
+from tests.gui.song_scenario import song
+from tests.gui.teacher_scenario import there_and_back
 
 STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
-SIZES = {"player": (1280, 560), "phase": (1280, 720), "legible": (1280, 720)}
+SIZES = {
+    "planned_day": (1280, 900),
+    "exam": (1280, 720),
+    "player": (1280, 560),
+    "phase": (1280, 720),
+    "song": (1280, 800),
+    "there_and_back": (1280, 900),
+    "legible": (1280, 720),
+    "by_mouse": (1280, 720),
+    "by_kit": (1280, 720),
+    "finds_draft": (1280, 720),
+}
 LESSON = "rock-2"
 MOST_FRAMES = 1000
 PICTURE_EVERY = 25
@@ -97,6 +114,8 @@ STUDENTS = {
     "newcomer": NEWCOMER,
     "drill": "beginner,seed=3",
     "practise": "pro,seed=4",
+    "exam": "seed=1,sd_ms=4",
+    "there_and_back": "intermediate,seed=2",
     "highway": "intermediate,seed=2,velocity_sd=30",
 }
 TIMEOUT_S = 600.0  # the parent's own limit is what ends a run that hangs
@@ -410,11 +429,6 @@ def look(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["button"] = pixels[round(start.get_center().y), round(start.min.x) + 12].tolist()
     drive.seen["picture"] = float(pixels[100:200, 400:].std())
     drive.seen["cannot be read"] = drive.faults
-
-
-def chord(*keys: imgui.Key) -> int:
-    """These keys at once; a sum, for Python 3.11.2 cannot unite members of this enumeration."""
-    return sum(key.value for key in keys)
 
 
 def turn(ctx: imgui.test_engine.TestContext) -> None:
@@ -1047,6 +1061,11 @@ SCENARIOS = {
     "legible": legible,
     "phase": phase,
     "figure": figure,
+    **EDITOR_SCENARIOS,
+    "song": song,
+    "planned_day": planned_day,
+    "exam": exam,
+    "there_and_back": there_and_back,
 }
 
 

@@ -59,6 +59,8 @@ class DirectEngine:
         self._waiting: list[tuple[int, bytes]] = []
         self.sent: list[Command] = []
         self.plan: Plan | None = None
+        self.strokes: Sequence[tuple[int, bytes]] = ()
+        """What the kit plays whenever the transport starts, in nanoseconds from its zero."""
         self.refuses = ""
         """Why it takes no command, as an engine whose process is gone; empty while it does."""
         self._engine.use_preset(KIT, GENERAL_MIDI_PRESET)
@@ -70,7 +72,10 @@ class DirectEngine:
             raise DeviceError(self.refuses)
         self.sent.append(command)
         self._engine.handle(command)
-        if isinstance(command, Play) and self._student is not None and self.plan is not None:
+        if isinstance(command, Play) and self.strokes:
+            zero_ns = self._clock.now_ns() + command.start_in_ns
+            self._waiting = [(zero_ns + at, data) for at, data in self.strokes]
+        elif isinstance(command, Play) and self._student is not None and self.plan is not None:
             zero_ns = self._clock.now_ns() + command.start_in_ns + self.plan.passes_start_ns
             self._waiting = [(zero_ns + at, data) for at, data in play(self.plan.score, self._student).midi]
 

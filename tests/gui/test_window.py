@@ -14,6 +14,7 @@ from typing import Any
 
 import pytest
 
+from station.practice.exchange.note_file import StrokeVerdict, read_note
 from tests.gui.x_server import screen
 
 pytestmark = [pytest.mark.gui, pytest.mark.timeout(400)]
@@ -141,6 +142,14 @@ def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
     assert seen["midi"] == ["SNARE", "KICK", "HIHAT"], "as MIDI too"
     assert seen["lesson"][0] == "Just play", "and as a lesson of one's own"
     assert seen["ended"], "it ends by itself"
+
+
+def test_a_part_is_pinned_to_a_band_and_kept(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("song", environment, tmp_path)
+    assert seen["pins"] == [1, 4, 6, 8]
+    assert seen["off"] == [False, False, True, False], "the third lies a beat off"
+    assert seen["unread"] == []
+    assert seen["chosen"], "it is among the lessons"
 
 
 def test_player_graph_and_figure_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
@@ -380,3 +389,39 @@ def test_without_a_screen_one_line_says_so(tmp_path: Path) -> None:
     bare = {name: value for name, value in os.environ.items() if name not in {"DISPLAY", "WAYLAND_DISPLAY"}}
     fault = fault_of("look", {**bare, "PYTHONPATH": str(ROOT)}, tmp_path)
     assert "DeviceError: no window can be opened: is there a screen" in fault
+
+
+def test_the_plan_of_the_day_is_begun_left_out_and_written_about(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("planned_day", environment, tmp_path)
+    assert seen["kinds"][0] == "warm-up"
+    assert seen["kinds"][-1] == "play"
+    assert seen["minutes"] == 20
+    assert seen["begun"] == seen["planned"]
+    assert seen["practised"] == seen["planned"][:1]
+    assert seen["left out"]
+    assert seen["line"] == "The left hand is late"
+    for name in ("unread", "unread while playing", "unread of the book", "unread of practice"):
+        assert seen[name] == [], name
+
+
+def test_an_assignment_goes_to_a_student_and_comes_back_answered(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("there_and_back", {**environment, "HOME": str(tmp_path)}, tmp_path)
+    assert seen["given"]
+    assert seen["due"].endswith(", 8 days left")
+    assert seen["listed"] == ["Tuesday", "student", "rock-1", seen["score"], "bar 2 is hard"]
+    assert seen["differences"] == [], "the report is what the capture gives"
+    assert [seen["heat"], seen["heard"], seen["teacher heard"]] == [True, True, True]
+    assert "Play" in seen["sounds"]
+    note, counts = seen["stroke"]
+    read = read_note(tmp_path / "zoe.drum-note")
+    (verdict,) = read.sessions
+    assert (verdict.reached, verdict.strokes) == (True, (StrokeVerdict(counts, note=note),))
+    assert (read.words, read.next) == ("Well done.", "the same at 100")
+    told = "accepted" if counts else "not accepted"
+    assert seen["note"] == [
+        "Well done.",
+        f"rock-1, session 1: goals reached, strokes: 1 {told}",
+        "Next: the same at 100",
+    ]
+    faults = {name: faults for name, faults in seen.items() if name.startswith("unread") and faults}
+    assert not faults, faults

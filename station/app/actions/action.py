@@ -5,13 +5,18 @@
 
 from dataclasses import dataclass
 
+from station.app.actions.editor_actions import EditorAction
 from station.app.actions.equipment_actions import EquipmentAction
+from station.app.actions.exam_actions import ExamAction
 from station.app.actions.file_actions import FileAction, ImportAction
 from station.app.actions.phase_actions import PhaseAction
 from station.app.actions.player_actions import PlayerAction
 from station.app.actions.practice_actions import ChoiceAction, PracticeAction
 from station.app.actions.settings_actions import SettingsAction
+from station.app.actions.song_actions import SongAction
 from station.app.actions.style_actions import StyleAction
+from station.app.actions.teacher_actions import AssignedAction, TeacherAction
+from station.app.actions.today_actions import TodayAction
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,6 +33,10 @@ class Show:
     practice: bool = False
     curves: bool = False
     phase: bool = False
+    today: bool = False
+    exam: bool = False
+    teacher: bool = False
+    assigned: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +45,9 @@ class Notify:
 
     line: str
 
+
+DeskAction = EditorAction | TodayAction | SongAction | ExamAction | TeacherAction | AssignedAction
+"""What is asked at the teacher's desk, of the day's plan, of an exam and of what a teacher gave: pages of their own."""
 
 Action = (
     Show
@@ -49,4 +61,5 @@ Action = (
     | FileAction
     | ImportAction
     | PhaseAction
+    | DeskAction
 )

@@ -1,13 +1,16 @@
 """Makes a lesson of music that a user names, and keeps it among their own lessons."""
 
 import os
+import shlex
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from station.app.music_files.named_parts import existing, is_lesson, load_part
+from station.app.music_files.named_parts import existing, is_lesson, load_part, song_file
 from station.core.disk.files import write_whole
 from station.core.errors import BadInput
 from station.drills.library import lesson_names, read_lesson
+from station.drills.songs.song_file import SONG_ENDING
+from station.drills.songs.song_folder import sounds_beside
 from station.drills.transcription.transcribe import transcribe
 from station.music.formats.format_table import endings
 from station.music.formats.groovescribe.groove_formats import is_groove_url
@@ -51,7 +54,16 @@ def import_lesson(source: str, name: str) -> ImportedLesson:
     part = load_part(source)
     title = part.score.title or (name if is_groove_url(source) else _own_name(source))
     found = transcribe(replace(part, score=replace(part.score, title=title)), name, source)
-    return ImportedLesson(found.lesson.title, found.lesson.text, found.remarks, part.lost)
+    return ImportedLesson(found.lesson.title, found.lesson.text, (*found.remarks, *_song_remark(source)), part.lost)
+
+
+def _song_remark(source: str) -> tuple[str, ...]:
+    """Where the chart of a song lies with its sound, that more can be made of it than a lesson."""
+    chart = song_file(source) or Path(source)
+    if not chart.is_file() or not any(sounds_beside(chart)):
+        return ()
+    command = shlex.join(["station", "song", "new", "--part", source, "--out", f"{_own_name(source)}{SONG_ENDING}"])
+    return (f"its sound lies beside it: `{command}` makes a song of it, to be played along to",)
 
 
 def keep_import(source: str, folder: Path) -> KeptLesson:
@@ -64,7 +76,7 @@ def keep_import(source: str, folder: Path) -> KeptLesson:
         made = ImportedLesson(written.title, written.text)
     else:
         made = import_lesson(source, _LINK_NAME if is_groove_url(source) else _own_name(source))
-    path, is_new = _place(folder, _file_name(source, made.title), made.text.encode())
+    path, is_new = place_in(folder, _file_name(source, made.title), made.text.encode())
     if is_new:
         write_whole(path, made.text.encode())
     lesson = read_lesson(path)
@@ -85,7 +97,7 @@ def _file_name(source: str, title: str) -> str:
     return "-".join(filter(None, folder_name(name).split("-")))
 
 
-def _place(folder: Path, name: str, text: bytes) -> tuple[Path, bool]:
+def place_in(folder: Path, name: str, text: bytes) -> tuple[Path, bool]:
     """Where a lesson goes that would be called `name`, and whether it is not there already."""
     shipped = frozenset(lesson_names())
     for number in range(1, _MOST_OF_A_NAME + 1):

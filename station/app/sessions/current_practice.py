@@ -12,6 +12,7 @@ from station.app.room_state import FreeRequest, RoomState, Stage
 from station.app.sessions.free_session import FreeSession
 from station.app.sessions.last_result import LastResult
 from station.app.sessions.lesson_session import LessonSession
+from station.app.sessions.shown_result import SavedSession
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import StationError
 from station.core.events import Hit
@@ -38,6 +39,7 @@ class CurrentPractice:
         self.stage = Stage.IDLE
         self.is_free = False
         """Whether no lesson is shown: the kit alone, to just play."""
+        self._was_free = False  # before a student's result was looked at
         self.fault: StationError | None = None
         """What went wrong with the last session or take when it ended."""
 
@@ -51,6 +53,17 @@ class CurrentPractice:
         """Whether a session of a lesson runs."""
         return self.is_playing and not self.is_free
 
+    @property
+    def is_exam(self) -> bool:
+        """Whether the take of an exam runs, or its result is shown."""
+        return self.stage is not Stage.IDLE and not self.is_free and self.session.sitting is not None
+
+    @property
+    def _sender(self) -> str:
+        """Who sent the result that is shown, empty where it is one's own, or none is."""
+        report = self.last_result.report
+        return report.student if report is not None and self.stage is Stage.RESULT else ""
+
     # --- one after the other -----------------------------------------------------------------------------------------
 
     def show(self, session: LessonSession | None) -> None:
@@ -62,7 +75,7 @@ class CurrentPractice:
         """Play a lesson; raises `StationError`, and goes on as before then."""
         session.begin(self._store.now, track)
         self.last_result.leave()
-        self.session, self.stage, self.is_free = session, Stage.PLAYING, False
+        self.session, self.stage, self.is_free, self._was_free = session, Stage.PLAYING, False, False
 
     def begin_free(self, request: FreeRequest) -> None:
         """Begin a free take; raises `StationError`, and goes on as before then."""
@@ -105,7 +118,7 @@ class CurrentPractice:
         self.fault = saved.fault
         if saved.fault is not None:
             self._notify(str(saved.fault))
-        self.last_result.keep(saved, settings.ask_first)
+        self.last_result.keep(saved, settings.ask_first and saved.marks is None)
         self.stage = Stage.RESULT
 
     def veto(self) -> None:
@@ -124,10 +137,19 @@ class CurrentPractice:
         if message is not None:
             self._notify(message)
 
+    def look_at(self, saved: SavedSession) -> None:
+        """Show a result that a student has sent, in place of what is shown; nobody plays."""
+        assert not self.is_playing, "whoever asks has looked"
+        self.last_result.keep(saved, may_ask=False)
+        if self.stage is Stage.IDLE:
+            self._was_free = self.is_free
+        self.stage, self.is_free = Stage.RESULT, False
+
     def leave(self, session: LessonSession) -> None:
         """The result was read: `session` is shown again."""
         self.last_result.leave()
         self.session, self.stage = session, Stage.IDLE
+        self.is_free, self._was_free = self._was_free, False
 
     # --- what is seen ------------------------------------------------------------------------------------------------
 
@@ -139,6 +161,7 @@ class CurrentPractice:
             take=self.free.take,
             free=self.is_free,
             question=self.last_result.question,
+            student=self._sender,
         )
         return state if self.is_free else self.session.state_in(state)
 

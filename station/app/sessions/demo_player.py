@@ -6,6 +6,7 @@ stepped through, it is silent: drums cannot sound backwards.
 """
 
 from collections.abc import Callable
+from concurrent.futures import Executor, Future
 from dataclasses import dataclass, replace
 from typing import assert_never
 
@@ -30,6 +31,8 @@ from station.engine.messages import Command, Play, Stop
 from station.motion.drummer import Drummer
 from station.motion.kit.kit import Kit
 from station.motion.sticking.hand_notes import Hands
+from station.motion.style.style import Style
+from station.music.score import Score
 from station.practice.demonstration.song_cues import SOUNDED_NS, CountIn, after, count_in_of, song_cues
 from station.practice.demonstration.song_player import FLAGS, Song, SongPlayer, SongStep
 from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
@@ -83,17 +86,25 @@ class DemoPlayer:
     """One lesson's demonstration by `demonstrator`; commands for the engine go through `send`, which may not raise.
 
     `step`, `click` and `counts_in` are what the user has chosen for steps and sound; flags are kept for every lesson.
+    The drummer of a lesson that is revised is made by `maker`, beside what goes on; without one when it is asked for.
     """
 
     def __init__(
-        self, send: Callable[[Command], None], watched: DemonstratedLesson, demonstrator: Demonstrator | None = None
+        self,
+        send: Callable[[Command], None],
+        watched: DemonstratedLesson,
+        demonstrator: Demonstrator | None = None,
+        maker: Executor | None = None,
     ) -> None:
         self._send = send
         self._watched = watched
         self.score = watched.lesson.played_once
         """The whole lesson at its own tempo, and its landing."""
         self._demonstrator = demonstrator or Demonstrator()
+        self._maker = maker
+        self._coming: _Coming | None = None
         self._drummer: Drummer | None = None
+        self._seen = self.score  # what the drummer plays
         self._style = self._demonstrator.style
         self._flags: dict[str, tuple[int | None, ...]] = {}
         self._sounding_until_ns: int | None = None
@@ -116,7 +127,7 @@ class DemoPlayer:
         """Take a lesson, its `bars` (first, last, from 1) as the loop; the same lesson stays where it is."""
         before, self._watched = self._watched, watched
         if watched.lesson is not before.lesson or watched.hands != before.hands or watched.kit != before.kit:
-            self._drummer = None
+            self._dismiss()
         if watched.lesson is not before.lesson:
             self.halt()
             self._flags[before.lesson.name] = self.player.flags
@@ -124,6 +135,26 @@ class DemoPlayer:
             flags = self._flags.get(watched.lesson.name, (None,) * FLAGS)
             self.player = SongPlayer(Song.of(self.score), speed_percent=self.player.speed_percent, flags=flags)
         self.repeat(bars)
+
+    def revise(self, watched: DemonstratedLesson, bars: tuple[int, int] | None) -> None:
+        """Take the lesson as it was changed, its `bars` (first, last, from 1) as the loop: it goes on where it is.
+
+        What sounds changes at once; who plays it changes when a drummer is ready.
+        """
+        counts, is_heard = self._left_ns > 0, self._sounding_until_ns is not None and self.player.is_heard
+        at_ns = self.now_ns + (LEAD_NS if is_heard and not counts else 0)
+        tick = self.player.song.tick_at(self.player.position_ns(at_ns))
+        self._watched, self.score = watched, watched.lesson.played_once
+        song, loop = Song.of(self.score), None if bars is None else (bars[0] - 1, bars[1] - 1)
+        there_ns = int(song.tempo_map.ns_at(min(tick, song.end_tick)))
+        self.player = replace(self.player, song=song, at_ns=there_ns, since_ns=at_ns).looped(at_ns, loop)
+        self._ask_drummer()
+        if counts:
+            self._sound_on()
+        elif is_heard:
+            self._counting = None
+            self._send(Stop())
+            self._begin_sound()
 
     def repeat(self, bars: tuple[int, int] | None) -> None:
         """Repeat these bars (first, last, from 1), None for the whole lesson once."""
@@ -134,18 +165,42 @@ class DemoPlayer:
     def perform_as(self, demonstrator: Demonstrator) -> None:
         """Let another body or manner demonstrate from now on."""
         if demonstrator.figure is not self._demonstrator.figure:
-            self._drummer = None
+            self._dismiss()
         self._demonstrator = demonstrator
+
+    def _dismiss(self) -> None:
+        """Nobody plays: who does is made when asked for."""
+        self._drummer = self._coming = None
+
+    def _ask_drummer(self) -> None:
+        """Have a drummer made who plays the lesson as it is now; the one before plays until then."""
+        if self._coming is not None:
+            self._coming.made.cancel()
+        self._coming = None
+        if self._maker is None or self._drummer is None:
+            self._dismiss()
+            return
+        style = self._demonstrator.style
+        made = self._maker.submit(_drummer_of, self._watched, self._demonstrator)
+        self._coming = _Coming(made, self.score, style)
+
+    def _welcome(self) -> None:
+        """Let the drummer play who is ready now."""
+        coming = self._coming
+        if coming is not None and coming.made.done():
+            self._drummer, self._seen, self._style, self._coming = (
+                coming.made.result(),
+                coming.score,
+                coming.style,
+                None,
+            )
 
     @property
     def drummer(self) -> Drummer:
         """Who plays the whole lesson, in the present style; made, and made anew, when asked for."""
         if self._drummer is None:
-            watched, demonstrator = self._watched, self._demonstrator
-            score = with_sticking(self.score, watched.kit, watched.hands)
-            self._style = demonstrator.style
-            style = as_taught(self._style, self.lesson.cues)
-            self._drummer = Drummer(score, watched.kit, demonstrator.figure, style)
+            self._drummer, self._seen = _drummer_of(self._watched, self._demonstrator), self.score
+            self._style = self._demonstrator.style
         if self._style is not self._demonstrator.style:
             self._style = self._demonstrator.style
             self._drummer = self._drummer.with_style(as_taught(self._style, self.lesson.cues))
@@ -206,6 +261,7 @@ class DemoPlayer:
     def advance(self, now_ns: int) -> None:
         """Move to `now_ns`; once a frame."""
         self.now_ns = now_ns
+        self._welcome()
         if self._due:
             self._begin_sound()
         self.player = self.player.stopped_at_end(now_ns)
@@ -274,7 +330,7 @@ class DemoPlayer:
         drummer, position_s = self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S
         raising_s = self._left_ns / NS_PER_S if position_s == 0 else 0.0  # while the beginning is counted in
         return Snapshot(
-            score=self.score,
+            score=self._seen,
             position_s=position_s,
             kit=drummer.kit,
             figure=drummer.figure,
@@ -318,6 +374,22 @@ class DemoPlayer:
             beats_a_minute=quarters * PPQ / self.lesson.beat_ticks * player.speed_percent / 100,
             say="" if self._left_ns else self._direction.say,
         )
+
+
+@dataclass(frozen=True, eq=False)
+class _Coming:
+    """A drummer who is being made: of which score, in which style."""
+
+    made: Future[Drummer]
+    score: Score
+    style: Style
+
+
+def _drummer_of(watched: DemonstratedLesson, demonstrator: Demonstrator) -> Drummer:
+    """Who plays a whole lesson."""
+    score = with_sticking(watched.lesson.played_once, watched.kit, watched.hands)
+    style = as_taught(demonstrator.style, watched.lesson.cues)
+    return Drummer(score, watched.kit, demonstrator.figure, style)
 
 
 def _course(player: SongPlayer) -> tuple[object, ...]:

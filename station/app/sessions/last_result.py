@@ -7,8 +7,9 @@ nothing of the result is shown.
 from collections.abc import Mapping
 
 from station.app.room_state import ShownResult
-from station.app.sessions.lesson_session import SavedSession
+from station.app.sessions.shown_result import SavedSession
 from station.core.events import Hit
+from station.drills.exam.rubric import Marks
 from station.engine.messages import EngineEvent
 from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, previous_bar, students_bar
 from station.practice.session.cues.listening import Listening
@@ -53,6 +54,11 @@ class LastResult:
         """What may be shown of it now."""
         return None if self.is_asking or self._saved is None else self._saved.report
 
+    @property
+    def marks(self) -> Marks | None:
+        """The marks where it was an exam."""
+        return None if self._saved is None else self._saved.marks
+
     def answer(self, guess: SelfEstimate) -> str | None:
         """Close the question; returns the guess beside what was measured, None where nothing was asked."""
         if not self.is_asking or self._saved is None:
@@ -81,7 +87,7 @@ class LastResult:
         result, before = self._saved.result, self._saved.report.before
         played, words = None, "the teacher"
         if whose is Whose.STUDENT:
-            played, words = students_bar(result, bar), "you"
+            played, words = students_bar(result, bar), self._saved.report.student or "you"
         elif whose is Whose.PREVIOUS:
             if isinstance(before, str):
                 return None

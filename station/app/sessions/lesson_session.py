@@ -7,17 +7,20 @@ result when the session is over. Where the tempo follows the student, each pass 
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from station.app.engine_client import EngineClient
 from station.app.room_state import PlaceNow, RoomState, ShownResult, Stage
 from station.app.sessions.phase_following import PhaseFollowing
 from station.app.sessions.session_preparation import PreparedSession
+from station.app.sessions.shown_result import SavedSession, shown_result
 from station.core.errors import DeviceError, StationError
 from station.core.events import Hit, StickPose
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
+from station.drills.exam.rubric import Marks
 from station.engine.messages import Command, EngineEvent
+from station.practice.exam.exam_take import exam_runner
 from station.practice.headless.live import begin, end
 from station.practice.records.previous_session import find_previous
 from station.practice.records.save_session import SessionFolder, SessionRecord, save
@@ -30,24 +33,11 @@ from station.practice.session.session_place import place_of
 from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
-from station.scenes.heat_map import heat_map
-from station.scenes.hit_table import every_hit
-from station.scenes.result_tables import session_facts
 from station.scenes.session_scene import SessionView
-from station.scenes.wrong_pads import wrong_pads
 from station.sound.track import PreparedTrack
 from station.sync.drill.drummed_model import is_soon_made
 
 PAUSED = "Paused: two kicks, or Go on"
-
-
-@dataclass(frozen=True, eq=False)
-class SavedSession:
-    """What a session that is over leaves: its `result`, the `report` of it, and what went wrong, if anything did."""
-
-    result: SessionResult
-    report: ShownResult
-    fault: StationError | None
 
 
 def _say_nothing(_: str) -> None:
@@ -71,11 +61,20 @@ class LessonSession:
     ) -> None:
         self._engine, self._demonstrator, self._notify = engine, demonstrator, notify
         self._followed = laid.followed
-        self._runner = SessionRunner(laid.plan if laid.followed is None else laid.followed.adaptation, latency)
-        self.view: SessionView = SessionView(self.plan, demonstrator, None if before is None else before.view)
+        self.sitting = laid.sitting
+        """The exam that it is the take of, None for practice."""
+        asked = laid.plan if laid.followed is None else laid.followed.adaptation
+        self._runner = SessionRunner(asked, latency) if laid.sitting is None else exam_runner(asked, latency)
+        seen = None if before is None else before.view
+        self.view: SessionView = SessionView(self.plan, demonstrator, seen, demonstrates=laid.sitting is None)
         self._folder: SessionFolder | None = None
         self._following: PhaseFollowing | None = None
         self._leads = False  # whether the drummer goes by the student's phase
+
+    @property
+    def follows_student(self) -> bool:
+        """Whether tempo and bars follow the student from pass to pass."""
+        return self._followed is not None
 
     @property
     def session(self) -> Session:
@@ -89,8 +88,9 @@ class LessonSession:
 
     def begin(self, settings: Settings, track: PreparedTrack | None) -> None:
         """Start the transport and the capture; raises `StationError`, and leaves nothing behind then."""
-        folder = SessionFolder.make(None, settings, self.plan.lesson.name)
-        self.session.backing, self.session.waits = track, settings.auto_pause
+        sitting = self.sitting
+        folder = SessionFolder.make(None, settings, self.plan.lesson.name) if sitting is None else sitting.folder
+        self.session.backing, self.session.waits = track, settings.auto_pause and sitting is None
         try:
             begin(self._engine, self._runner, folder.capture)
         except StationError:
@@ -98,7 +98,7 @@ class LessonSession:
             raise
         self._folder = folder
         self.view.make_ahead()
-        self._leads = settings.follow_phase
+        self._leads = settings.follow_phase and sitting is None
         if self._leads:
             self._following = PhaseFollowing(self._engine, self._runner, self._notify, settings.sound_phase)
 
@@ -119,7 +119,7 @@ class LessonSession:
     def _may_track(self, event: EngineEvent) -> bool:
         """Whether sticks are there, and tracked neither yet nor in vain."""
         is_stick = self._following is None and self._folder is not None and isinstance(event, StickPose)
-        return is_stick and is_soon_made(self.plan.section)
+        return is_stick and not self.plan.steps and is_soon_made(self.plan.section)
 
     def advance(self, now_ns: int) -> bool:
         """Move on, or wait for a student who has stopped; returns whether the session is over."""
@@ -169,8 +169,9 @@ class LessonSession:
         return self.session.paused
 
     def hold(self, command: Sequence[Hit] = ()) -> None:
-        """Pause; `command` are the strokes that asked for it, where some did."""
-        self._follow(self._runner.pause(command), 0)
+        """Pause; `command` are the strokes that asked for it, where some did. An exam goes on."""
+        if self.sitting is None:
+            self._follow(self._runner.pause(command), 0)
 
     def go_on(self) -> None:
         """Out of a pause."""
@@ -183,8 +184,8 @@ class LessonSession:
         return self.view.snapshot(self.session, now_ns, PAUSED if self.paused else "")
 
     def curves(self) -> ScoreCurves | None:
-        """What the graph shows of it."""
-        return self.view.curves(self.session)
+        """What the graph shows of it, nothing of an exam."""
+        return self.view.curves(self.session) if self.sitting is None else None
 
     def move_as(self, demonstrator: Demonstrator, hands_stay: bool) -> None:
         """Let `demonstrator` demonstrate from now on."""
@@ -208,7 +209,7 @@ class LessonSession:
             progress=progress,
             why=self.session.message,
             can_veto=adaptation is not None and bool(adaptation.rounds) and state.segment.phase is Phase.COUNT_IN,
-            can_pause=room.stage is Stage.PLAYING and self.session.can_pause,
+            can_pause=room.stage is Stage.PLAYING and self.session.can_pause and self.sitting is None,
             paused=self.paused,
             clock=clock,
         )
@@ -223,16 +224,20 @@ class LessonSession:
         assert self._folder is not None, "it was begun"
         result = self._runner.finish()
         saved = save(self._folder, result, practice_document(result, settings), self._followed)
-        return SavedSession(result, self._report(saved, self._folder), saved.fault or fault)
+        marks, refused = self._marked(result)
+        return SavedSession(result, self._report(saved, self._folder), saved.fault or refused or fault, marks)
+
+    def _marked(self, result: SessionResult) -> tuple[Marks | None, StationError | None]:
+        """The marks of an exam, kept, and what the disk refused; nothing of practice."""
+        if self.sitting is None:
+            return None, None
+        marks = self.sitting.marks(result)
+        try:
+            self.sitting.keep(marks)
+        except StationError as refused:
+            return marks, refused
+        return marks, None
 
     def _report(self, saved: SessionRecord, folder: SessionFolder) -> ShownResult:
-        result = saved.result
-        return ShownResult(
-            session_facts(result, saved.document),
-            saved.document,
-            str(folder.path),
-            heat_map(result),
-            every_hit(result),
-            find_previous(folder.path, self.plan.lesson.name),
-            wrong_pads(result),
-        )
+        before = find_previous(folder.path, self.plan.lesson.name)
+        return shown_result(saved.result, saved.document, str(folder.path), before)

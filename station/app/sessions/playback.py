@@ -1,5 +1,6 @@
 """What sounds between sessions: a take, a bar, the demonstration. One thing at a time, and no track with it."""
 
+from collections.abc import Callable
 from contextlib import suppress
 
 from station.app.engine_client import EngineClient
@@ -9,11 +10,12 @@ from station.practice.session.cues.listening import Listening
 
 
 class Playback:
-    """The one thing that is heard now; `has_tracks` where sessions may play along to one."""
+    """The one thing that is heard now; `has_tracks` says whether a session may have played along to one."""
 
-    def __init__(self, engine: EngineClient, has_tracks: bool) -> None:
+    def __init__(self, engine: EngineClient, has_tracks: Callable[[], bool]) -> None:
         self._engine, self._has_tracks = engine, has_tracks
         self._heard: Listening | None = None
+        self._has_heard_track = False
 
     @property
     def hears(self) -> bool:
@@ -31,6 +33,7 @@ class Playback:
         for command in listening.start():
             self._engine.send(command)
         self._heard = listening
+        self._has_heard_track |= listening.track is not None
 
     def quiet(self) -> None:
         """End what is heard; a dead engine is quiet."""
@@ -46,7 +49,7 @@ class Playback:
 
     def without_track(self) -> None:
         """Let no track sound with what comes, for one does whenever the transport runs; raises `DeviceError`."""
-        if self._has_tracks:
+        if self._has_heard_track or self._has_tracks():
             self._engine.send(SetBacking(None))
 
     def demonstrate(self, command: Command) -> None:

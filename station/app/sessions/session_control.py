@@ -4,6 +4,8 @@ Only one thing sounds at a time: whoever begins something ends what runs before.
 """
 
 from collections.abc import Callable
+from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, assert_never
@@ -18,13 +20,20 @@ from station.app.sessions.free_session import FreeSession
 from station.app.sessions.lesson_session import LessonSession
 from station.app.sessions.playback import Playback
 from station.app.sessions.session_preparation import PreparedSession, SessionPreparation
+from station.app.sessions.shown_result import SavedSession
 from station.app.settings.settings_store import SettingsStore
-from station.core.errors import DeviceError
+from station.core.errors import DeviceError, StationError
+from station.core.events import Hit
 from station.core.measured_latency import StoredCalibration
 from station.core.units import NS_PER_S
-from station.engine.messages import EngineEvent, Started
+from station.drills.exam.exam_piece import ExamPiece
+from station.drills.lesson import Lesson
+from station.engine.messages import Command, EngineEvent, Started
 from station.motion.sticking.hand_notes import Hands
+from station.practice.exam.exam_sitting import Sitting
+from station.practice.exam.exam_take import exam_plan
 from station.practice.records.session_files import CAPTURE_NAME
+from station.practice.session.cues.click_pattern import ClickPattern
 from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency, latency_of
 from station.practice.session.leading_hand import hands_of
@@ -54,6 +63,15 @@ class Launch:
     backing: "BackingRequest | None" = None
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class RecordingLine:
+    """What a recording needs: where its commands go, what clicks, how late devices are."""
+
+    send: Callable[[Command], None]
+    click: ClickPattern
+    latency: Latency
+
+
 class SessionControl:
     """What is practised by the settings of `store`, as `launch` begins; `notify` hears what a user should read."""
 
@@ -64,6 +82,7 @@ class SessionControl:
         launch: Launch,
         demonstrator: Demonstrator,
         notify: Callable[[str], None],
+        maker: Executor | None = None,
     ) -> None:
         self._engine, self._store, self._notify = engine, store, notify
         plan = launch.plan
@@ -72,12 +91,16 @@ class SessionControl:
         self._prepared = SessionPreparation(store, launch.backing)
         self.catalog = Catalog(store, plan.lesson, notify)
         session = LessonSession(engine, PreparedSession(plan), demonstrator, latency, notify)
+        self._make_ahead(session)
         self.practice = CurrentPractice(engine, store, session, FreeSession(store, latency), notify)
-        self._playback = Playback(engine, self._prepared.has_tracks)
+        self._playback = Playback(engine, lambda: self._prepared.has_tracks)
         self.player = DemoPlayer(
-            self._playback.demonstrate, self._prepared.watched(plan.lesson, plan.kit), demonstrator
+            self._playback.demonstrate, self._prepared.watched(plan.lesson, plan.kit), demonstrator, maker
         )
+        self.rehearses = False
+        """Whether the demonstration alone is shown: its lesson is being written."""
         self._heard_ns: int | None = None
+        self._waiting: LessonSession | None = None  # it begins once its track is ready
 
     # --- what is shown -----------------------------------------------------------------------------------------------
 
@@ -89,7 +112,7 @@ class SessionControl:
     def snapshot(self, now_ns: int) -> Snapshot:
         """The picture at `now_ns`."""
         practice = self.practice
-        if not practice.is_free and practice.stage is Stage.IDLE and self.player.is_shown:
+        if not practice.is_free and practice.stage is Stage.IDLE and (self.player.is_shown or self.rehearses):
             return self.player.snapshot()
         return practice.snapshot(now_ns, self._heard_ns, self._playback.hears)
 
@@ -135,11 +158,14 @@ class SessionControl:
 
     def died(self) -> None:
         """The engine has ended: what was played is kept."""
+        self._waiting = None
         self._playback.forget()
         self.practice.end()
 
     def advance(self, now_ns: int) -> None:
-        """Move on; what is over ends."""
+        """Move on; what is over ends, what waited for its track begins. Raises `StationError` where that fails."""
+        if self._waiting is not None:
+            self._begin(self._waiting)
         self._heard_ns = self._playback.advance(now_ns)
         self.practice.advance(now_ns)
         if not self.practice.is_free:
@@ -151,6 +177,7 @@ class SessionControl:
         """Do what the user asks; raises `StationError`."""
         match action:
             case EndSession():
+                self._waiting = None
                 self.practice.end()
             case Veto():
                 if self.room().can_veto:
@@ -171,9 +198,13 @@ class SessionControl:
 
     def preview(self, request: SessionRequest | None) -> None:
         """Show a lesson, its bars on the player, or the kit alone, to just play; raises `StationError`."""
+        self._waiting = None
         self._playback.quiet()
+        self.rehearses = False
         session = None if request is None else self._laid_out(request)
         self.practice.show(session)
+        if session is not None:
+            self._make_ahead(session)
         if request is None or session is None:
             self.player.halt()
         else:
@@ -181,15 +212,75 @@ class SessionControl:
                 self._prepared.watched(self.catalog.lesson(request.lesson), session.plan.kit), request.bars
             )
 
+    def rehearse(self, lesson: Lesson | None, bars: tuple[int, int] | None) -> None:
+        """Demonstrate a lesson that is being written from where the player is, `bars` (from 1) repeated, None for all.
+
+        Where there is no music yet the kit alone is shown. Raises `BadInput` for a kit or a click that is none.
+        """
+        self._waiting = None
+        self._playback.quiet()
+        self.rehearses = True
+        if lesson is None:
+            self.player.halt()
+            self.practice.show(None)
+            return
+        self.practice.show(self.practice.session)
+        self.player.revise(self._prepared.rehearsed(lesson), bars or (1, lesson.played_once.bar_count))
+
+    def record(self) -> RecordingLine:
+        """Let all be quiet for a recording of a lesson that is being written; raises `StationError`."""
+        self._make_room()
+        self._playback.without_track()
+        return RecordingLine(self._engine.send, self._prepared.click(), self._latency)
+
     def start(self, request: SessionRequest) -> None:
-        """Begin a session, ending what runs; wakes a new engine if the old has ended. Raises `StationError`."""
+        """Begin a session, ending what runs; wakes a new engine if the old has ended. Raises `StationError`.
+
+        Where its track is still being made ready, it begins by itself as soon as that is done.
+        """
         self.catalog.learnt()
         session = self._laid_out(request)
         self._make_room()
-        track = None if request.adapt else self._prepared.track(session.plan, self._engine.rate_hz)
+        self._begin(session)
+        if self._waiting is not None:
+            self._notify("the band's sound is being made ready for this tempo: it begins by itself")
+
+    def _make_ahead(self, session: LessonSession) -> None:
+        """Begin to make the band's sound ready; whoever starts the session is told of its faults."""
+        if session.plan.lesson.band is not None:
+            with suppress(StationError):
+                self._prepared.track(session.plan, self._engine.rate_hz)
+
+    def _takes_track(self, session: LessonSession) -> bool:
+        return not session.follows_student and self._prepared.needs_track(session.plan)
+
+    def _begin(self, session: LessonSession) -> None:
+        """Begin the session, or wait for its track; raises `StationError`, and waits no more then."""
+        self._waiting, track = None, None
+        if not self._takes_track(session):
+            self._playback.without_track()
+        elif (track := self._prepared.track(session.plan, self._engine.rate_hz)) is None:
+            self._waiting = session
+            return
+        else:
+            self._playback.quiet()
+            self.player.halt()
+        self.practice.begin(session, track)
+
+    def look(self) -> None:
+        """Show the kit alone, to try what of an exam's piece one likes, and be quiet; raises `StationError`."""
+        self._make_room()
+        self.preview(None)
+
+    def examine(self, piece: ExamPiece, sitting: Sitting | None = None) -> None:
+        """Begin the one take of an exam, `sitting` where its piece was looked at; raises `StationError`."""
+        plan = exam_plan(piece, self._store.now) if sitting is None else sitting.plan
+        self._make_room()
+        track = None if plan.lesson.band is None else self._prepared.track(plan, self._engine.rate_hz)
         if track is None:
             self._playback.without_track()
-        self.practice.begin(session, track)
+        sitting = sitting or Sitting.begin(piece, self._store.now)
+        self.practice.begin(self._new_session(PreparedSession(sitting.plan, sitting=sitting)), track)
 
     def just_play(self, request: FreeRequest) -> None:
         """Begin a free take, ending what runs; raises `StationError`."""
@@ -214,9 +305,22 @@ class SessionControl:
         """Whether that is what sounds."""
         return self._playback.is_hearing(listening)
 
+    def heard_ns(self, stroke: Hit) -> int:
+        """When what was heard with a stroke left the station, by what is known of the kit's and the output's delay."""
+        played_ns = stroke.at_ns - self._latency.of_stroke(stroke.device, stroke.piece)
+        return played_ns - self._latency.of_output(self._engine.sound)
+
     def quiet(self) -> None:
         """End what is heard."""
         self._playback.quiet()
+
+    def look_at(self, saved: SavedSession) -> None:
+        """Show a result that a student has sent; raises `DeviceError` while somebody plays."""
+        if self.practice.is_playing:
+            raise DeviceError("end the session first: the take that you open comes in its place")
+        self._playback.quiet()
+        self.player.halt()
+        self.practice.look_at(saved)
 
     def dismiss(self) -> None:
         """The result was read: back to the lessons."""
@@ -253,6 +357,7 @@ class SessionControl:
 
     def _make_room(self) -> None:
         """End what runs or sounds, and have an engine; raises `DeviceError`."""
+        self._waiting = None
         self._playback.quiet()
         self.player.halt()
         self.practice.end()

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from station.app.music_files.named_parts import existing, is_lesson, load_part
 from station.app.music_files.read_captures import begins_as_capture, performance_of_capture
 from station.cli.options.option_fields import unread
-from station.core.counts import is_count
 from station.core.errors import BadInput
 from station.music.formats.smf.midi_part import MIDI
 from station.music.performance import Performance
@@ -17,7 +16,7 @@ from station.music.score import Score
 if TYPE_CHECKING:
     from station.motion.kit.kit import Kit
     from station.motion.sticking.hand_notes import Hands
-    from station.practice.session.cues.click_pattern import Gap
+    from station.practice.session.cues.quiet_bars import QuietBars
     from station.scenes.score_words import ScoreWords
 
 MIDI_ENDINGS = MIDI.endings
@@ -94,11 +93,11 @@ def _performance_of_capture(path: Path) -> Performance:
     return performance_of_capture(path)
 
 
-def bars_of_gap(text: str) -> Gap:
-    """`2/1`: two bars with a click, one without; raises `ArgumentTypeError` for anything else."""
-    from station.practice.session.cues.click_pattern import Gap
+def bars_of_gap(text: str) -> QuietBars:
+    """`2/1`: two bars with a click, one without; `random` …; raises `ArgumentTypeError` for anything else."""
+    from station.practice.session.cues.quiet_bars import EXPECTED, gap_of
 
-    sounding, _, quiet = text.partition("/")
-    if not (is_count(sounding) and is_count(quiet) and int(sounding) and int(quiet)):
-        raise unread("bars with and without a click such as 2/1", text)
-    return Gap(int(sounding), int(quiet))
+    try:
+        return gap_of(text)
+    except BadInput:
+        raise unread(EXPECTED, text) from None

@@ -1,13 +1,9 @@
 """`--tempo tap`: the tempo that is tapped on the Enter key before a session."""
 
-import queue
-import sys
-import threading
-from collections.abc import Callable
 from typing import Final
 
 from station.cli.console import say
-from station.core.clock import monotonic_ns
+from station.cli.input.enter_keys import NextEnter, enter_keys
 from station.core.errors import BadInput
 from station.core.units import NS_PER_S
 from station.practice.control.tap_tempo import PAUSE_NS, TapTempo
@@ -17,8 +13,6 @@ LEAST_TAPS = 4
 """Fewer say too little (our choice: a bar of four)."""
 DONE_AFTER_S = 2.0
 """Whoever taps no more for so long has tapped enough (our choice: slower than 30 a minute nobody taps)."""
-NextTap = Callable[[float], int | None]
-"""Waits up to so many seconds for a tap; its session time, None where none came. Raises `EOFError` after the last."""
 
 
 def tapped_tempo(beat_quarters: float) -> float:
@@ -27,12 +21,12 @@ def tapped_tempo(beat_quarters: float) -> float:
     Raises `BadInput` where there is nobody who taps.
     """
     say(f"tap the tempo: Enter on every beat, {LEAST_TAPS} times or more; it goes on when you stop")
-    tempo_bpm = tempo_of(_enter_keys()) * beat_quarters
+    tempo_bpm = tempo_of(enter_keys()) * beat_quarters
     say(f"{tempo_bpm:.0f} quarter notes a minute")
     return tempo_bpm
 
 
-def tempo_of(next_tap: NextTap) -> float:
+def tempo_of(next_tap: NextEnter) -> float:
     """The beats a minute that the taps mean; raises `BadInput` where they end before there are enough."""
     taps, count = TapTempo(), 0
     while True:
@@ -47,26 +41,3 @@ def tempo_of(next_tap: NextTap) -> float:
             return taps.bpm
         else:
             count = 0
-
-
-def _enter_keys() -> NextTap:
-    """Enter as it is pressed; read in a thread, for a line cannot be awaited for a time on every system."""
-    pressed: queue.SimpleQueue[int | None] = queue.SimpleQueue()
-
-    def listen() -> None:
-        for _ in sys.stdin or ():  # there may be no standard input
-            pressed.put(monotonic_ns())
-        pressed.put(None)
-
-    threading.Thread(target=listen, name="taps", daemon=True).start()
-
-    def next_tap(wait_s: float) -> int | None:
-        try:
-            at_ns = pressed.get(timeout=wait_s)
-        except queue.Empty:
-            return None
-        if at_ns is None:
-            raise EOFError
-        return at_ns
-
-    return next_tap

@@ -26,6 +26,7 @@ class SoundOptions:
     click: str | None = choice({name: name for name in TIMBRES}, "how a click sounds", None, name="--click-sound")
     levels: str | None = option("LEVELS", LEVELS_HELP, str, None)
     guide: bool | None = switch("the demonstration plays along in the passes too")
+    band_drums: bool | None = switch("hear the drums of a song's own recording (--no-…: their stems are left out)")
     midi_out: str | None = option(
         "PORT", "send the demonstration to the MIDI output whose name contains this", str, None
     )

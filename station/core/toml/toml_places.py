@@ -15,6 +15,9 @@ KeyPath = tuple[str | int, ...]
 _BLANK = re.compile(r"(?:[ \t\n]|#[^\n]*)*")
 _BARE_KEY = re.compile(r"[A-Za-z0-9_-]+")
 _BARE_VALUE = re.compile(r"[^,\]}\n#]+")
+_BARE_LIST = re.compile(r"""\[[^\]\["'{}#]*\]""")
+"""A list of nothing but numbers, dates and truths, which may be hundreds of thousands: told apart at once."""
+_BARE_ENTRY = re.compile(r"[^,\s](?:[^,\n]*[^,\s])?")
 _FOLD = re.compile(r"\\[ \t]*\n[ \t\n]*")
 _PLAIN_STRING = re.compile(r""""[^"\\\n]+"|'[^'\n]+'""")
 """A string in one row without an escape, as nearly all are: where its letters are is said at once."""
@@ -79,10 +82,14 @@ class _FoundError(Exception):
         self.offset, self.value = offset, value
 
 
+def _nothing(_: str) -> bool:
+    return False
+
+
 class _Scanner:
     """Walks the text once and fills `Places`; stops at a bare value that is `wanted`."""
 
-    def __init__(self, places: Places, wanted: Callable[[str], bool] = lambda _: False) -> None:
+    def __init__(self, places: Places, wanted: Callable[[str], bool] = _nothing) -> None:
         self.places = places
         self.text = places.text
         self.wanted = wanted
@@ -164,6 +171,9 @@ class _Scanner:
         self.places.ends[path] = self.at
 
     def _list(self, path: KeyPath) -> None:
+        if bare := _BARE_LIST.match(self.text, self.at):
+            self._bare_list(path, bare.end())
+            return
         self.at += 1
         index = 0
         while self._skip_blank() and not self._peek("]"):
@@ -172,6 +182,17 @@ class _Scanner:
             self._skip_blank()
             self.at += self._peek(",")
         self.at += 1
+
+    def _bare_list(self, path: KeyPath, end: int) -> None:
+        """The entries of a list up to `end` of which each is a bare value."""
+        spans = [entry.span() for entry in _BARE_ENTRY.finditer(self.text, self.at + 1, end - 1)]
+        for start, stop in spans if self.wanted is not _nothing else ():
+            if self.wanted(self.text[start:stop]):
+                raise _FoundError(start, self.text[start:stop])
+        paths = [(*path, index) for index in range(len(spans))]
+        self.places.values.update(zip(paths, [start for start, _ in spans], strict=True))
+        self.places.ends.update(zip(paths, [stop for _, stop in spans], strict=True))
+        self.at = end
 
     def _inline_table(self, path: KeyPath) -> None:
         self.at += 1

@@ -25,7 +25,8 @@ _MOST_KEYS = 100
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 _KEY = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')"""
 _ENDLESS_KEY = re.compile(rf"(?:^[ \t]*+\[?+\[?+|[{{,])[ \t]*+(?:{_KEY}[ \t]*+\.[ \t]*+){{{_MOST_KEYS}}}", re.MULTILINE)
-_WHOLE = re.compile(r"[+-]?[0-9_]+\s*")
+_WHOLE = re.compile(r"[+-]?[0-9_]++(?!\.[0-9]|[eE][+-]?[0-9])")
+"""How a value begins that `tomllib` reads as a whole number, whatever follows it on the line."""
 
 _NO_KEY = "Invalid initial character for a key part"
 _PLAIN_WORDS = (
@@ -181,12 +182,14 @@ def _last_of(fault: SyntaxFault, lines: list[str]) -> int:
 def _too_long(text: str) -> SyntaxFault:
     """The first number that has more digits than Python reads."""
     most = sys.get_int_max_str_digits()
-    at, number = first_value(text, lambda value: _WHOLE.fullmatch(value) is not None and _digits(value) > most)
-    return *_end(text[:at]), f"a number of {_digits(number)} digits; no number here is as long"
+    at, value = first_value(text, lambda value: _digits(value) > most)
+    return *_end(text[:at]), f"a number of {_digits(value)} digits; no number here is as long"
 
 
-def _digits(number: str) -> int:
-    return sum(map(str.isdecimal, number))
+def _digits(value: str) -> int:
+    """How many digits the whole number has with which a value begins; 0 where it begins with none."""
+    number = _WHOLE.match(value)
+    return 0 if number is None else sum(map(str.isdecimal, number[0]))
 
 
 def _end(text: str) -> tuple[int, int]:

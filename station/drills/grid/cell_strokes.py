@@ -82,7 +82,7 @@ class WrittenCell:
     """One letter of a line.
 
     `middle` is where a diddle's second stroke falls; `until` where a buzz roll ends or a cymbal is grabbed; `gain`
-    multiplies the velocities of its settings.
+    multiplies the velocities of its settings; `late_ms` is its own timing.
     """
 
     place: CellPlace
@@ -95,6 +95,7 @@ class WrittenCell:
     until: CellPlace | None = None
     settings: StrokeSettings = _USUAL_SETTINGS
     gain: float = 1.0
+    late_ms: float = 0.0
 
     @property
     def is_open_roll(self) -> bool:
@@ -114,6 +115,7 @@ class WrittenCell:
             *(self.place, self.middle, self.length_ticks, self.piece, self.letter, self.limb, self.origin, self.until),
             settings=settings,
             gain=gain,
+            late_ms=self.late_ms,
         )
 
     def played_by(self, limb: Limb) -> "WrittenCell":
@@ -122,6 +124,7 @@ class WrittenCell:
             *(self.place, self.middle, self.length_ticks, self.piece, self.letter, limb, self.origin, self.until),
             settings=self.settings,
             gain=self.gain,
+            late_ms=self.late_ms,
         )
 
     def velocity(self, dynamic: Dynamic) -> int:
@@ -302,6 +305,7 @@ def _row(
         "dynamic": letter.dynamic,
         "ornament": ornament,
         "limb": stroke.limb,
+        "late_ms": stroke.late_ms,
         **more,
     }
     return tuple(values.values())

@@ -14,6 +14,7 @@ quarter note exactly.
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import accumulate, pairwise
 
 from station.core.units import PPQ
@@ -87,19 +88,95 @@ def parse_line(text: str, frames: Sequence[GridFrame], report: Report) -> list[B
 
     Faults go to `report`, and a faulty bar keeps its place as an empty one.
     """
+    bars, faults = _line(text, tuple(frames)) if len(text) <= _LONGEST_KEPT else _read(text, frames)
+    for char, words in faults:
+        report(char, words)
+    return list(bars)
+
+
+_KEPT_LINES, _KEPT_BARS = 64, 4096
+"""Lines and bars that are kept as they were read: those of a long lesson, which is read anew after each edit."""
+_LONGEST_KEPT = 4000
+"""Letters of a line that is kept: all lines that are kept take some 50 MB at most (our choice)."""
+
+_Read = tuple[tuple[Bar, ...], tuple[tuple[int, str], ...]]
+"""The bars of a line, and its faults as `Report` takes them."""
+
+
+@lru_cache(maxsize=_KEPT_LINES)
+def _line(text: str, frames: tuple[GridFrame, ...]) -> _Read:
+    return _read(text, frames)
+
+
+def _read(text: str, frames: Sequence[GridFrame]) -> _Read:
     bars: list[Bar] = []
-    for start, end in _bar_spans(text):
-        word = text[start:end].strip()
-        repeat = _REPEAT.match(word)
-        if repeat:
-            bars += _repeated(bars, repeat.group(1), _first(text, start), frames, report)
+    faults: list[tuple[int, str]] = []
+    for word in bar_words(text):
+        if word.repeats is not None:
+            bars += _repeated(bars, word, frames, lambda char, words: faults.append((char, words)))
             continue
         try:
-            bars.append(_parse_bar(text, start, end, frames[len(bars) % len(frames)]))
+            bars.append(_bar(text, word.start, word.end, frames[len(bars) % len(frames)]))
         except _BadBarError as fault:
-            report(fault.char, fault.text)
+            faults.append((fault.char, fault.text))
             bars.append(Bar((), sound=False))
-    return bars
+    return tuple(bars), tuple(faults)
+
+
+def _bar(text: str, start: int, end: int, frame: GridFrame) -> Bar:
+    """The bar that stands there, as it was read before where that was; raises `_BadBarError`."""
+    cells = _cells_alone(text[start:end], frame)
+    if cells is None:
+        return _parse_bar(text, start, end, frame)
+    return Bar(tuple(Cell(c.tick, c.length_ticks, c.letter, c.char + start, c.swings) for c in cells))
+
+
+@lru_cache(maxsize=_KEPT_BARS)
+def _cells_alone(word: str, frame: GridFrame) -> tuple[Cell, ...] | None:
+    """The cells of a bar, their `char` counted in `word`; None where it is at fault."""
+    try:
+        return _parse_bar(word, 0, len(word), frame).cells
+    except _BadBarError:
+        return None
+
+
+@dataclass(frozen=True, slots=True)
+class BarWord:
+    """What stands between two bar lines, from `start` to `end` with blanks; its `text` has none and begins at `first`.
+
+    `repeats` is the number of bars that a `%` stands for, None where a bar is written.
+    """
+
+    start: int
+    end: int
+    first: int
+    text: str
+    repeats: int | None = None
+
+    @property
+    def bars(self) -> int:
+        """How many bars it is in the line; a `%` that repeats too often is told as a fault, and is one."""
+        return self.repeats if self.repeats is not None and 1 <= self.repeats <= MAX_REPEATS else 1
+
+
+@lru_cache(maxsize=256)
+def bar_words(text: str) -> tuple[BarWord, ...]:
+    """The bars of a line as they are written, in order."""
+    return tuple(_bar_word(text, *span) for span in _bar_spans(text))
+
+
+def _bar_word(text: str, start: int, end: int) -> BarWord:
+    word = text[start:end].strip()
+    first = end - len(text[start:end].lstrip()) if word else start
+    repeat = _REPEAT.match(word)
+    return BarWord(start, end, first, word, int(repeat.group(1)[:9] or 1) if repeat else None)
+
+
+@lru_cache(maxsize=_KEPT_BARS)
+def bar_of(word: str, frame: GridFrame) -> Bar:
+    """A bar that stands alone, and whether it is sound; `char` of its cells counts in `word`."""
+    ((bar,), _) = _read(word, (frame,))
+    return bar
 
 
 def _bar_spans(text: str) -> list[tuple[int, int]]:
@@ -114,18 +191,13 @@ def _bar_spans(text: str) -> list[tuple[int, int]]:
     return spans
 
 
-def _first(text: str, start: int) -> int:
-    """Index of the first character from `start` that is not blank, or `start`."""
-    return next((i for i in range(start, len(text)) if not text[i].isspace()), start)
-
-
-def _repeated(bars: list[Bar], count: str, char: int, frames: Sequence[GridFrame], report: Report) -> list[Bar]:
-    times = min(int(count[:9] or 1), MAX_REPEATS + 1)
+def _repeated(bars: list[Bar], word: BarWord, frames: Sequence[GridFrame], report: Report) -> list[Bar]:
+    times, char = min(word.repeats or 0, MAX_REPEATS + 1), word.first
     if not bars:
         report(char, "% repeats the bar before it, and there is none; expected a written bar")
         return [Bar((), sound=False)]
     if not 1 <= times <= MAX_REPEATS:
-        report(char, f"%{count}: a bar is repeated 1 to {MAX_REPEATS} times")
+        report(char, f"{word.text}: a bar is repeated 1 to {MAX_REPEATS} times")
         return [Bar((), sound=False)]
     meters = [frames[i % len(frames)].meter for i in range(len(bars) - 1, len(bars) + times)]
     other = next((meter for meter in meters if meter != meters[0]), None)

@@ -1,7 +1,7 @@
 """The lines of a table: which piece and limb each is for, and its text as it stands in the file."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from station.core.expected import LINE, expects, later
@@ -11,15 +11,17 @@ from station.core.toml.toml_faults import Faults, wrong
 from station.core.toml.toml_places import KeyPath
 from station.drills.grid.cell_strokes import GridLine
 from station.drills.grid.sticking_line import STICKING
+from station.drills.grid.stroke_timing import STROKE_TIMING, LineTiming, line_timings
 from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
 
 
 @dataclass(frozen=True, slots=True)
 class RawLine:
-    """A line and its text."""
+    """A line, its text, and how it was played where the grid says that."""
 
     line: GridLine
     text: str
+    timing: LineTiming | None = None
 
 
 @expects(LINE)
@@ -83,7 +85,19 @@ def lines_of_table(values: Mapping[str, Any], path: KeyPath, faults: Faults) -> 
             if own[key] is not None
         ]
     _no_twins(found, len(path), faults)
-    return found
+    return _with_timing(found, values.get(STROKE_TIMING), path, faults)
+
+
+def _with_timing(
+    lines: list[RawLine], table: Mapping[str, object] | None, path: KeyPath, faults: Faults
+) -> list[RawLine]:
+    """The lines of the table at `path` with what its `timing` says of them; a fault for a line that is not there."""
+    timings = line_timings(table, path)
+    timed = [replace(raw, timing=timings.pop((raw.line.piece, raw.line.limb), None)) for raw in lines]
+    for timing in timings.values():
+        text = f"the grid has no line {'.'.join(map(str, timing.path[len(path) + 1 :]))} whose timing this could be"
+        faults.add(timing.path[len(path) :], text, at_key=True)
+    return timed
 
 
 def plain_line(values: Mapping[str, Any], key: str, path: KeyPath) -> RawLine | None:

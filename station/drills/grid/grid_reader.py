@@ -5,7 +5,18 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from station.core.expected import either_of, later, list_like
-from station.core.toml.schema import Field, Fields, anything, checked_values, number, optional, table_like, title, whole
+from station.core.toml.schema import (
+    Field,
+    Fields,
+    anything,
+    checked_values,
+    number,
+    optional,
+    said,
+    table_like,
+    title,
+    whole,
+)
 from station.core.toml.toml_faults import Faults
 from station.core.toml.toml_places import KeyPath
 from station.drills.grid.cell_strokes import BarClock, WrittenCell
@@ -16,6 +27,7 @@ from station.drills.grid.grid_timing import TIMING, GridTiming, timing_of
 from station.drills.grid.line_group import MAX_BARS, CellCount, ParsedLine, agreed_bars, joined_strokes, parsed
 from station.drills.grid.loudness_line import Loudness, read_loudness
 from station.drills.grid.sticking_line import STICKING
+from station.drills.grid.stroke_timing import STROKE_TIMING, STROKE_TIMINGS
 from station.music.loudness_marks import LoudnessMark
 from station.music.swing import STRAIGHT
 from station.music.tempo import MAX_BPM, MIN_BPM, MeterChange
@@ -79,6 +91,7 @@ GRID: Fields = {
     "bars": optional(whole(1, MAX_BARS)),
     LOUDNESS: optional(cells),
     **LINES,
+    STROKE_TIMING: optional(said(STROKE_TIMINGS, "line")),
     "cycle": optional(later(either_of(table_like(CYCLE), list_like(table_like(CYCLE))))),
 }
 """The keys of a grid."""

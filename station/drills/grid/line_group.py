@@ -9,6 +9,7 @@ from station.drills.grid.cell_strokes import BarClock, WrittenCell, line_strokes
 from station.drills.grid.grid import Bar, GridFrame, Report, parse_line
 from station.drills.grid.grid_lines import RawLine
 from station.drills.grid.sticking_line import apply_sticking
+from station.drills.grid.stroke_timing import timed
 
 MAX_BARS = 2000
 """Our choice: no lesson is an hour long; a longer one is a slip of the finger."""
@@ -102,6 +103,8 @@ def joined_strokes(
     strokes: list[WrittenCell] = []
     for line in lines:
         own = line_strokes(zip(starts, line.bars, strict=False), line.raw.line, clock, line.reporter(faults))
+        if line.raw.timing and line.aligned and not any(map(line.is_unsure, range(len(line.bars)))):
+            own = timed(own, line.raw.timing, str(line.raw.line.path[-1]), faults)
         strokes += own if line.aligned else []
     if under is None or not under.aligned:
         return strokes

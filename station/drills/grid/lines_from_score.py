@@ -12,14 +12,22 @@ from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.pieces import USUAL_FEET, Articulation, Limb, Ornament, Piece, word
-from station.drills.grid.grid_writer import GridMark, LineText
+from station.drills.grid.grid_writer import LineText
+from station.drills.grid.skeletons import GridMark
 from station.drills.grid.sticking_line import BOTH, HANDS, RIGHT_FIRST, STICKING
-from station.drills.grid.tab_symbols import ALIASES, BEYOND, LETTER_OF, LINE_ORDER, TabSymbol, family_of
+from station.drills.grid.tab_symbols import (
+    BEYOND,
+    LETTER_OF,
+    LINE_ORDER,
+    LINE_PIECES,
+    TabSymbol,
+    family_of,
+    key_of_piece,
+)
 from station.music.grace_strokes import Graces
 from station.music.score import Note, Score
 
 _HAND_LETTER = {limb: letter for letter, limb in HANDS.items()}
-_SHORT_NAME = {piece: name for name, piece in ALIASES.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +67,7 @@ class WrittenStroke:
             second=None if self.second_tick is None else self.second_tick - self.start,
             until=at + lasts if lasts else None,
             holds=is_buzz,
+            late_ms=_tidy_ms(note.late_ms),
         )
 
 
@@ -93,7 +102,7 @@ def lines_of(by_bar: Mapping[int, Sequence[WrittenStroke]], first_bar: int, last
             line.marks.setdefault(bar, []).append(stroke.mark)
     if sticking.marks:
         lines[STICKING] = sticking
-    return sorted(lines.values(), key=_height)
+    return sorted(lines.values(), key=lambda line: line_height(line.name))
 
 
 def graces_of(score: Score) -> Graces:
@@ -170,17 +179,16 @@ def _sticking_letter(hands: Sequence[WrittenStroke]) -> str:
 
 def _line_name(note: Note, *, said_below: bool) -> str:
     """`snare`, or `left_hand.snare` where neither custom nor the sticking line says the limb."""
-    name = _SHORT_NAME.get(note.piece, word(note.piece))
+    name = key_of_piece(note.piece)
     if said_below or note.limb in (Limb.UNKNOWN, USUAL_FEET.get(note.piece)):
         return name
     return f"{word(note.limb)}.{name}"
 
 
-def _height(line: LineText) -> tuple[int, str]:
-    """Where a line stands on the page; the sticking stands between hands and feet."""
-    name = line.name.rpartition(".")[2]
+def line_height(name: str) -> tuple[int, str]:
+    """Where the line of this name stands on the page, the top first; the signs stand between hands and feet."""
+    last = name.rpartition(".")[2]
     feet = LINE_ORDER.index(Piece.KICK)
-    if name == STICKING:
-        return 2 * feet - 1, name
-    piece = next(p for p in LINE_ORDER if name in (word(p), _SHORT_NAME.get(p)))
-    return 2 * LINE_ORDER.index(piece), line.name
+    if last not in LINE_PIECES:
+        return 2 * feet - 1, {STICKING: ""}.get(last, last)
+    return 2 * LINE_ORDER.index(LINE_PIECES[last]), name

@@ -93,7 +93,9 @@ def _events(bars: Iterable[tuple[int, Bar]], report: Report) -> list[_Event]:
     """The marks and hairpins in their order; of hairpins that touch only the first cell."""
     found: list[_Event] = []
     for start, bar in bars:
-        for run in _runs(bar.cells):
+        for run in letter_runs(bar.cells):
+            if run[0].letter in RESTS:
+                continue
             first, word = run[0], "".join(cell.letter for cell in run)
             if word in STICK_HEIGHTS_IN or word in _HAIRPINS:
                 found.append(_Event(start + first.tick, word, first.char))
@@ -102,15 +104,15 @@ def _events(bars: Iterable[tuple[int, Bar]], report: Report) -> list[_Event]:
     return found
 
 
-def _runs(cells: Sequence[Cell]) -> list[list[Cell]]:
-    """The cells of one bar that belong together: the letters of each mark, or one hairpin."""
+def letter_runs(cells: Sequence[Cell]) -> list[list[Cell]]:
+    """The cells of one bar that belong together: the letters of each mark; each rest and hairpin cell by itself."""
     runs: list[list[Cell]] = []
     before = RESTS
     for cell in cells:
         kind = RESTS if cell.letter in RESTS else cell.letter if cell.letter in _HAIRPINS else "letter"
         if kind == "letter" and before == kind:
             runs[-1].append(cell)
-        elif kind != RESTS:
+        else:
             runs.append([cell])
         before = kind
     return runs

@@ -51,7 +51,7 @@ def apply_sticking(
     by_tick: dict[int, list[WrittenCell]] = {}
     others: list[WrittenCell] = []
     for stroke in strokes:
-        if Limb(stroke.limb) in HANDS.values() or stroke.limb is Limb.UNKNOWN:
+        if is_of_a_hand(stroke):
             by_tick.setdefault(stroke.place.played, []).append(stroke)
         else:
             others.append(stroke)
@@ -69,6 +69,16 @@ def apply_sticking(
             elif not lacking:
                 by_tick[tick] = _with_hands(cell.letter, here)
     return [*others, *(s for here in by_tick.values() for s in here)]
+
+
+def is_of_a_hand(stroke: WrittenCell) -> bool:
+    """Whether a hand plays it, or may: the sticking line speaks of such strokes."""
+    return stroke.limb in HANDS.values() or stroke.limb is Limb.UNKNOWN
+
+
+def sign_fault(letter: str, here: Sequence[WrittenCell]) -> str:
+    """What is wrong with a letter under these strokes of hands, all of one moment; empty if nothing."""
+    return _fault(letter, here) or _lacking(letter, here)
 
 
 def _lacking(letter: str, here: Sequence[WrittenCell]) -> str:

@@ -154,6 +154,14 @@ ALIASES: Mapping[str, Piece] = MappingProxyType({"crash": Piece.CRASH_1, "floor_
 
 LINE_PIECES: Mapping[str, Piece] = MappingProxyType({**{word(p): p for p in Piece}, **ALIASES})
 
+_SHORT_NAMES: Mapping[Piece, str] = {piece: name for name, piece in ALIASES.items()}
+
+
+def key_of_piece(piece: Piece) -> str:
+    """The key of the piece's line, the shorter where there are two."""
+    return _SHORT_NAMES.get(piece, word(piece))
+
+
 LINE_ORDER: tuple[Piece, ...] = (
     Piece.CRASH_1,
     Piece.CRASH_2,

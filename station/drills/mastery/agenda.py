@@ -27,13 +27,38 @@ class Turn:
 class Ahead:
     """What a teacher has put beside the current item; None where there is nothing, or nothing that helps now.
 
-    `before` should have come first and is not mastered, where the student struggles; `after` is what the `course` that
-    they follow has next.
+    `before` should have come first and is not mastered, where the student struggles; `asked` is what a teacher wants
+    next, and `asked_why` until when; `after` is what the `course` that they follow has next.
     """
 
     before: PracticeItem | None = None
     after: PracticeItem | None = None
     course: str = ""
+    asked: PracticeItem | None = None
+    asked_why: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Waiting:
+    """What a student knows, in the order in which it has its turn: `due` for review, `fresh`, `settled`.
+
+    What is fresh is not stable yet. What was left for today is in neither of the last two.
+    """
+
+    due: tuple[ItemState, ...]
+    fresh: tuple[ItemState, ...]
+    settled: tuple[ItemState, ...]
+
+
+def waiting(
+    states: Sequence[ItemState], today: date, rules: Rules = DEFAULT_RULES, here: PracticeItem | None = None
+) -> Waiting:
+    """The `states` in turn, from those behind the item `here` on where they are equal."""
+    due = sorted((state for state in states if state.review.is_due(today)), key=_due)
+    rest = [state for state in states if state.step.kind is not PassKind.LEAVE or state.today < today]
+    turns = sorted(_from_here_on(here, rest), key=lambda state: state.today)
+    fresh = tuple(state for state in turns if not state.is_settled(rules))
+    return Waiting(tuple(due), fresh, tuple(state for state in turns if state.is_settled(rules)))
 
 
 ALONE = Ahead()
@@ -48,37 +73,39 @@ def next_turn(
     ahead: Ahead = ALONE,
 ) -> Turn:
     """What comes after a session on `current` for a student who also knows `others`, in any fixed order."""
-    if (pressing := _pressing(current, others, today, rules, ahead)) is not None:
+    turns = waiting(others, today, rules, current.item)
+    if (pressing := _pressing(current, turns, rules, ahead)) is not None:
         return pressing
-    rest = [state for state in others if state.step.kind is not PassKind.LEAVE or state.today < today]
-    rest = _from_current_on(current, rest)
-    fresh = [state for state in rest if not state.is_settled(rules)]
-    if fresh:
-        return Turn(_longest_ago(fresh).item, "it is not stable yet, and this one will do for now")
-    return _beyond(current, rest, rules, ahead)
+    if turns.fresh:
+        return Turn(turns.fresh[0].item, "it is not stable yet, and this one will do for now")
+    return _beyond(current, turns, rules, ahead)
 
 
-def _pressing(current: ItemState, others: Sequence[ItemState], today: date, rules: Rules, ahead: Ahead) -> Turn | None:
+def _pressing(current: ItemState, turns: Waiting, rules: Rules, ahead: Ahead) -> Turn | None:
     """What leaves no choice."""
-    due = [state for state in others if state.review.is_due(today)]
-    if due:
-        return Turn(min(due, key=_due).item, "it is due for review")
+    if turns.due:
+        return Turn(turns.due[0].item, "it is due for review")
     if ahead.before is not None:
         return Turn(ahead.before, "it comes before this one, and is not mastered yet")
+    if ahead.asked is not None:
+        return Turn(ahead.asked, ahead.asked_why)
     if not current.is_settled(rules) and current.step.kind is not PassKind.LEAVE:
         return Turn(current.item, "it is not stable yet, so stay with it")
     return None
 
 
-def _beyond(current: ItemState, rest: list[ItemState], rules: Rules, ahead: Ahead) -> Turn:
+def _beyond(current: ItemState, turns: Waiting, rules: Rules, ahead: Ahead) -> Turn:
     """What comes where nothing else was begun that is not stable."""
     is_settled = current.is_settled(rules)
     if is_settled and ahead.after is not None:
         return Turn(ahead.after, f"it comes next in {ahead.course}")
-    if rest:
-        return Turn(_longest_ago(rest).item, "all are stable: a few minutes each in turn make them last")
+    if turns.settled:
+        return Turn(turns.settled[0].item, KEPT_WHY)
     alone = "it is stable, and nothing else was begun: begin another lesson, and these will take turns"
     return Turn(current.item, alone if is_settled else "enough of it for today")
+
+
+KEPT_WHY = "all are stable: a few minutes each in turn make them last"
 
 
 def _due(state: ItemState) -> date:
@@ -86,13 +113,9 @@ def _due(state: ItemState) -> date:
     return state.review.due
 
 
-def _from_current_on(current: ItemState, others: list[ItemState]) -> list[ItemState]:
-    """`others` in the order of their names, those behind the current one first, so that turns go round."""
-    here = (current.item.name, current.item.bars)
+def _from_here_on(here: PracticeItem | None, states: Sequence[ItemState]) -> list[ItemState]:
+    """`states` in the order of their names, those behind the item `here` first, so that turns go round."""
+    place = ("", (-1, -1)) if here is None else (here.name, here.bars)
     return sorted(
-        others, key=lambda state: ((state.item.name, state.item.bars) < here, state.item.name, state.item.bars)
+        states, key=lambda state: ((state.item.name, state.item.bars) < place, state.item.name, state.item.bars)
     )
-
-
-def _longest_ago(states: list[ItemState]) -> ItemState:
-    return min(states, key=lambda state: state.today)

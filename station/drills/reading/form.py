@@ -17,6 +17,7 @@ from station.core.toml.toml_faults import Faults, Noted, wrong
 from station.core.toml.toml_places import KeyPath
 from station.drills.grid.grid_reader import MAX_TIMES
 from station.drills.grid.sticking_line import STICKING
+from station.drills.grid.stroke_timing import STROKE_TIMING
 from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
 
 LIKE, ENDING, AT, NAME, TIMES = "like", "ending", "at", "name", "times"
@@ -58,6 +59,11 @@ class WrittenGrid:
     repetitions: tuple[int, ...] = ()
     endings: dict[int, int] = field(default_factory=dict)
     """Of a grid that has endings: the index of the ending of each repetition."""
+
+    @property
+    def number(self) -> int:
+        """Which grid of the file it is, from 0."""
+        return next((key for key in self.path if isinstance(key, int)), 0)
 
     @property
     def is_ending(self) -> bool:
@@ -136,13 +142,34 @@ def _varied(model: Mapping[str, object], own: Mapping[str, object]) -> dict[str,
     A line that names no limb takes the place of all lines of its piece, one of a limb that of the same limb's, and of
     one that names none.
     """
-    plain = {LINE_PIECES[key] for key in own if key in LINE_PIECES}
-    by_limb = {limb: _pieces_of(own.get(limb)) for limb in LIMB_TABLES}
     kept = {key: value for key, value in model.items() if key not in _NOT_TAKEN_OVER}
-    merged = {**_without(kept, plain.union(*by_limb.values())), **own}
+    merged = _with_lines(_without_lines(kept, own), own)
+    if isinstance(of_model := model.get(STROKE_TIMING), dict):
+        of_own = own.get(STROKE_TIMING, {})
+        left = _without_lines(of_model, own)  # the timing of a line goes with it
+        merged[STROKE_TIMING] = (
+            _with_lines(_without_lines(left, of_own), of_own) if isinstance(of_own, dict) else of_own
+        )
+    return merged
+
+
+def _without_lines(model: Mapping[str, object], own: Mapping[str, object]) -> dict[str, object]:
+    """What is left of a model's lines where a variation has its `own`."""
+    plain = _pieces_of(own)
+    by_limb = {limb: _pieces_of(own.get(limb)) for limb in LIMB_TABLES}
+    left = _without(model, plain.union(*by_limb.values()))
     for limb, pieces in by_limb.items():
-        if isinstance(of_model := model.get(limb), dict) and isinstance(of_own := own.get(limb, {}), dict):
-            merged[limb] = {**_without(of_model, plain | pieces), **of_own}
+        if isinstance(of_model := model.get(limb), dict):
+            left[limb] = _without(of_model, plain | pieces)
+    return left
+
+
+def _with_lines(left: Mapping[str, object], own: Mapping[str, object]) -> dict[str, object]:
+    """A table with a variation's own keys, the tables of limbs put together."""
+    merged = {**left, **own}
+    for limb in LIMB_TABLES:
+        if isinstance(of_model := left.get(limb), dict) and isinstance(of_own := own.get(limb, {}), dict):
+            merged[limb] = {**of_model, **of_own}
     return merged
 
 
@@ -184,9 +211,9 @@ def _says(grid: WrittenGrid, path: KeyPath) -> bool:
 
 
 def _paths(raw: Mapping[str, object]) -> Iterator[KeyPath]:
-    """The keys of a grid's own table; those of a limb's table each by itself."""
+    """The keys of a grid's own table; those of a limb's table, and of the timing, each by itself."""
     for key, value in raw.items():
-        if key in LIMB_TABLES and isinstance(value, dict):
+        if key in (*LIMB_TABLES, STROKE_TIMING) and isinstance(value, dict):
             yield from ((key, line) for line in value)
         else:
             yield (key,)

@@ -22,39 +22,30 @@ from station.core.toml.schema import Reader, checked_values, read, reading, row_
 from station.core.toml.toml_faults import Fault, Faults, Wrong, wrong
 from station.core.toml.toml_source import MAX_FILE_BYTES, Source, source_of, text_source
 from station.core.units import PPQ
-from station.drills.grid.cell_strokes import Origin, WrittenCell, expand, parted
-from station.drills.grid.grid_reader import read_grid
+from station.drills.grid.cell_strokes import Origin, parted
 from station.drills.grid.grid_timing import GridTiming, timing_of
 from station.drills.grid.landing import read_landing
-from station.drills.grid.line_group import MAX_BARS, MAX_CELLS, CellCount
+from station.drills.grid.line_group import MAX_BARS
 from station.drills.lesson import Goals, Lesson
-from station.drills.reading.bar_cues import GridShape, read_cues
-from station.drills.reading.form import WrittenGrid, home_of, told_at_home, written_grids
+from station.drills.reading.form import WrittenGrid
 from station.drills.reading.form_order import played_order
 from station.drills.reading.lesson_fields import AS_THEY_ARE, DEFAULT_TIMING, FIELDS
+from station.drills.reading.lesson_music import note_silence, read_grids, score_of, written_of
 from station.drills.reading.misplaced_keys import sent_home
 from station.drills.reading.played_grids import (
     PlayedGrid,
     ReadGrid,
-    check_size,
     cues_of,
     laid_out,
-    meters_of,
     sections_of,
-    tempos_of,
 )
 from station.drills.reading.unplayable import note_unplayable
 from station.music.formats.format_table import is_music_file
 from station.music.formats.text_score import TEXT_ENDING
-from station.music.loudness_marks import joined_marks
-from station.music.score import NOTE_DTYPE, Score
+from station.music.score import NOTE_DTYPE
 from station.music.swing import triplets_spelled_out
-from station.music.tempo import TempoMap
 
 LANDING = "landing"
-MAX_CUES_WRITTEN = 1000
-"""Entries of `at` in all grids, those that variations take over too: one for every other bar of the longest lesson (our
-choice)."""
 _MIDI = b"MThd"
 """How a MIDI file begins."""
 
@@ -106,19 +97,19 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
     """The lesson that these values make; raises `Wrong` for their `faults` and all that is found on the way."""
     timing = timing_of(values, DEFAULT_TIMING, faults)
     before = len(faults)
-    written = [] if values["grid"] is None else _written(values["grid"], faults)
+    written = [] if values["grid"] is None else written_of(values["grid"], faults)
     no_grids: list[ReadGrid] = []
-    grids = faults.attempt(lambda _: _read_grids(written, timing, faults), written, no_grids)
+    grids = faults.attempt(lambda _: _grids(written, timing, faults), written, no_grids)
     order = played_order(values["form"], written, faults) if written else []
     nothing: list[PlayedGrid] = []
     played = faults.attempt(lambda _: laid_out(order, grids), grids, nothing) if grids else nothing
     are_sure = timing.is_sure and len(faults) == before  # else there may be more bars than could be read
     asked, beyond = parted(stroke for each in played for stroke in each.strokes)
-    score, origins = _score((asked, beyond), played, written, faults)
+    score, origins = score_of((asked, beyond), played, written, faults)
     landing, landing_origins = _landing(values[LANDING], timing, faults)
     lesson = Lesson(
         name=name,
-        score=replace(score, title=values["title"]),
+        score=replace(triplets_spelled_out(score), title=values["title"]),
         loop=_loop(values["loop"], score.bar_count if are_sure else MAX_BARS, faults),
         swing=played[0].grid.section.timing.swing if played else timing.swing,
         beat_ticks=timing.beat_ticks,
@@ -139,85 +130,11 @@ def _lesson(name: str, values: Mapping[str, Any], faults: Faults) -> Lesson:
 # --- the grids --------------------------------------------------------------------------------------------------------
 
 
-def _written(raw: object, faults: Faults) -> list[WrittenGrid]:
-    """The grids as the file has them; raises `Wrong` where there is more to read than anyone practises."""
-    if raw == []:
-        faults.add(("grid",), "no grid to play; expected a table [grid] with lines in it")
-    nothing: list[WrittenGrid] = []
-    grids = faults.attempt(lambda value: written_grids(value, faults), raw, nothing)
-    if (entries := sum(len(grid.at) for grid in grids if isinstance(grid.at, list))) > MAX_CUES_WRITTEN:
-        faults.add(("grid",), f"{entries} entries of at; a lesson has at most {MAX_CUES_WRITTEN}")
-        return []
-    if (cells := sum(_cell_count(grid.raw) for grid in grids)) > MAX_CELLS:
-        faults.add(("grid",), f"{cells} letters; a lesson has at most {MAX_CELLS}")
-        return []
+def _grids(written: Sequence[WrittenGrid], timing: GridTiming, faults: Faults) -> list[ReadGrid]:
+    """The grids, read; notes that nothing is to play in them."""
+    grids = read_grids(written, timing, faults)
+    note_silence(grids, faults)
     return grids
-
-
-def _cell_count(raw: object) -> int:
-    """The length of all texts in a raw value."""
-    if isinstance(raw, str):
-        return len(raw)
-    parts = raw.values() if isinstance(raw, dict) else raw if isinstance(raw, list) else ()
-    return sum(map(_cell_count, parts))
-
-
-def _read_grids(written: Sequence[WrittenGrid], timing: GridTiming, faults: Faults) -> list[ReadGrid]:
-    """The grids, each after what was said before it; raises `Wrong` where they are more than anyone practises."""
-    grids: list[ReadGrid] = []
-    bars = strokes = 0
-    cells = CellCount()
-    for each in written:
-        before = timing if not grids else grids[-1 if each.like is None else each.like].section.timing
-        found = Faults()
-        section = read_grid(each.raw, each.path, before, found, cells)
-        is_sure = section.timing.is_sure and not found
-        shape = GridShape(section.meters, section.times, section.timing.beat_ticks, is_sure)
-        at_bars = Faults()
-        cues = read_cues(each.at, shape, at_bars)
-        found.merge(at_bars, *each.path)
-        faults.noted += told_at_home(found, each, written, faults)
-        grids.append(ReadGrid(each, section, cues))
-        bars, strokes = bars + section.bar_count * section.times, strokes + sum(map(len, section.parts))
-        check_size(bars, strokes, each)
-    if grids and not any(_asks(grid) for grid in grids) and not faults:
-        faults.miss(("grid",), "has nothing to play: every cell is a rest")
-    return grids
-
-
-def _asks(grid: ReadGrid) -> bool:
-    """Whether any stroke of the grid is the player's."""
-    return any(not stroke.letter.is_beyond for part in grid.section.parts for stroke in part)
-
-
-def _score(
-    strokes: tuple[Sequence[WrittenCell], Sequence[WrittenCell]],
-    played: Sequence[PlayedGrid],
-    written: Sequence[WrittenGrid],
-    faults: Faults,
-) -> tuple[Score, list[Origin]]:
-    """The score of all that is played, and the letter of the file that wrote each of its rows.
-
-    `strokes` are those that are asked, and those beyond the player.
-    """
-    (rows, origins), (beyond, _) = map(expand, strokes)
-    order = np.lexsort((rows["piece"], -rows["lead_ms"], rows["tick"]))
-    tempo_map = TempoMap.build(faults.attempt(lambda _: tempos_of(played), None, []), meters_of(played))
-    end = played[-1].end_tick if played else tempo_map.bar_start(1)
-    by_path = {grid.path: grid for grid in written}
-    homes = {
-        origin.path: home_of(origin.path, by_path[_grid_path(origin)], written)
-        for origin in {(o.path): o for o in origins}.values()
-    }
-    at_home = [Origin(homes[origin.path], origin.char) for origin in origins]
-    loudness = joined_marks((s.start_tick, s.grid.section.loudness) for s in played)
-    score = Score.from_array(rows[order], tempo_map, end, loudness=loudness, beyond=beyond)
-    return triplets_spelled_out(score), [at_home[i] for i in order]
-
-
-def _grid_path(origin: Origin) -> tuple[str | int, ...]:
-    """The path of the grid that a letter stands in: `grid`, and its index where there are several."""
-    return origin.path[: 2 if isinstance(origin.path[1], int) else 1]
 
 
 @dataclass(frozen=True, slots=True)

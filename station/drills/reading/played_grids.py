@@ -102,9 +102,12 @@ def laid_out(order: Sequence[Turn], grids: Sequence[ReadGrid]) -> list[PlayedGri
 def sections_of(played: Sequence[PlayedGrid]) -> tuple[Section, ...]:
     """The sections that the report speaks of: repetitions of a grid that follow each other in an entry are one."""
     runs = [list(run) for _, run in groupby(played, lambda s: (s.entry, id(s.grid)))]
-    return tuple(
-        Section(run[0].name, run[0].first_bar, run[-1].last_bar, run[0].grid.section.timing.swing) for run in runs
-    )
+    return tuple(_section(run[0], run[-1]) for run in runs)
+
+
+def _section(first: PlayedGrid, last: PlayedGrid) -> Section:
+    swing, written = first.grid.section.timing.swing, first.grid.written
+    return Section(first.name, first.first_bar, last.last_bar, swing, written.number)
 
 
 def cues_of(played: Sequence[PlayedGrid]) -> tuple[BarCue, ...]:

@@ -64,6 +64,7 @@ def _tables() -> Iterator[tuple[str, Mapping[str, Any], tuple[str, ...]]]:
     yield "`[goals.right_hand]` and other limbs", goals["right_hand"]["properties"], ("goals", "right_hand")
     yield "`[[goals.bars]]`", _entry(goals["bars"]), ("goals", "bars")
     yield "`[grid]`, or each `[[grid]]`", grid, ("grid",)
+    yield "`[grid.timing]`", grid["timing"]["properties"], ("grid", "timing")
     yield "Each entry of `at`", _entry(grid["at"]), ("grid", "at")
     yield "`[[grid.cycle]]`", _entry(grid["cycle"]), ("grid", "cycle")
 

@@ -1,25 +1,27 @@
-"""The text of a lesson, kept as it was written: `show` lays out its lines, `with_value` sets one key.
+"""The text of a lesson, kept as it was written: `show` lays out its lines.
 
 A teacher's comments, the order of keys and the spelling of values stay. What `show` changes is layout alone
 (docs/lesson-format.md, "What show changes"): within a grid the `=` and the strings stand under each other, bars and
 beats too, with the count above them; blanks at the ends of rows go. Showing what was shown changes nothing.
 
-Texts here are those of lessons without a fault; offsets and key paths are those of `core.toml.toml_places`.
+The TOML of the texts is without a fault; offsets and key paths are those of `core.toml.toml_places`.
 """
 
 import re
 from bisect import bisect_left
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate, pairwise
 
+from station.core.toml.toml_edits import Splice, spliced
 from station.core.toml.toml_places import KeyPath, Places
 from station.core.toml.toml_source import load
-from station.core.toml.toml_write import toml_value
+from station.drills.grid.grid import parse_line
 from station.drills.grid.tab_symbols import LIMB_TABLES, LINE_PIECES
 from station.drills.writing.line_layout import Meters, bar_count, laid_out
 from station.drills.writing.written_meters import written_meters
 
+LANDING = "landing"
 _LINE_KEYS = frozenset({*LINE_PIECES, "sticking", "loudness"})
 _COUNT = re.compile(r"#[ ]{2,}1[\d&.·a-z]*(?: +(?:\d[\d&.·a-z]*|[&·eat]+))*")
 """A count that `show` or a teacher wrote above the lines: digits and the syllables after them, first a 1."""
@@ -27,29 +29,19 @@ _BLANKS_AT_END = re.compile(r"[ \t]+(?=\n|$)")
 
 
 def show(text: str) -> str:
-    """The text of a lesson without fault with its lines laid out; the lesson that it says is the same."""
-    text = _plain(text)
+    """The text of a lesson with its lines laid out, but for those at fault; the lesson that it says is the same."""
+    text = plain(text)
     raw, _, _ = load(text)
-    places = Places.of(text)
-    return _tidied(_edited(text, _edits(raw, places)))
+    return _tidied(spliced(text, _edits(raw, Places.of(text))))
 
 
-def with_value(text: str, key: str, value: object) -> str:
-    """The text with a key of its top table set to `value`: in its place, or after the last key of that table."""
-    text = _plain(text)
-    places = Places.of(text)
-    said = toml_value(value)
-    if (key,) in places.values:
-        return _edited(text, [(places.values[key,], places.ends[key,], said)])
-    first_header = min(places.headers, default=len(text) + 1)
-    last = max((end for end in places.ends.values() if end < first_header), default=None)
-    if last is None:
-        return f"{key} = {said}\n{text}"
-    at = _row_end(text, last)
-    return _edited(text, [(at, at, f"\n{key} = {said}")])
+def with_grids_shown(text: str, raw: Mapping[str, object], places: Places, grids: Collection[KeyPath]) -> str:
+    """The text, plain, with the lines of these grids laid out alone; `raw` is what it says, `places` where."""
+    return spliced(text, _edits(raw, places, grids))
 
 
-def _plain(text: str) -> str:
+def plain(text: str) -> str:
+    """The text without a byte order mark, its line ends those of Unix."""
     return text.removeprefix("\ufeff").replace("\r\n", "\n")
 
 
@@ -61,17 +53,6 @@ def _row_end(text: str, at: int) -> int:
 
 # --- edits ------------------------------------------------------------------------------------------------------------
 
-_Edit = tuple[int, int, str]
-"""From an offset to another, and what stands there instead."""
-
-
-def _edited(text: str, edits: Sequence[_Edit]) -> str:
-    parts, done = [], 0
-    for start, end, new in sorted(edits):
-        parts += [text[done:start], new]
-        done = end
-    return "".join(parts) + text[done:]
-
 
 def _tidied(text: str) -> str:
     """No blanks at the ends of rows, but for those within a string; one line end at the end."""
@@ -80,7 +61,7 @@ def _tidied(text: str) -> str:
     ends_before = [0, *(end for _, end in strings)]
     blanks = (m.span() for m in _BLANKS_AT_END.finditer(text))
     cut = [(a, b, "") for a, b in blanks if a >= ends_before[bisect_left(strings, (a, 0))]]
-    return _edited(text, cut).strip("\n") + "\n"
+    return spliced(text, cut).strip("\n") + "\n"
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,30 +80,41 @@ class _Entry:
         """Whether its string runs over several rows of the text."""
         return "\n" in self.line.strip()
 
-    def edit(self, width: int, string: str) -> "_Edit":
+    def edit(self, width: int, string: str) -> Splice:
         """The whole row written anew: the key, `=` at column `width`, its string in quotes, and what followed."""
         return self.row, self.row_end, f"{self.key:<{width}} = {string}{self.rest}"
 
 
-def _edits(raw: Mapping[str, object], places: Places) -> list[_Edit]:
-    """What changes in the blocks of lines of all grids; a block is what stands below one header."""
+def _edits(raw: Mapping[str, object], places: Places, grids: Collection[KeyPath] | None = None) -> list[Splice]:
+    """What changes in the blocks of lines of all grids, or of some; a block is what stands below one header."""
     meters = written_meters(raw)
     blocks: dict[tuple[KeyPath, int], list[_Entry]] = {}
     for path, offset in places.values.items():
         table = _table_of(path)
-        entry = None if table is None else _entry(raw, places, path)
-        if table is not None and entry:
+        if table is None or (grids is not None and not any(table[: len(grid)] == grid for grid in grids)):
+            continue
+        entry = _entry(raw, places, path)
+        if entry:
             header = bisect_left(places.headers, offset)
             blocks.setdefault((table, header), []).append(entry)
-    edits: list[_Edit] = []
+    edits: list[Splice] = []
     for (table, _), block in blocks.items():
-        edits += _block_edits(places.text, block, meters.get(table))
+        sound = [entry for entry in block if table == (LANDING,) or _is_sound(entry.line, meters.get(table))]
+        edits += _block_edits(places.text, sound, meters.get(table)) if sound else []
     return edits
+
+
+def _is_sound(line: str, meters: Meters | None) -> bool:
+    """Whether all bars of a line can be read."""
+    if meters is None:
+        return False
+    frames = [meters.frame(bar) for bar in range(len(meters.in_turn))]
+    return all(bar.sound for bar in parse_line(line, frames, lambda _char, _words: None))
 
 
 def _table_of(path: KeyPath) -> KeyPath | None:
     """The path of the grid, cycle or landing whose line stands at `path`; None where no line does."""
-    if path[-1] not in _LINE_KEYS or path[0] not in ("grid", "landing") or "dynamics" in path:
+    if path[-1] not in _LINE_KEYS or path[0] not in ("grid", LANDING) or "dynamics" in path:
         return None
     return path[:-2] if path[-2] in LIMB_TABLES else path[:-1]
 
@@ -148,7 +140,7 @@ def _value_at(raw: object, path: KeyPath) -> object:
 # --- a block of lines -------------------------------------------------------------------------------------------------
 
 
-def _block_edits(text: str, block: Sequence[_Entry], meters: Meters | None) -> list[_Edit]:
+def _block_edits(text: str, block: Sequence[_Entry], meters: Meters | None) -> list[Splice]:
     """The rows of one block; `meters` None where lines are single letters (a landing)."""
     width = max(len(entry.key) for entry in block)
     single = [entry for entry in block if not entry.has_rows]
@@ -162,7 +154,7 @@ def _block_edits(text: str, block: Sequence[_Entry], meters: Meters | None) -> l
     return edits + (_count_edits(text, single[0].row, f"#{'':{width + 3}}{count}") if count.strip() else [])
 
 
-def _count_edits(text: str, row: int, count: str) -> list[_Edit]:
+def _count_edits(text: str, row: int, count: str) -> list[Splice]:
     """The count above the line that begins at `row`: in the place of an older one among the comments there, or new."""
     end = row - 1
     while end >= 0:

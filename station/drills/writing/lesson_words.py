@@ -82,6 +82,13 @@ WORDS: Mapping[str, str] = MappingProxyType(
         "sticking": "the hand under each stroke: R, L, B for both at once, - to leave it open",
         "loudness": "marks from ppp to fff in the cells where they begin, < and > from one mark to the next",
         LINES: "what is played on this piece: a letter a cell",
+        "timing": "how late each stroke of a line is played, in ms, as somebody played it; left out, on its cell",
+        f"timing.{LINES}": "milliseconds, from -60 (early) to 60, one for each stroke of the line in all its bars, also"
+        " those written %",
+        "timing.right_hand": "timing of the lines that stand in the table of the right hand",
+        "timing.left_hand": "timing of the lines that stand in the table of the left hand",
+        "timing.right_foot": "timing of the lines that stand in the table of the right foot",
+        "timing.left_foot": "timing of the lines that stand in the table of the left foot",
         "right_hand": "lines that the right hand plays",
         "left_hand": "lines that the left hand plays",
         "right_foot": "lines that the right foot plays",

@@ -11,9 +11,10 @@ from station.core.errors import BadInput
 from station.core.pieces import word
 from station.core.toml.toml_write import toml_text
 from station.core.units import PPQ
-from station.drills.grid.grid_writer import GridSetting, LineText, frame_of, with_repeats, write_lines
+from station.drills.grid.grid_writer import LineText, frame_of, with_repeats, write_lines
 from station.drills.grid.line_group import MAX_CELLS
 from station.drills.grid.lines_from_score import WrittenStroke, graces_of, lines_of, strokes_by_bar
+from station.drills.grid.skeletons import GridSetting
 from station.drills.grid.stroke_settings import Velocities
 from station.drills.lesson import Lesson
 from station.drills.reading.lesson_file import parse_lesson
@@ -141,7 +142,8 @@ def _lines(
     write_lines(lines, grid.bars, setting, grid.first_bar)
     new = [True] + [any(line.bars[i] != line.bars[i - 1] for line in lines) for i in range(1, grid.bars)]
     written = [f'{line.name} = "{with_repeats(line.bars, new)}"' for line in lines]
-    return [*written, *(f'{name} = "{silent}"' for name in rests)]
+    timing = [f"timing.{line.name} = [{', '.join(map(number, line.late_ms))}]" for line in lines if line.late_ms]
+    return [*written, *(f'{name} = "{silent}"' for name in rests), *timing]
 
 
 def _own_lines(

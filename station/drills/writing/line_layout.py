@@ -10,11 +10,13 @@ from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 
-from station.drills.grid.grid import Cell, GridFrame, parse_line
+from station.drills.grid.grid import Cell, GridFrame, bar_of
 from station.music.tempo import MeterChange
 
 _REPEAT = re.compile(r"%(\d*)")
 _EIGHTH = 8
+_KEPT = 4096
+"""Bars that are kept as they were laid out: those of a long lesson, which is laid out anew after each edit."""
 _COUNTS = {1: "", 2: "&", 3: "ta", 4: "e&a", 6: "ta&ta", 8: "·e·&·a·"}
 """How drummers count the cells after the number of their beat; others are dots."""
 
@@ -133,10 +135,8 @@ def _cell(part: _Part, covered: Sequence[_Column]) -> str:
 # --- a bar ------------------------------------------------------------------------------------------------------------
 
 
-@lru_cache(maxsize=4096)
 def _cells(text: str, frame: GridFrame) -> tuple[Cell, ...]:
-    (bar,) = parse_line(text, [frame], lambda _char, _words: None)
-    return bar.cells
+    return bar_of(text, frame).cells
 
 
 def _shortest(text: str, frame: GridFrame) -> int:
@@ -154,7 +154,8 @@ def _beat_starts(meter: MeterChange, shortest_ticks: int) -> tuple[int, ...]:
     return (0,) if is_one_word else tuple(beat * meter.beat_ticks for beat in beats)
 
 
-def _words(text: str, frame: GridFrame, starts: Sequence[int]) -> list[str]:
+@lru_cache(maxsize=_KEPT)
+def _words(text: str, frame: GridFrame, starts: tuple[int, ...]) -> tuple[str, ...]:
     """The bar cut where its beats start; the word of a beat on which no cell starts is empty."""
     slot_of = {tick: slot for slot, tick in enumerate(starts)}
     words = [""] * len(starts)
@@ -168,9 +169,10 @@ def _words(text: str, frame: GridFrame, starts: Sequence[int]) -> list[str]:
         words[slot] += f"{' ' if apart else ''}{'(' if opens else ''}{cell.letter}"
         after = cell.char + 1
     words[slot] += text[after:]
-    return words
+    return tuple(words)
 
 
+@lru_cache(maxsize=_KEPT)
 def counted(text: str, frame: GridFrame) -> str:
     """How a drummer counts the cells of this bar, above them: `1e&a 2e&a …`; blank where no count is usual."""
     unit = frame.meter.beat_ticks

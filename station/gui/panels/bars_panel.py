@@ -24,12 +24,22 @@ _BEST, _WORST = palette.with_opacity(palette.GOOD, 0.16), palette.with_opacity(p
 """Of the night; the theme dyes them."""
 
 
-def bars_panel(report: ShownResult, playback: PlaybackRow) -> int | None:
-    """Draw both; returns the bar (from 1) that the user wants to drill, None for none."""
+_PRACTISE = "Practise bar {bar} alone, at the same tempo"
+_LOOK = "Hear and see bar {bar}"
+
+
+def bars_panel(report: ShownResult, playback: PlaybackRow, can_drill: bool = True) -> int | None:
+    """Draw both; returns the bar (from 1) that the user wants to drill, None for none.
+
+    Where none can be, in an exam or in what a student sent, a bar is chosen to be heard.
+    """
+    can_drill = can_drill and not report.student
     confused = report.wrong_pads[:_CONFUSIONS]
     below = theme.points(_COMPARING + (_HEADING + _LINE * len(confused) if confused else 0.0))
     below = below if len(report.hits.dots) else 0.0
-    chosen = _heat(report.heat, imgui.get_content_region_avail().y - below)
+    chosen = _heat(report.heat, imgui.get_content_region_avail().y - below, _PRACTISE if can_drill else _LOOK)
+    if not can_drill and chosen is not None:
+        playback.bar, chosen = chosen, None
     if below:
         imgui.set_cursor_pos_y(max(imgui.get_cursor_pos_y(), imgui.get_window_height() - below))
         if confused:
@@ -43,10 +53,11 @@ def bars_panel(report: ShownResult, playback: PlaybackRow) -> int | None:
     return chosen
 
 
-def _heat(heat: HeatMap, height: float) -> int | None:
+def _heat(heat: HeatMap, height: float, press: str) -> int | None:
     top = imgui.get_cursor_pos_y()
     theme.heading("Bar by bar", 20)
-    theme.soft("Notes right, in percent. Click a bar to practise it alone.")
+    what = "to hear and see it" if press is _LOOK else "to practise it alone"
+    theme.soft(f"Notes right, in percent. Click a bar {what}.")
     chosen = None
     limbs = heat.limbs  # buttons in a table: no cell of ImPlot's heat map is empty, or reached by the keyboard
     flags = imgui.TableFlags_.sizing_stretch_same | imgui.TableFlags_.scroll_y
@@ -58,18 +69,18 @@ def _heat(heat: HeatMap, height: float) -> int | None:
             imgui.table_setup_column(_NAMES[limb][0])
         imgui.table_headers_row()
         for bar in heat.bars:
-            if _row(heat, bar, limbs):
+            if _row(heat, bar, limbs, press):
                 chosen = bar
         imgui.end_table()
     return chosen
 
 
-def _row(heat: HeatMap, bar: int, limbs: list[Limb]) -> bool:
+def _row(heat: HeatMap, bar: int, limbs: list[Limb], press: str) -> bool:
     """One bar; returns whether it was pressed."""
     imgui.table_next_row()
     imgui.table_next_column()
     pressed = imgui.button(f"{bar}##bar{bar}", imgui.ImVec2(-1, 0))
-    theme.tooltip(f"Practise bar {bar} alone, at the same tempo")
+    theme.tooltip(press.format(bar=bar))
     for limb in limbs:
         imgui.table_next_column()
         cell = heat.cells.get((bar, limb))
@@ -77,7 +88,9 @@ def _row(heat: HeatMap, bar: int, limbs: list[Limb]) -> bool:
             continue
         colour = palette.mixed(theme.themed(_WORST), theme.themed(_BEST), cell.share)
         imgui.push_style_color(imgui.Col_.button, imgui.ImVec4(*colour))
+        imgui.push_style_var(imgui.StyleVar_.frame_padding, imgui.ImVec2(0, imgui.get_style().frame_padding.y))
         pressed |= imgui.button(f"{100 * cell.share:.0f}##{bar}-{limb.name}", imgui.ImVec2(-1, 0))
+        imgui.pop_style_var()
         imgui.pop_style_color()
-        theme.tooltip(f"Bar {bar}, {_NAMES[limb][1]}: {cell.right} of {cell.notes} right. Click to practise the bar")
+        theme.tooltip(f"Bar {bar}, {_NAMES[limb][1]}: {cell.right} of {cell.notes} right. {press.format(bar=bar)}")
     return bool(pressed)

@@ -8,6 +8,7 @@ from imgui_bundle import imgui
 from station.app.help_topics import HELP, Topic
 from station.gui import theme
 from station.gui.keyboard_kit import COMMANDS, KEYS
+from station.gui.panels.editor.editor_keys import EDITOR_HELP
 from station.gui.panels.panel import Panel
 
 _WIDE, _HIGH = 640, 470
@@ -26,7 +27,7 @@ def help_window(topic: Topic, tools: Sequence[Panel], frame_ms: float) -> bool:
             _page(topic, tools)
             imgui.end_tab_item()
         if imgui.begin_tab_item("Keys")[0]:
-            _keys(frame_ms)
+            _command_keys(EDITOR_HELP) if topic is Topic.EDITOR else _keys(frame_ms)
             imgui.end_tab_item()
         imgui.end_tab_bar()
     imgui.end()
@@ -52,6 +53,18 @@ def _page(topic: Topic, tools: Sequence[Panel]) -> None:
         imgui.separator()
         theme.heading(tool.name, 22)
         imgui.text_wrapped(tool.help or tool.about)
+
+
+def _command_keys(commands: Sequence[tuple[str, str]]) -> None:
+    """Keys and what they do, a line each."""
+    if imgui.begin_table("##keys", 2, imgui.TableFlags_.sizing_fixed_fit):
+        for cap, words in commands:
+            imgui.table_next_row()
+            imgui.table_next_column()
+            imgui.text(cap)
+            imgui.table_next_column()
+            imgui.text_disabled(words)
+        imgui.end_table()
 
 
 def _keys(frame_ms: float) -> None:

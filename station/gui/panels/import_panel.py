@@ -8,12 +8,13 @@ from imgui_bundle import imgui
 
 from station.app.actions.action import Action
 from station.app.actions.file_actions import CancelImport, Import
-from station.app.importer import ImportView
-from station.app.music_files.lesson_import import KeptLesson
+from station.app.importer import ImportView, Kept
+from station.app.teacher_desk.incoming import KeptParcel
 from station.gui import theme
 from station.gui.file_chooser import FileChooser, has_file_chooser
 from station.gui.widgets.flow_row import FlowRow
 from station.music.formats.format_table import FORMATS
+from station.practice.exchange.parcel import Kind
 
 IMPORT = "Import"
 ABOUT = "A music file, a song's folder, a link or a take becomes a lesson of your own"
@@ -22,12 +23,21 @@ HELP = (
     " becomes a lesson among your own: swing is named, flams and rolls are found again, patterns are written once. The"
     " page says what was done to the strokes and what the file has that a lesson has no place for. The lesson lies in"
     " the folder lessons beside your sessions, as a text that you can change. A lesson file is kept as it is."
+    " Assignments and notes from your teacher come the same way; a teacher takes in returns."
 )
 SOURCE_LABEL, IMPORT_LABEL, PASTE_LABEL = "##import-source", "Import##import", "Paste##import"
 CHOOSE_LABEL, CANCEL_LABEL = "Choose files…##import", "Cancel##import"
-_KINDS = "MIDI, MusicXML, Guitar Pro, Hydrogen, GrooveScribe, Clone Hero, DTX, drum tabs, takes and lesson files"
+_KINDS = (
+    "MIDI, MusicXML, Guitar Pro, Hydrogen, GrooveScribe, Clone Hero, DTX, drum tabs, takes, lesson files"
+    " and assignments"
+)
 _HINT = "a file, a folder or a link"
-_ENDINGS = (*dict.fromkeys(ending for form in FORMATS for ending in form.endings), ".capture", ".toml")
+_ENDINGS = (
+    *dict.fromkeys(ending for form in FORMATS for ending in form.endings),
+    ".capture",
+    ".toml",
+    *(kind.ending for kind in Kind),
+)
 _FILE_LINK = "file"
 _WIDE = 120.0
 """Design pixels of a button."""
@@ -98,9 +108,13 @@ def source_of(typed: str) -> str:
     return str(Path(text).expanduser()) if text.startswith("~") else text
 
 
-def _told(kept: KeptLesson) -> None:
-    """The last lesson that was kept: where, what was done, what is lost."""
+def _told(kept: Kept) -> None:
+    """What was kept last: a lesson with where, what was done and what is lost, a parcel with what it says."""
     theme.heading(kept.title, 20)
+    if isinstance(kept, KeptParcel):
+        for line in kept.lines:
+            _point(line)
+        return
     theme.soft(f"{kept.bars} bar{'' if kept.bars == 1 else 's'}, kept in {kept.path}")
     for line in kept.remarks:
         _point(line)

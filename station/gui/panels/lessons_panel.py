@@ -3,16 +3,19 @@
 Every control has a tooltip, and every one is reached by the keyboard (Tab, arrows, Enter).
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from datetime import date
 from itertools import groupby
+from pathlib import Path
 
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
+from station.app.actions.editor_actions import DropDraft, NewLesson, OpenEditor, ResumeDraft
 from station.app.actions.file_actions import FilmTake, Import
 from station.app.actions.practice_actions import Begin, JudgeAt, Listen, Select, TapBeat
+from station.app.editor.draft_journal import LeftDraft
 from station.app.room_state import LessonCard, RoomState
 from station.app.selection import MAX_LOOPS, LessonGroup, Selection
 from station.app.window_state import State
@@ -25,12 +28,17 @@ from station.gui.widgets.flow_row import FlowRow
 START_LABEL = "Start##start"
 LEVEL_LABEL = "##level"
 ADAPT_LABEL = "the tempo follows me"
+_WITHOUT_CLICK = "Without it you are counted in, then the score follows your own tempo and waits when you stop"
+_BAND_ALONE = "Without it you are counted in, then the band alone keeps the time"
 FREE_LABEL = "Just play##free"
 LISTEN_LABEL, STOP_LISTENING = "Listen back##listen", "Stop listening##listen"
 FILM_LABEL = "Video of it##film"
 LESSON_LABEL = "Lesson of it##take"
 IMPORT_LABEL = "Import…##open-import"
 TAP_LABEL = "Tap##tap"
+EDIT_LABEL, NEW_LABEL = "Edit##edit-lesson", "New lesson##new-lesson"
+RESUME_LABEL, DROP_LABEL = "Go on with it##draft", "Throw it away##draft"
+UNSAVED, _DRAFT_MENU = "Draft: ", "##draft-menu"
 
 
 _HIGH_ENOUGH, _HIGH = 430, 680
@@ -73,6 +81,7 @@ class LessonsPanel:
         least = _ROWS * imgui.get_text_line_height_with_spacing()
         lines = int((room - least - (self._below - self._about)) / imgui.get_text_line_height())
         imgui.begin_child("##list", imgui.ImVec2(0, max(room - (self._below or theme.points(280)), theme.points(110))))
+        self._drafts(state.drafts)
         selection = self._list(selection)
         imgui.end_child()
         top, self._about = imgui.get_cursor_pos_y(), 0.0
@@ -101,7 +110,32 @@ class LessonsPanel:
         theme.tooltip("Make a lesson of a music file, a song's folder, a GrooveScribe link or a take; or drop it here")
         return str(words)
 
+    def _drafts(self, drafts: Sequence[LeftDraft]) -> None:
+        """The lessons that were edited and not saved."""
+        for left in drafts:
+            imgui.push_id(left.path.name)
+            self._draft(left)
+            imgui.pop_id()
+
+    def _draft(self, left: LeftDraft) -> None:
+        name = Path(left.draft.lesson).stem or "a new lesson"
+        changes = f"{left.draft.changes} change{'' if left.draft.changes == 1 else 's'}"
+        words = theme.one_line(f"{UNSAVED}{name}", imgui.get_content_region_avail().x)
+        if imgui.selectable(words, False)[0]:
+            imgui.open_popup(_DRAFT_MENU)
+        theme.tooltip(f"{name}: {changes} that were not saved")
+        if imgui.begin_popup(_DRAFT_MENU):
+            imgui.text_disabled(f"{name}: {changes} not saved")
+            if imgui.selectable(RESUME_LABEL, False)[0]:
+                self._dispatch(ResumeDraft(left.path))
+            if imgui.selectable(DROP_LABEL, False)[0]:
+                self._dispatch(DropDraft(left.path))
+            imgui.end_popup()
+
     def _list(self, selection: Selection) -> Selection:
+        if imgui.selectable(NEW_LABEL, False)[0]:
+            self._dispatch(NewLesson())
+        theme.tooltip("Write one: with the mouse, the keyboard or your kit")
         pressed, _ = imgui.selectable(FREE_LABEL, selection.free)
         theme.tooltip("A click if you like, everything recorded, nothing judged")
         groups, picked = selection.groups(), None
@@ -182,14 +216,15 @@ class LessonsPanel:
             self._about = imgui.get_cursor_pos_y() - before
         row = FlowRow()
         row.place(0)
-        selection = replace(selection, adapt=imgui.checkbox(ADAPT_LABEL, selection.adapt)[1])
-        theme.tooltip(
-            "Each pass begins where the last one led: faster when it is clean, slower when it is not, and says why"
-        )
-        row.place(imgui.get_frame_height() + imgui.calc_text_size("click").x + theme.points(8))
+        if not card.is_song:
+            selection = replace(selection, adapt=imgui.checkbox(ADAPT_LABEL, selection.adapt)[1])
+            theme.tooltip(
+                "Each pass begins where the last one led: faster when it is clean, slower when it is not, and says why"
+            )
+            row.place(imgui.get_frame_height() + imgui.calc_text_size("click").x + theme.points(8))
         selection = replace(selection, click=imgui.checkbox("click", selection.click)[1])
-        theme.tooltip("Without it you are counted in, then the score follows your own tempo and waits when you stop")
-        if not selection.adapt:
+        theme.tooltip(_BAND_ALONE if card.is_song else _WITHOUT_CLICK)
+        if card.is_song or not selection.adapt:
             selection = self._tempo(selection)
         imgui.set_next_item_width(theme.points(_PASSES))
         selection = replace(
@@ -217,10 +252,20 @@ class LessonsPanel:
         )
 
     def _start_button(self, selection: Selection) -> None:
-        if theme.main_button(START_LABEL, (-1, theme.points(46))):
+        card = None if selection.free else selection.card
+        style, high = imgui.get_style(), theme.points(46)
+        edit = imgui.calc_text_size(EDIT_LABEL, True).x + 2 * style.frame_padding.x
+        if theme.main_button(START_LABEL, (-1 if card is None else -(edit + style.item_spacing.x), high)):
             self._dispatch(Select(selection))  # what was typed last is part of what begins
             self._dispatch(Begin())
         theme.tooltip("Record from now on (Enter)" if selection.free else "Count-in, demonstration, then you (Enter)")
+        if card is None:
+            return
+        imgui.same_line()
+        if imgui.button(EDIT_LABEL, imgui.ImVec2(edit, high)):
+            self._dispatch(OpenEditor(card.name))
+        own = "Change this lesson of your own" if not card.kind else "Change a copy of it; the lesson itself stays"
+        theme.tooltip(f"{own}: grid, notation, words")
 
     def _just_play(self, selection: Selection, room: RoomState) -> Selection:
         theme.heading("Just play", 20)

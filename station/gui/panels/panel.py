@@ -25,6 +25,7 @@ class DockSide(StrEnum):
     BESIDE = "Beside"
     RIGHT = "Right"
     BELOW = "Below"
+    EDITOR = "Editor"
     STRIP = "Strip"
 
 

@@ -48,9 +48,9 @@ class PlaybackRow:
         row_bar = int(here["row_bar"][0]) if len(here) else 0
         self._button(TEACHER_LABEL, Whose.TEACHER, row_bar, row)
         theme.tooltip("The bar as the teacher plays it, with the click")
-        self._button(STUDENT_LABEL, Whose.STUDENT, row_bar, row)
-        theme.tooltip("The bar as you played it in this pass, with the click; translucent sticks are yours")
-        self._previous(report.before, row_bar, row)
+        self._students(report.student, row_bar, row)
+        if not report.student:
+            self._previous(report.before, row_bar, row)
         imgui.end_disabled()
         if self.is_listening:
             row.place(theme.points(70))
@@ -64,6 +64,15 @@ class PlaybackRow:
         here = report.hits.dots[(report.hits.dots["bar"] == bar) & (report.hits.dots["pass"] == pass_number)]
         if len(here):
             self._dispatch(HearBar(int(here["row_bar"][0]), Whose.STUDENT))
+
+    def _students(self, student: str, row_bar: int, row: FlowRow) -> None:
+        if not student:
+            self._button(STUDENT_LABEL, Whose.STUDENT, row_bar, row)
+            theme.tooltip("The bar as you played it in this pass, with the click; translucent sticks are yours")
+            return
+        short = theme.one_line(student, theme.points(_WIDE) - 2 * imgui.get_style().frame_padding.x)
+        self._button(f"{short}##played", Whose.STUDENT, row_bar, row)
+        theme.tooltip(f"The bar as {student} played it in this pass, with the click; translucent sticks are theirs")
 
     def _previous(self, before: PreviousSession | str, row_bar: int, row: FlowRow) -> None:
         if isinstance(before, str):

@@ -6,10 +6,15 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
+from station.app.actions.practice_actions import Select
 from station.app.actions.settings_actions import LearnPause, SetPreferences
+from station.app.selection import Selection
 from station.app.settings.preferences import PracticePreferences, pause_in_words
 from station.app.window_state import State
 from station.gui import theme
+from station.practice.book.book_words import rise_words
+from station.practice.session.cues.quiet_bars import Gap, QuietBars, RandomGap, gap_words
+from station.practice.session.rising_tempo import Rise
 
 PRACTICE = "Practice"
 ABOUT = "What starts and pauses a session, whether it waits for you, what you are asked"
@@ -18,6 +23,8 @@ HELP = (
     " or press a foot switch; the same gesture goes on. Two pads that a lesson wants nearly at once never pause in it."
 )
 LEARN_LABEL, GIVE_UP_LABEL = "Learn from the kit##learn", "Give up##learn"
+_STEPS = ((2, 4), (4, 4), (5, 8), (10, 8))
+"""Beats a minute and bars (our choice): hardly felt, a step of TEACHING's ladder, brisk, a dare."""
 _TICKS = (
     ("kicks_start", "two kicks start", "Two kicks within a second do what Enter does, between sessions"),
     (
@@ -28,6 +35,42 @@ _TICKS = (
     ("ask_first", "ask me before a result", "Did you rush or drag? At most once a lesson; pads answer"),
     ("guide", "the drummer sounds along", "The demonstration's strokes sound in the passes too, from the next session"),
 )
+
+
+_GAPS: tuple[tuple[str, QuietBars | None], ...] = (
+    ("the click sounds throughout", None),
+    ("4 bars of click, 1 without", Gap(4, 1)),
+    ("2 bars of click, 2 without", Gap(2, 2)),
+    ("1 bar of click, 3 without", Gap(1, 3)),
+    ("the click drops out at random", RandomGap()),
+)
+_RISES = (("the tempo does not rise", None), *((f"+{n} bpm every {bars} bars", Rise(n, bars)) for n, bars in _STEPS))
+
+
+def _gap(gap: QuietBars | None) -> QuietBars | None:
+    """Draw the choice of silent bars; one that is none of the usual ones stands first. Returns what is chosen."""
+    known = [each for _, each in _GAPS]
+    labels = [label for label, _ in _GAPS]
+    if gap not in known:
+        assert gap is not None, "no gap is a usual one"
+        known, labels = [gap, *known], [gap_words(gap), *labels]
+    imgui.set_next_item_width(-1)
+    changed, index = imgui.combo("##gap", known.index(gap), labels)
+    theme.tooltip("Keep the time where it is silent: the report says how far off you come back")
+    return known[index] if changed else gap
+
+
+def _rise(selection: Selection) -> Rise | None:
+    """Draw the choice of a rising tempo, as `_gap` does."""
+    rise = selection.rise
+    known, labels = [each for _, each in _RISES], [label for label, _ in _RISES]
+    if rise not in known:
+        assert rise is not None, "none is a usual one"
+        known, labels = [rise, *known], [rise_words(rise), *labels]
+    imgui.set_next_item_width(-1)
+    changed, index = imgui.combo("##rise", known.index(rise), labels)
+    theme.tooltip("From the tempo that is chosen up to the lesson's target; the tempo then follows no one")
+    return known[index] if changed else rise
 
 
 class PracticePanel:
@@ -45,11 +88,23 @@ class PracticePanel:
             theme.tooltip(tip)
             if changed:
                 preferences = replace(preferences, **{name: on})  # type: ignore[arg-type] # every tick is a yes or no
+        self._click_and_tempo(state.selection)
         theme.part("What pauses and goes on")
         preferences = self._pauses(preferences)
         if preferences != state.preferences:
             self._dispatch(SetPreferences(preferences))
         self._learn(state.learns_pause)
+
+    def _click_and_tempo(self, selection: Selection) -> None:
+        """Where the click of the chosen lesson falls silent, and whether its tempo rises."""
+        if selection.card is None or selection.free:
+            return
+        theme.part("The lesson that is chosen")
+        chosen = replace(selection, gap=_gap(selection.gap), rise=_rise(selection))
+        if chosen.rise is not None and chosen.rise != selection.rise:
+            chosen = replace(chosen, adapt=False)
+        if chosen != selection:
+            self._dispatch(Select(chosen))
 
     @staticmethod
     def _pauses(preferences: PracticePreferences) -> PracticePreferences:

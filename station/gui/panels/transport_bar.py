@@ -109,18 +109,23 @@ class TransportBar:
                     self._dispatch(Answer(guess))
                 theme.tooltip(room.question)
         elif room.stage is Stage.RESULT:
-            row.place(theme.points(150))
-            if theme.main_button(AGAIN_LABEL, (theme.points(150), theme.points(LINE_HEIGHT))):
-                self._dispatch(Begin())
-            theme.tooltip("The same lesson, the same tempo (Enter)")
-            if row.button(BACK_LABEL, 190):
-                self._dispatch(Dismiss())
-            theme.tooltip("Choose another lesson (Esc)")
-            _lines(found(room), row)
+            self._result(room, row)
         elif room.free:
             _lines(found(room), row)
         else:
             self._ruler.gui(player.player, player.now_ns, row.left_px)
+
+    def _result(self, room: RoomState, row: FlowRow) -> None:
+        """What comes after a result; one that a student sent, or of an exam, is not played once more."""
+        if not room.student and not room.exam:
+            row.place(theme.points(150))
+            if theme.main_button(AGAIN_LABEL, (theme.points(150), theme.points(LINE_HEIGHT))):
+                self._dispatch(Begin())
+            theme.tooltip("The same lesson, the same tempo (Enter)")
+        if row.button(BACK_LABEL, 190):
+            self._dispatch(Dismiss())
+        theme.tooltip("Choose another lesson (Esc)")
+        _lines((f"played by {room.student}",) if room.student else found(room), row)
 
     def _session(self, room: RoomState, row: FlowRow) -> None:
         """How to end the session, its time, how far it is."""

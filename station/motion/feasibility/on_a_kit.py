@@ -47,6 +47,7 @@ class InfeasibleDemand:
 
 def infeasible_demands(score: Score, kit: Kit, limbs: NDArray[np.int8]) -> tuple[InfeasibleDemand, ...]:
     """Every bar and limb in which strokes of `score` on `kit` come faster than any human's, in order."""
+    score = score.on_the_grid
     points = strike_points(score, kit, limbs)
     found: list[InfeasibleDemand] = []
     for limb in (Limb.RIGHT_HAND, Limb.LEFT_HAND, Limb.RIGHT_FOOT, Limb.LEFT_FOOT):

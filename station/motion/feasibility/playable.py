@@ -51,6 +51,7 @@ def impossible(score: Score) -> list[Impossible]:
 
 def unplayable_rows(score: Score) -> NDArray[np.int64]:
     """The rows to leave out so that nothing impossible is left; of strokes that come too soon, the later ones."""
+    score = score.on_the_grid
     left_out = {i.note for i in (*_crowded_moments(score), *_open_and_shut(score))}
     for crew in reversed(_crews(score)):  # each limb first: what it leaves out spares both hands together
         rows = np.flatnonzero(crew.rows)

@@ -18,6 +18,7 @@ import numpy as np
 
 from station.core.disk.shipped import find_shipped, shipped
 from station.core.pieces import Limb, Piece, Zone
+from station.core.stand_ins import stand_in
 from station.core.toml.schema import (
     Field,
     Fields,
@@ -65,31 +66,6 @@ class Pedal:
 BEATERS_APART_M = 0.075
 """Between the beaters of a double pedal, whose felts are 5 cm thick (our choice)."""
 
-_SUBSTITUTES: Mapping[Piece, tuple[Piece, ...]] = MappingProxyType(
-    {
-        Piece.CRASH_1: (Piece.CRASH_2, Piece.CHINA, Piece.RIDE),
-        Piece.CRASH_2: (Piece.CRASH_1, Piece.CHINA, Piece.RIDE),
-        Piece.SPLASH: (Piece.CRASH_1, Piece.CRASH_2, Piece.RIDE),
-        Piece.CHINA: (Piece.CRASH_2, Piece.CRASH_1, Piece.RIDE),
-        Piece.RIDE: (Piece.RIDE_2, Piece.CRASH_2, Piece.CRASH_1, Piece.HIHAT),
-        Piece.RIDE_2: (Piece.RIDE, Piece.CRASH_2, Piece.CRASH_1, Piece.HIHAT),
-        Piece.HIHAT: (Piece.RIDE, Piece.CRASH_1),
-        Piece.TOM_1: (Piece.TOM_2, Piece.TOM_3, Piece.TOM_4, Piece.FLOOR_TOM_1, Piece.SNARE),
-        Piece.TOM_2: (Piece.TOM_1, Piece.TOM_3, Piece.TOM_4, Piece.FLOOR_TOM_1, Piece.SNARE),
-        Piece.TOM_3: (Piece.TOM_2, Piece.TOM_4, Piece.TOM_1, Piece.FLOOR_TOM_1, Piece.SNARE),
-        Piece.TOM_4: (Piece.TOM_3, Piece.FLOOR_TOM_1, Piece.TOM_2, Piece.TOM_1, Piece.SNARE),
-        Piece.FLOOR_TOM_1: (Piece.FLOOR_TOM_2, Piece.TOM_4, Piece.TOM_3, Piece.TOM_2, Piece.TOM_1, Piece.SNARE),
-        Piece.FLOOR_TOM_2: (Piece.FLOOR_TOM_1, Piece.TOM_4, Piece.TOM_3, Piece.TOM_2, Piece.TOM_1, Piece.SNARE),
-        Piece.COWBELL: (Piece.RIDE, Piece.HIHAT),
-        Piece.TAMBOURINE: (Piece.HIHAT, Piece.RIDE),
-        Piece.CLAP: (Piece.SNARE,),
-        Piece.PERCUSSION: (Piece.RIDE, Piece.HIHAT, Piece.CRASH_1),
-        Piece.SNARE: (Piece.TOM_1,),
-    }
-)
-"""Which piece stands in for one that the kit lacks, best first: its like, then its neighbour, at last the snare, which
-every kit has (our choice)."""
-
 
 @dataclass(frozen=True)
 class Kit:
@@ -130,9 +106,8 @@ class Kit:
     def stand_in(self, piece: Piece) -> Piece:
         """`piece` if this kit has it, else the piece that is played in its place."""
         played = Piece.HIHAT if piece is Piece.HIHAT_PEDAL else piece
-        if played in self.pieces:
-            return played
-        return next((p for p in _SUBSTITUTES.get(played, ()) if p in self.pieces), Piece.SNARE)
+        found = stand_in(played, self.pieces)
+        return Piece.SNARE if found is None else found
 
     @cached_property
     def stand_in_table(self) -> tuple[Piece, ...]:

@@ -57,6 +57,7 @@ def limbs_and_reasons(
     if method not in METHODS:
         raise BadInput("method", method, f"no such method of limb assignment; there are {' and '.join(METHODS)}")
     lead = hands or (Hands.LEFT if kit.left_handed else Hands.RIGHT)
+    score = score.on_the_grid
     limbs, why = feet(score, kit)
     rows = np.flatnonzero(limbs == Limb.UNKNOWN)
     written = np.isin(score.notes["limb"], (Limb.RIGHT_HAND, Limb.LEFT_HAND))

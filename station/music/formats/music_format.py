@@ -42,6 +42,7 @@ class Feature(StrEnum):
     AUTHOR = "author"
     ABOUT = "what it says of itself"
     SECTIONS = "names of sections"
+    TIMING = "each stroke's own timing"
 
 
 @dataclass(frozen=True, slots=True)

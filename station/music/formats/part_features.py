@@ -110,5 +110,6 @@ _OF_STROKES: Mapping[Feature, Callable[[_Rows], NDArray[np.bool_]]] = MappingPro
         Feature.CHOKES: lambda rows: np.asarray(rows["choke_ticks"] > 0),
         Feature.STICKING: lambda rows: np.isin(rows["piece"], sorted(HAND_PIECES)) & (rows["limb"] != Limb.UNKNOWN),
         Feature.FEET: _is_unusual_foot,
+        Feature.TIMING: lambda rows: np.asarray(rows["late_ms"] != 0),
     }
 )

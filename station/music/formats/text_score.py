@@ -27,7 +27,7 @@ from station.core.errors import BadInput
 from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Ornament, Piece, Zone, word
 from station.music.drum_part import DrumPart
 from station.music.formats.music_format import MusicFormat
-from station.music.score import Note, Score
+from station.music.score import MAX_LATE_MS, Note, Score
 from station.music.tempo import METER_UNITS, MeterChange, TempoChange, TempoMap
 
 MOST_BYTES = 8 << 20
@@ -47,14 +47,15 @@ _DYNAMICS = {word(d): d for d in Dynamic if d is not Dynamic.NORMAL}
 _ORNAMENTS = {word(o): o for o in Ornament if o is not Ornament.NONE}
 _LONGEST = 10**15
 """Ticks that no score reaches and 64 bits hold (our choice)."""
-_NUMBERS: dict[str, tuple[type[int] | type[float], float]] = {
-    "lead_ms": (float, 1000.0),
-    "openness": (float, 1.0),
-    "duration_ticks": (int, _LONGEST),
-    "choke_ticks": (int, _LONGEST),
-    "midi_note": (int, 127),
+_NUMBERS: dict[str, tuple[type[int] | type[float], float, float]] = {
+    "lead_ms": (float, 0.0, 1000.0),
+    "late_ms": (float, -MAX_LATE_MS, MAX_LATE_MS),
+    "openness": (float, 0.0, 1.0),
+    "duration_ticks": (int, 0, _LONGEST),
+    "choke_ticks": (int, 0, _LONGEST),
+    "midi_note": (int, 0, 127),
 }
-"""What a number is and its greatest value; a grace stroke a second early is none any more (our choice)."""
+"""What a number is, its least and its greatest value; a grace stroke a second early is none any more (our choice)."""
 _PLAYERS = {True: (Limb.RIGHT_HAND, Limb.LEFT_HAND), False: (Limb.RIGHT_FOOT, Limb.LEFT_FOOT)}
 _SLOWEST_US = 10**9
 """Microseconds a quarter note, far slower than MIDI files can say (our choice)."""
@@ -242,13 +243,13 @@ class _Reader:
         raise self.fault(extra, f"expected one of {known}")
 
     def number(self, extra: _Word, name: str, value: str) -> float:
-        kind, most = _NUMBERS[name]
+        kind, least, most = _NUMBERS[name]
         try:
             number = kind(value)
         except ValueError:
-            number = -1
-        if not 0 <= number <= most:  # also refuses NaN
-            raise self.fault(extra, f"expected {name} from 0 to {most:g}")
+            number = most + 1
+        if not least <= number <= most:  # also refuses NaN
+            raise self.fault(extra, f"expected {name} from {least:g} to {most:g}")
         return number
 
 

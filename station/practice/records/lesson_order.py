@@ -6,6 +6,7 @@ from contextlib import suppress
 from station.core.errors import BadInput
 from station.core.settings import Settings
 from station.drills.course import Course
+from station.drills.daily.asked import Asked
 from station.drills.lesson import Lesson
 from station.drills.level_range import ANY_LEVEL, LevelRange
 from station.drills.library import courses_in, find_lesson, shipped_courses
@@ -48,11 +49,15 @@ def shipped_title(name: str) -> str:
     return name
 
 
-def ahead_of(lesson: Lesson, course: Course | None, progress: Progress, struggles: bool) -> Ahead:
-    """What lies before and after a lesson, for a student who `struggles` with it or does not."""
+def ahead_of(
+    lesson: Lesson, course: Course | None, progress: Progress, struggles: bool, asked: Asked | None = None
+) -> Ahead:
+    """What lies before and after a lesson, for a student who `struggles` with it or does not, and what is `asked`."""
     before = [name for name in lesson.prerequisites if not is_mastered(name, progress)] if struggles else []
     after = [] if course is None else _after(lesson.name, course, progress)
-    return Ahead(_first_item(before), _first_item(after), "" if course is None else course.title)
+    title = "" if course is None else course.title
+    first, then = _first_item(before), _first_item(after)
+    return Ahead(first, then, title) if asked is None else Ahead(first, then, title, asked.item, asked.why)
 
 
 def _after(name: str, course: Course, progress: Progress) -> list[str]:

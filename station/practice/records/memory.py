@@ -5,22 +5,22 @@
 set aside under another name, never written over.
 """
 
-import json
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
-from typing import TypeVar
 
-from station.core.errors import BadInput, DeviceError
+from station.core.errors import BadInput
 from station.drills.course import Course
 from station.drills.lesson import Lesson
 from station.drills.mastery.agenda import Turn, next_turn
 from station.drills.mastery.mastery_json import document_of, state_from
 from station.drills.mastery.mastery_state import ItemState
+from station.practice.records.kept_json import kept_document, recalled
 from station.practice.records.lesson_order import ahead_of
 from station.practice.records.lesson_progress import progress_of
 from station.practice.records.session_files import folder_name, write_document
+from station.practice.records.teachers_wishes import NO_WISHES, Wishes
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
@@ -29,8 +29,6 @@ FOLDER = "mastery"
 LEVELS_NAME = "levels.json"
 LEVELS_SCHEMA = "drum-station/levels/1"
 _ITEMS = "*_*.json"
-_SPARE_NAMES = 1000
-_T = TypeVar("_T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +48,7 @@ class Memory:
 
         Raises `DeviceError` where the file can neither be read nor set aside.
         """
-        return _recalled(self.path, state_from, "mastery begins anew")
+        return recalled(self.path, state_from, "mastery begins anew")
 
     def keep(self, state: ItemState) -> None:
         """Remember `state` from now on; raises `DeviceError`, and then what was remembered stays."""
@@ -74,12 +72,12 @@ class LevelMemory:
         A lesson that is remembered from before there was a choice has the level by which it was judged. Raises
         `DeviceError` where the file can neither be read nor set aside.
         """
-        kept, fault = _recalled(self.path, _levels_from, "levels begin anew")
+        kept, fault = recalled(self.path, _levels_from, "levels begin anew")
         return {state.item.name: state.level for state in _all_in(self.path.parent)} | (kept or {}), fault
 
     def keep(self, lesson: str, level: Level) -> None:
         """Judge `lesson` at `level` from now on; raises `DeviceError`, and then all stays as it was."""
-        kept, _ = _recalled(self.path, _levels_from, "levels begin anew")
+        kept, _ = recalled(self.path, _levels_from, "levels begin anew")
         write_document(self.path, {"schema": LEVELS_SCHEMA, "levels": {**(kept or {}), lesson: level}})
 
 
@@ -96,44 +94,18 @@ def _levels_from(document: object, source: str) -> dict[str, Level]:
     return {lesson: OUR_LEVELS[level] for lesson, level in levels.items()}
 
 
-def _recalled(path: Path, read: Callable[[object, str], _T], lost: str) -> tuple[_T | None, str | None]:
-    """What the file holds, None where there is none; and a line that says what is `lost` where it cannot be read."""
-    try:
-        return read(json.loads(path.read_text(encoding="utf-8")), str(path)), None
-    except FileNotFoundError:
-        return None, None
-    except OSError as fault:
-        raise DeviceError(f"{path}: cannot be read: {fault.strerror or fault}") from fault
-    except BadInput as fault:
-        return None, f"{fault}; {_set_aside(path)}, {lost}"
-    except (ValueError, RecursionError) as fault:
-        return None, f"{path}: is no JSON document ({fault}); {_set_aside(path)}, {lost}"
-
-
-def _set_aside(path: Path) -> str:
-    for attempt in range(1, _SPARE_NAMES):
-        spare = path.with_name(f"{path.name}.unread-{attempt}")
-        if spare.exists():
-            continue
-        try:
-            path.rename(spare)
-        except OSError as fault:
-            raise DeviceError(f"{path}: cannot be set aside: {fault.strerror or fault}") from fault
-        return f"it is kept as {spare.name}"
-    raise DeviceError(f"{path}: too many files that could not be read lie beside it")
-
-
 @dataclass(frozen=True, eq=False)
 class Remembered:
     """Practice that follows a student, `memory` where it is remembered (None: nowhere), `fault` a line for the user.
 
-    `course` is the one that they follow, None where they follow none.
+    `course` is the one that they follow, None where they follow none; `wishes` are their teachers'.
     """
 
     adaptation: Adaptation
     memory: Memory | None = None
     fault: str | None = None
     course: Course | None = None
+    wishes: Wishes = NO_WISHES
 
     @classmethod
     def of(
@@ -143,10 +115,11 @@ class Remembered:
         today: date,
         memory: Memory | None,
         course: Course | None = None,
+        wishes: Wishes = NO_WISHES,
     ) -> "Remembered":
         """Practice of `lesson` from what `memory` holds; raises `BadInput` and `DeviceError` as its parts do."""
         known, fault = memory.recall() if memory is not None else (None, None)
-        return cls(Adaptation(lesson, options, today, known), memory, fault, course)
+        return cls(Adaptation(lesson, options, today, known), memory, fault, course, wishes)
 
     def next_turn(self) -> Turn | None:
         """What the student should practise next of all that is remembered; None where nothing is.
@@ -159,7 +132,8 @@ class Remembered:
         known = _all_in(self.memory.path.parent)
         others = [state for state in known if (state.item.name, state.item.bars) != (here.item.name, here.item.bars)]
         followed = self.adaptation
-        ahead = ahead_of(followed.lesson, self.course, progress_of([*others, here]), followed.struggles)
+        asked = self.wishes.next([here, *others], followed.today, followed.rules)
+        ahead = ahead_of(followed.lesson, self.course, progress_of([*others, here]), followed.struggles, asked)
         return next_turn(here, others, followed.today, followed.rules, ahead)
 
     def keep(self) -> None:
@@ -183,6 +157,6 @@ def _all_in(folder: Path) -> list[ItemState]:
 
 def _known(path: Path) -> ItemState | None:
     try:
-        return state_from(json.loads(path.read_text(encoding="utf-8")), str(path))
-    except (OSError, ValueError, RecursionError, BadInput):
+        return state_from(kept_document(path), str(path))
+    except BadInput:
         return None

@@ -7,7 +7,6 @@ and beat cannot be, and that is said.
 """
 
 import csv
-import json
 from dataclasses import dataclass
 from datetime import date, datetime
 from pathlib import Path
@@ -15,8 +14,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.errors import BadInput
 from station.core.pieces import Articulation, Piece, Zone
 from station.music.performance import HIT_DTYPE
+from station.practice.records.kept_json import kept_document
 from station.practice.records.session_files import DOCUMENT_NAME, PAIRS_NAME, folder_name
 from station.practice.records.session_pairs import SESSION_COLUMNS
 
@@ -98,15 +99,17 @@ def _started(folder: Path) -> datetime | None:
 
 def _lesson_of(folder: Path) -> str | None:
     try:
-        document = json.loads((folder / DOCUMENT_NAME).read_text(encoding="utf-8"))
-        return str(document["session"]["lesson"])
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        document = kept_document(folder / DOCUMENT_NAME)
+        return str(document["session"]["lesson"]) if isinstance(document, dict) else None
+    except (KeyError, TypeError, BadInput):
         return None  # a session that was cut off, or somebody else's folder
 
 
 def _read(days: tuple[datetime, date], table: Path) -> PreviousSession | None:
     """What the table of the session of the first of `days` holds, seen from the second; None where it lacks some."""
     try:
+        if not table.is_file():  # a pipe would never end
+            return None
         with table.open(encoding="utf-8", newline="") as lines:
             rows = csv.DictReader(lines)
             if not set(SESSION_COLUMNS) <= set(rows.fieldnames or ()):

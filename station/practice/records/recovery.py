@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput, StationError
 from station.core.pieces import Limb
 from station.core.settings import Settings
-from station.devices.capture.capture import RecordKind, read_capture
+from station.devices.capture.capture import Capture, RecordKind, read_capture
 from station.drills.lesson import Lesson
 from station.practice.records.rejudge import judge_again
 from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, TAKE_NAME, folder_name
@@ -55,26 +55,26 @@ def recovered(capture: Path, with_phase: bool = True) -> SessionResult:
 
     Raises `BadInput` where the capture cannot be read, or holds no session.
     """
-    return _in_a_row(_results(capture, with_phase))
+    results = _results(read_capture(capture), with_phase)
+    if not results:
+        raise BadInput(capture, "", "there is no session in this capture")
+    return _in_a_row(results)
 
 
-def session_of(capture: Path, lesson: Lesson) -> SessionResult | None:
+def session_of(capture: Capture, lesson: Lesson) -> SessionResult | None:
     """The session of `lesson`, as it is now, that a capture holds; None where it holds none."""
     try:
         results = _results(capture, with_phase=False)
     except BadInput:  # strokes without a session, or cut off within its log: there is no click to judge by
         return None
-    if not all(_is_of(result.plan, lesson) for result in results):
+    if not results or not all(_is_of(result.plan, lesson) for result in results):
         return None
     result = _in_a_row(results)
     return replace(result, plan=replace(result.plan, lesson=lesson))
 
 
-def _results(capture: Path, with_phase: bool) -> list[SessionResult]:
-    results = [session.result() for session in judge_again(read_capture(capture), with_phase)]
-    if not results:
-        raise BadInput(capture, "", "there is no session in this capture")
-    return results
+def _results(capture: Capture, with_phase: bool) -> list[SessionResult]:
+    return [session.result() for session in judge_again(capture, with_phase)]
 
 
 def _in_a_row(results: list[SessionResult]) -> SessionResult:

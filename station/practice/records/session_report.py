@@ -15,14 +15,17 @@ from numpy.typing import NDArray
 from station.core.errors import BadInput
 from station.core.labels import name_of
 from station.core.settings import Settings
-from station.core.units import NS_PER_MS, ms_from_ns
+from station.core.units import NS_PER_MS, NS_PER_S, ms_from_ns
 from station.devices.mapping.device_file import own_kit
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
+from station.practice.records.assigned_lessons import assigned_by
 from station.practice.records.mastery_report import passes_text
 from station.practice.records.phase_words import phase_document, phase_lines
 from station.practice.records.stick_words import sticking_lines, sticks_document, sticks_text
+from station.practice.records.tempo_report import clean_up_to, tempo_rows, tempo_text
 from station.practice.records.what_next import advice_of, measured_session, missed_document, table_in, what_next
+from station.practice.session.cues.quiet_bars import gap_of, gap_words
 from station.practice.session.lesson_places import written_hands
 from station.practice.session.session import SessionResult
 from station.scoring.analysis.points import FREE_LEAN_MS, Feel
@@ -55,7 +58,8 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
     """The report of a session; computer keys have no velocity, so of them nothing is said of dynamics."""
     plan = result.plan
     document = assessment(summarise(result.score, result.performance, result.alignment, session_view(result, settings)))
-    measured = measured_session(result, document["score"])
+    measured, tempi = measured_session(result, document["score"]), tempo_rows(result)
+    given = assigned_by(settings.sessions_dir, settings.student, plan.lesson.name)
     document["session"] = {
         "lesson": plan.lesson.name,
         "title": plan.lesson.title,
@@ -63,10 +67,14 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "device": result.device,
         "tempo_bpm": round(plan.tempo_bpm, 3),
         "beats_a_minute": round(plan.beats_a_minute, 3),
+        "tempi": tempi,
+        "clean_up_to": clean_up_to(tempi),
         "bars": [plan.bars[0] + 1, plan.bars[1] + 1],
         "passes": plan.passes,
         "click": plan.click is not None,
+        "gap": None if plan.click is None or plan.click.gap is None else str(plan.click.gap),
         "complete": result.complete,
+        "played_s": round(result.score.length_ns / NS_PER_S, 1),
         "output": result.output,
         "input_latency_ms": result.latency.of_kit(result.device) / NS_PER_MS,
         "output_latency_ms": result.latency.of_output(result.output) / NS_PER_MS,
@@ -77,6 +85,8 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         ],
         "goals_missed": missed_document(plan, measured),
         "next": [*what_next(document, plan, measured)],
+        "assignments": [taken.id for taken in given],
+        "teacher": [words for taken in given for name, words in taken.said if name == plan.lesson.name],
     }
     document["sticks"] = sticks_document(result.felt, plan.lesson.goals.faults)
     document["phase"] = phase_document(result.phase, plan.lesson.goals.faults)
@@ -149,15 +159,44 @@ def report_text(document: dict[str, Json]) -> str:
     tempo = f"{session['beats_a_minute']:g} bpm"
     if session["beats_a_minute"] != session["tempo_bpm"]:
         tempo += f" ({session['tempo_bpm']:g} quarter notes a minute)"
+    if tempi := session["tempi"]:
+        tempo = f"{session['beats_a_minute']:g} bpm and rising to {_last_tempo(tempi)} bpm"
     if "mastery" in document:
         tempo = f"a tempo that follows you, {tempo} at last"
     head = f"{session['title']} at {tempo}, {which}, {passes}, judged as {document['level']}"
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
-        f"{_figures_text(document)}{_praise_text(document)}{_passes(document)}"
-        f"{_steps_text(map(str, steps))}{sticks_text(document)}{_paused(session)}"
+        f"{_gap_text(session)}{_figures_text(document)}{_praise_text(document)}{_passes(document)}{_tempi(session)}"
+        f"{_steps_text(map(str, steps))}{_teacher(session)}{sticks_text(document)}{_paused(session)}"
         f"\nLatency taken out: {session['latency']}.\n"
     )
+
+
+def _teacher(session: dict[str, Json]) -> str:
+    """What the teacher's last note said of this lesson, nothing where there is none."""
+    said = session.get("teacher")
+    lines = [f"* {words}" for words in said] if isinstance(said, list) else []
+    return "\n".join(["", "From your teacher", *lines, ""]) if lines else ""
+
+
+def _last_tempo(tempi: Json) -> str:
+    assert isinstance(tempi, list), "the report is ours"
+    last = tempi[-1]
+    assert isinstance(last, dict), "the report is ours"
+    return f"{last['beats_a_minute']:g}"
+
+
+def _tempi(session: dict[str, Json]) -> str:
+    """Each tempo of a session whose tempo rose, nothing of another."""
+    tempi, clean = session["tempi"], session["clean_up_to"]
+    assert isinstance(tempi, list), "the report is ours"
+    return tempo_text(tempi, float(clean) if isinstance(clean, float | int) else None)
+
+
+def _gap_text(session: dict[str, Json]) -> str:
+    """Where the click fell silent, in a line that can be said again; nothing where it sounded throughout."""
+    gap = session["gap"]
+    return "" if gap is None else f"Click: {gap_words(gap_of(str(gap)))} (again with --gap {gap}).\n\n"
 
 
 def _paused(session: dict[str, Json]) -> str:

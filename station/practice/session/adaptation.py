@@ -28,7 +28,8 @@ from station.engine.engine import KEYBOARD
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
-from station.practice.session.cues.click_pattern import PLAIN, Gap
+from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
+from station.practice.session.cues.quiet_bars import Gap, RandomGap
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import (
     MAX_TEMPO_BPM,
@@ -176,17 +177,27 @@ class Adaptation:
         return ScoreRow(tuple(one.result.score for one in self.rounds))
 
     def _laid_out(self) -> Plan:
-        step, played, click = self.step, bool(self.rounds), self.options.click
+        step, played = self.step, bool(self.rounds)
         options = replace(
             self.options,
             tempo_bpm=min(max(step.tempo_bpm, MIN_TEMPO_BPM), MAX_TEMPO_BPM),
             loops=step.repeats,
             bars=(step.bars[0] + 1, step.bars[1] + 1),
             demonstrations=0 if played else self.options.demonstrations,
-            click=click if step.gap is None else replace(click or PLAIN, gap=Gap(*step.gap)),
+            click=self._click(),
         )
         lesson = replace(self.lesson, score=reorchestrated(self.lesson.score)) if step.reorchestrated else self.lesson
         return plan_practice(lesson, options)
+
+    def _click(self) -> ClickPattern | None:
+        """What clicks in the next pass: a gap that the policy wants, else the student's own, which goes on."""
+        click, gap = self.options.click, self.step.gap
+        if gap is not None:
+            return replace(click or PLAIN, gap=Gap(*gap))
+        if click is None or not isinstance(click.gap, RandomGap):
+            return click
+        bars = sum(one.result.plan.score.bar_count for one in self.rounds)
+        return replace(click, gap=click.gap.going_on(bars, len(self.rounds)))
 
     def _measured(self, result: SessionResult) -> PassResult:
         swap = self.state.equipment.swap

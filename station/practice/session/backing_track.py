@@ -1,6 +1,7 @@
 """The track that a session plays along to: asked for once, made ready for the card's rate and the session's tempo.
 
-Making it ready takes seconds and happens in a process of its own; a session begins when it is done.
+A song brings its own: the bars that are practised, looped as they are. Making a track ready takes seconds and happens
+in a process of its own; a session begins when it is done.
 """
 
 from concurrent.futures import Future
@@ -9,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from station.core.errors import BadInput, DeviceError
+from station.music.score import Score
 from station.practice.session.plan import Plan
 from station.sound.track import PreparedTrack
 from station.sound.track_file import (
@@ -20,18 +22,27 @@ from station.sound.track_file import (
     prepare_in_background,
 )
 
+LEAD_S, RING_S = 1.0, 4.0
+"""So much of a song is made ready before the bars that are practised, for the seam of a loop, and after them, where
+what is played once rings out (our choice)."""
+
 
 @dataclass(frozen=True, slots=True)
 class BackingRequest:
     """A sound file, from where in it, which part of it again and again, and how fast; times in seconds of the file.
 
-    With `speed` None it follows the tempo: a lesson practised at 80 % of its own tempo has its track at 80 %.
+    With `speed` None it follows the tempo: a lesson practised at 80 % of its own tempo has its track at 80 %. `beside`,
+    `piece_s`, `softer` and `turns` are a `TrackRequest`'s.
     """
 
     path: Path
     start_s: float = 0.0
     loop_s: tuple[float, float] | None = None
     speed: float | None = None
+    beside: tuple[Path, ...] = ()
+    piece_s: tuple[float, float] | None = None
+    softer: tuple[tuple[float, int], ...] = ()
+    turns: int | None = None
 
     def track(self, plan: Plan, rate_hz: int) -> TrackRequest:
         """What is to be made ready for `plan`; raises `BadInput` for a speed that no stretching reaches."""
@@ -39,7 +50,9 @@ class BackingRequest:
         if not MIN_SPEED <= speed <= MAX_SPEED:
             limits = f"expected {MIN_SPEED:.0%} to {MAX_SPEED:.0%} of its own speed, found {speed:.0%}"
             raise BadInput(self.path, "speed", limits)
-        return TrackRequest(self.path, rate_hz, speed, self.start_s, self.loop_s)
+        return TrackRequest(
+            self.path, rate_hz, speed, self.start_s, self.loop_s, self.beside, self.piece_s, self.softer, self.turns
+        )
 
     def check(self, plan: Plan, rate_hz: int) -> None:
         """Raise `BadInput` for what could never be made ready, as far as the head of its file tells."""
@@ -47,17 +60,44 @@ class BackingRequest:
         checked_length_s(self.track(plan, rate_hz))
 
 
-class Backing:
-    """Keeps the track ready that was asked for last."""
+def song_request(plan: Plan, with_drums: bool = True) -> BackingRequest | None:
+    """The bars of the song that `plan` practises, again and again where they are; None where it is no song.
 
-    def __init__(self, request: BackingRequest) -> None:
+    Without drums their stems are left out; of a mix its drums, where the part has strokes, are turned down.
+    """
+    band, written = plan.lesson.band, plan.lesson.score.tempo_map
+    if band is None:
+        return None
+    start_tick = written.bar_start(plan.first_bar)
+    start_s, end_s = (band.start_s + written.seconds_at([start_tick, start_tick + plan.section.end_tick])).tolist()
+    path, *beside = band.files(with_drums) or band.drums
+    loop_s = (start_s, end_s) if plan.passes > 1 else None
+    piece_s = start_s - LEAD_S, end_s + RING_S
+    softer = () if with_drums or band.drums else _strokes(plan.lesson.score, band.start_s, piece_s)
+    turns = plan.passes if loop_s else None
+    return BackingRequest(path, start_s, loop_s, None, tuple(beside), piece_s, softer, turns)
+
+
+def _strokes(score: Score, start_s: float, piece_s: tuple[float, float]) -> tuple[tuple[float, int], ...]:
+    """Seconds of the sound, and pieces, of the strokes of `score` in the piece; tick 0 lies at `start_s`."""
+    at_s = start_s + score.onset_s
+    inside = (at_s >= piece_s[0]) & (at_s < piece_s[1])
+    return tuple(zip(at_s[inside].tolist(), score.notes["piece"][inside].tolist(), strict=True))
+
+
+class Backing:
+    """Keeps the track ready that was asked for last: the `request`, else the song's own."""
+
+    def __init__(self, request: BackingRequest | None = None) -> None:
         self._request = request
         self._asked: TrackRequest | None = None
         self._future: Future[PreparedTrack] | None = None
 
-    def ask(self, plan: Plan, rate_hz: int) -> None:
+    def ask(self, plan: Plan, rate_hz: int, with_drums: bool = True) -> None:
         """Begin to make the track ready for `plan`, unless it is so already; raises `BadInput`."""
-        request = self._request.track(plan, rate_hz)
+        wanted = self._request or song_request(plan, with_drums)
+        assert wanted is not None, "it is asked for where there is one"
+        request = wanted.track(plan, rate_hz)
         if request != self._asked:
             self._asked, self._future = request, prepare_in_background(request)
 
@@ -67,9 +107,10 @@ class Backing:
         Raises `BadInput` for the file's fault, `DeviceError` for the disk's.
         """
         assert self._future is not None, "a track is asked for before it is waited for"
+        assert self._asked is not None
         try:
             return self._future.result(wait_s)
         except TimeoutError:
             return None
         except BrokenProcessPool as fault:
-            raise DeviceError(f"{self._request.path}: the track could not be made ready: {fault}") from fault
+            raise DeviceError(f"{self._asked.path}: the track could not be made ready: {fault}") from fault

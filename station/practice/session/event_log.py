@@ -6,7 +6,7 @@ the clock, a text has its place among the strokes: the session heard them later 
 
 | `said` | besides |
 |---|---|
-| `pass` | what is to be played and judged: `lesson`, `title`, `tempo_bpm`, `beat_ticks`, `first_bar`, `passes`, `click`, `level`, `notes` (rows of `NOTE_DTYPE`, without `swing_ticks` in old captures), `tempos`, `meters`, `end_tick` of one pass, `landing` (rows; none in old captures), `passes_start_ns`, `end_ns`; `latency`, `waits` |
+| `pass` | what is to be played and judged: `lesson`, `title`, `tempo_bpm`, `beat_ticks`, `first_bar`, `passes`, `click`, `gap` (as `quiet_bars.gap_of` reads it, null without one), `steps` (bar and tempo, where it rises), `level`, `notes` (rows of `NOTE_DTYPE`, without `swing_ticks` in old captures), `tempos`, `meters`, `end_tick` of one pass, `landing` (rows; none in old captures), `passes_start_ns`, `end_ns`; `latency`, `waits` |
 | `pause` | `now_ns`, the session time that it knew; `command`: the strokes that asked for it, each as `stroke_key` has it |
 | `go_on` | `asked`, `whole`, as `Session.resume` takes them |
 | `end` | `now_ns`, the session time at which nothing more was awaited |
@@ -17,7 +17,7 @@ The score is kept as it was judged, strokes and tempo, so that a lesson that has
 
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -32,9 +32,11 @@ from station.engine.messages import CUE_DTYPE
 from station.motion.kit.kit import DEFAULT_KIT, load_kit
 from station.music.score import NOTE_DTYPE, Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
-from station.practice.session.cues.click_pattern import PLAIN
+from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
+from station.practice.session.cues.quiet_bars import gap_of
 from station.practice.session.device_latency import KitLatency, Latency
-from station.practice.session.plan import MAX_LOOPS, Plan
+from station.practice.session.plan import MAX_LOOPS, MAX_TEMPO_BPM, MIN_TEMPO_BPM, Plan
+from station.practice.session.rising_tempo import TempoStep, risen
 from station.scoring.matching.hit_windows import Level
 
 StrokeKey = tuple[int, str, int, int]
@@ -125,6 +127,8 @@ def _plan_fields(plan: Plan) -> dict[str, object]:
         "first_bar": plan.first_bar,
         "passes": plan.passes,
         "click": plan.click is not None,
+        "gap": None if plan.click is None or plan.click.gap is None else str(plan.click.gap),
+        "steps": [[step.bar, step.tempo_bpm] for step in plan.steps],
         "level": plan.level,
         **_section_fields(plan.section),
         "landing": _rows(plan.landing),
@@ -139,6 +143,7 @@ def _section_fields(section: Score) -> dict[str, object]:
         "notes": _rows(section.notes),
         "tempos": [[change.tick, change.us_per_quarter] for change in tempo_map.tempos],
         "meters": [[change.tick, change.beats, change.unit, *change.groups] for change in tempo_map.meters],
+        **({"tempo_is_played": True} if tempo_map.is_played else {}),
         "end_tick": section.end_tick,
     }
 
@@ -168,6 +173,8 @@ _MOST_TICKS = 2**32
 """So long may what is judged be (our choice: five hours at 120 bpm); what is longer is damage."""
 _MOST_LEAD_MS = 10_000.0
 """No grace stroke lies so far from its note."""
+_NEWER_COLUMNS = 2
+"""The last columns of `NOTE_DTYPE`, swing and timing, are not in older captures, and 0 there."""
 
 # --- reading ----------------------------------------------------------------------------------------------------------
 
@@ -198,7 +205,7 @@ def said_in(logged: LoggedText) -> Said | Tracked | None:
 
 def _plan(fields: dict[str, object]) -> Plan:
     """As much of the plan as judgement needs: nothing sounds, and nobody demonstrates."""
-    section, landing = _section(fields), _landing(fields)
+    section, landing, steps = _section(fields), _landing(fields), _steps(fields)
     passes, start_ns, end_ns = (_whole(fields[key]) for key in ("passes", "passes_start_ns", "end_ns"))
     beat_ticks, tempo_bpm = _whole(fields["beat_ticks"]), float(str(fields["tempo_bpm"]))
     if not (1 <= passes <= MAX_LOOPS and 0 < beat_ticks <= _MOST_TICKS and 0 < tempo_bpm < math.inf):
@@ -209,17 +216,37 @@ def _plan(fields: dict[str, object]) -> Plan:
         kit=load_kit(DEFAULT_KIT),
         tempo_bpm=tempo_bpm,
         section=section,
-        score=section.repeated(passes).landing_on(landing),
+        score=risen(section.repeated(passes).landing_on(landing), steps),
         first_bar=_whole(fields["first_bar"]),
         passes=passes,
         segments=(),
         passes_start_ns=start_ns,
         end_ns=end_ns,
         cues=np.zeros(0, CUE_DTYPE),
-        click=PLAIN if fields["click"] else None,
+        click=_click(fields),
         level=Level(str(fields.get("level", Level.INTERMEDIATE))),  # at which all was judged before there was a choice
         landing=landing,
+        steps=steps,
     )
+
+
+def _click(fields: dict[str, object]) -> ClickPattern | None:
+    """What clicked, as far as judgement asks: whether it did, and where it fell silent."""
+    if not fields["click"]:
+        return None
+    gap = fields.get("gap")  # old captures tell none
+    return PLAIN if gap is None else replace(PLAIN, gap=gap_of(str(gap)))
+
+
+def _steps(fields: dict[str, object]) -> tuple[TempoStep, ...]:
+    """The tempi of the passes where they rose; old captures tell none."""
+    rows = [_list(row) for row in _list(fields.get("steps", []))]
+    steps = tuple(TempoStep(_whole(bar), float(str(tempo_bpm))) for bar, tempo_bpm in rows)
+    bars = [step.bar for step in steps]
+    are_tempi = all(MIN_TEMPO_BPM <= step.tempo_bpm <= MAX_TEMPO_BPM for step in steps)
+    if bars[:1] not in ([], [0]) or bars != sorted(set(bars)) or not are_tempi:
+        raise ValueError
+    return steps
 
 
 def _landing(fields: dict[str, object]) -> NDArray[np.void]:
@@ -234,6 +261,7 @@ def _section(fields: dict[str, object]) -> Score:
     tempo_map = TempoMap.build(
         [TempoChange(*map(_whole, _list(change))) for change in tempos],
         [_meter(*map(_whole, _list(change))) for change in meters],
+        fields.get("tempo_is_played") is True,
     )
     end_tick, notes = _whole(fields["end_tick"]), [_note(_list(row)) for row in rows]
     if not 0 < end_tick <= _MOST_TICKS or any(not 0 <= note.tick < end_tick for note in notes):
@@ -251,11 +279,16 @@ def _meter(tick: int, beats: int, unit: int, *groups: int) -> MeterChange:
 
 def _note(row: list[object]) -> Note:
     names = NOTE_DTYPE.names or ()
-    value = dict(zip(names, [*row, 0] if len(row) == len(names) - 1 else row, strict=True))
-    openness, lead_ms = value["openness"], value["lead_ms"]
-    if not isinstance(openness, float | int | None) or not isinstance(lead_ms, float | int):
+    newer = [0] * min(len(names) - len(row), _NEWER_COLUMNS)
+    value = dict(zip(names, [*row, *newer], strict=True))
+    openness, lead_ms, late_ms = value["openness"], value["lead_ms"], value["late_ms"]
+    if not isinstance(openness, float | int | None):
         raise TypeError
-    if not abs(lead_ms) <= _MOST_LEAD_MS or (openness is not None and not 0 <= openness <= 1):
+    if not isinstance(lead_ms, float | int) or not isinstance(late_ms, float | int):
+        raise TypeError
+    if not (abs(lead_ms) <= _MOST_LEAD_MS and abs(late_ms) <= _MOST_LEAD_MS):
+        raise ValueError
+    if openness is not None and not 0 <= openness <= 1:
         raise ValueError
     if not 0 <= _whole(value["swing_ticks"]) <= _whole(value["tick"]):
         raise ValueError
@@ -274,6 +307,7 @@ def _note(row: list[object]) -> Note:
         choke_ticks=_whole(value["choke_ticks"]),
         midi_note=_whole(value["midi_note"]),
         swing_ticks=_whole(value["swing_ticks"]),
+        late_ms=late_ms,
     )
 
 

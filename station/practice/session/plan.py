@@ -19,6 +19,7 @@ from station.motion.sticking.hand_notes import Hands
 from station.music.score import NOTE_DTYPE, Score
 from station.practice.session.cues.click_pattern import (
     PLAIN,
+    SILENT,
     ClickPattern,
     click_cues,
     count_in,
@@ -27,6 +28,7 @@ from station.practice.session.cues.click_pattern import (
 )
 from station.practice.session.cues.stroke_cues import demonstration_cues, in_order, moved_by
 from station.practice.session.leading_hand import drummers_kit, led_to_landing
+from station.practice.session.rising_tempo import Rise, TempoStep, risen, steps_of
 from station.scoring.matching.hit_windows import Level
 
 MIN_TEMPO_BPM, MAX_TEMPO_BPM = 20.0, 400.0
@@ -59,9 +61,10 @@ class PlanOptions:
     """What a student asks of a lesson; None leaves the choice to the lesson. `bars` (first, last) counts from 1.
 
     `click` is for the demonstrations and passes; the count-in clicks, or counts, every beat. With None the passes have
-    no click, and the score follows the student. With `guide` the demonstration plays along in the passes. `hands` says
-    whose hand leads, None as the lesson's kit is built. `level` is how strictly is judged, None as the lesson suggests;
-    `stands` which kit stands before the demonstrator, empty for the lesson's.
+    no click, and the score follows the student, but in a song: a band waits for nobody. With `guide` the demonstration
+    plays along in the passes. `hands` says whose hand leads, None as the lesson's kit is built. `level` is how strictly
+    is judged, None as the lesson suggests; `stands` which kit stands before the demonstrator, empty for the lesson's.
+    `rise` lets the tempo of the passes rise.
     """
 
     tempo_bpm: float | None = None
@@ -73,6 +76,7 @@ class PlanOptions:
     hands: Hands | None = None
     level: Level | None = None
     stands: str = ""
+    rise: Rise | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +103,8 @@ class Plan:
     `first_bar` the lesson's bar (from 0) where the section begins, `passes_start_ns` where tick 0 of `score` lies on
     the transport, `end_ns` where the last pass ends, `cues` (n,) of `CUE_DTYPE` everything that sounds, `click` the
     pattern under the passes, None where the score follows the student, `level` how strictly is judged.
-    `rounds` is there where passes differ in bars or tempo: then `section` is all of them in a row.
+    `rounds` is there where passes differ in bars or tempo: then `section` is all of them in a row. Where the tempo
+    rises as `rise` says `steps` are the tempi of `score`, and `tempo_bpm` the first; the `section` stays at that.
     """
 
     lesson: Lesson
@@ -117,6 +122,8 @@ class Plan:
     level: Level
     rounds: Rounds | None = None
     landing: NDArray[np.void] = field(default_factory=lambda: np.zeros(0, NOTE_DTYPE))
+    steps: tuple[TempoStep, ...] = ()
+    rise: Rise | None = None
 
     def in_a_row(self, times: int) -> Score:
         """The section `times` times in a row, and the landing."""
@@ -134,6 +141,12 @@ class Plan:
     def practised_bars(self) -> tuple[int, ...]:
         """The same, a landing with the bar that leads to it: what counts for a bar, and what is to be practised."""
         return tuple(min(bar, self.bars[1]) for bar in self.bar_names)
+
+    def music_of(self, segment: Segment) -> tuple[Score, int]:
+        """The score in which a segment lies, and when its tick 0 is on the transport: the passes are one in a row."""
+        if segment.phase is Phase.PASS:
+            return self.score, self.passes_start_ns
+        return self.section, segment.start_ns
 
     @property
     def pass_starts(self) -> tuple[int, ...]:
@@ -189,14 +202,14 @@ class Plan:
 def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:
     """Lay out a session; raises `BadInput` for a tempo, a number of loops or bars that cannot be."""
     tempo_bpm = _checked_tempo(options.tempo_bpm, lesson)
-    passes = _checked_loops(options.loops, lesson)
     first, last = _checked_bars(options.bars, lesson)
+    passes = _checked_loops(options.loops, lesson.passes_of((first, last)))
     kit = drummers_kit(lesson, options.hands, options.stands)
     section = lesson.score.bars(first, last).at_speed(tempo_bpm / lesson.tempo_bpm)
     section, landing = led_to_landing(section, lesson.landing_after(last), kit, options.hands)
     demonstrations = lesson.demonstrations if options.demonstrations is None else options.demonstrations
 
-    line = _Timeline(section, landing, lesson.count_in_bars, options)
+    line = _Timeline(lesson, section, landing, options, passes)
     line.add(Phase.DEMONSTRATION, demonstrations)
     passes_start_ns = line.add(Phase.PASS, passes)
     return Plan(
@@ -204,29 +217,34 @@ def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:
         kit=kit,
         tempo_bpm=tempo_bpm,
         section=section,
-        score=section.repeated(passes).landing_on(landing),
+        score=line.passes(passes),
         first_bar=first,
         passes=passes,
         segments=tuple(line.segments),
         passes_start_ns=passes_start_ns,
         end_ns=line.end_ns,
         cues=in_order(line.cues),
-        click=options.click,
+        click=SILENT if options.click is None and lesson.band is not None else options.click,
         level=lesson.levels.level(options.level),
         landing=landing,
+        steps=line.steps,
+        rise=options.rise,
     )
 
 
 class _Timeline:
-    """A session's `segments` and `cues` so far, until `end_ns`; each phase is counted in."""
+    """A session's `segments` and `cues` so far, until `end_ns`; each phase is counted in. `steps` as the plan has."""
 
-    def __init__(self, section: Score, landing: NDArray[np.void], count_in_bars: int, options: PlanOptions) -> None:
+    def __init__(
+        self, lesson: Lesson, section: Score, landing: NDArray[np.void], options: PlanOptions, passes: int
+    ) -> None:
         self.segments: list[Segment] = []
         self.cues: list[NDArray[np.void]] = []
         self.end_ns = 0
         self._section, self._landing = section, landing
+        self.steps = _steps(options, lesson, section, passes)
         self._options, self._click = options, options.click or PLAIN
-        self._count_in = _count_in(section, count_in_bars)
+        self._count_in = _count_in(section, lesson.count_in_bars)
 
     def add(self, phase: Phase, times: int) -> int:
         """The section `times` times in a row and the landing behind a count-in, nothing where it is none.
@@ -236,7 +254,7 @@ class _Timeline:
         if times == 0:
             return self.end_ns
         self._count()
-        start_ns, whole = self.end_ns, self._section.repeated(times).landing_on(self._landing)
+        start_ns, whole = self.end_ns, self._in_a_row(phase, times)
         starts_ns = whole.tempo_map.ns_at(np.arange(times) * self._section.end_tick).tolist()
         ends_ns = [*starts_ns[1:], whole.length_ns]
         if phase is Phase.DEMONSTRATION:
@@ -251,6 +269,14 @@ class _Timeline:
         ]
         self.end_ns += whole.length_ns
         return start_ns
+
+    def passes(self, times: int) -> Score:
+        """All passes in a row and the landing, at the tempi that they are played at."""
+        return risen(self._section.repeated(times).landing_on(self._landing), self.steps)
+
+    def _in_a_row(self, phase: Phase, times: int) -> Score:
+        is_played = phase is Phase.PASS
+        return self.passes(times) if is_played else self._section.repeated(times).landing_on(self._landing)
 
     def _count(self) -> None:
         if length_ns := self._count_in.length_ns:
@@ -290,8 +316,22 @@ def _checked_tempo(requested_bpm: float | None, lesson: Lesson) -> float:
     return tempo_bpm
 
 
-def _checked_loops(requested: int | None, lesson: Lesson) -> int:
-    loops = lesson.passes if requested is None else requested
+def _steps(options: PlanOptions, lesson: Lesson, section: Score, passes: int) -> tuple[TempoStep, ...]:
+    """The tempi of the passes where they rise; raises `BadInput`."""
+    if options.rise is None:
+        return ()
+    if lesson.band is not None:
+        raise BadInput("--rise", lesson.name, "the sound of a song has one tempo")
+    if options.click is None:
+        raise BadInput("--rise", "--no-click", "without a click the tempo is yours: nothing can raise it")
+    tempo_bpm = lesson.tempo_bpm if options.tempo_bpm is None else options.tempo_bpm
+    steps = steps_of(options.rise, lesson, tempo_bpm, passes * section.bar_count)
+    _checked_tempo(steps[-1].tempo_bpm, lesson)
+    return steps
+
+
+def _checked_loops(requested: int | None, usual: int) -> int:
+    loops = usual if requested is None else requested
     if not 1 <= loops <= MAX_LOOPS:
         raise BadInput("--loops", str(loops), f"expected 1 to {MAX_LOOPS}")
     return loops

@@ -8,12 +8,15 @@ from station.practice.session.session import Session
 def place_of(session: Session) -> tuple[int | None, int | None]:
     """The lesson's bar and its beat, from 1, None where none is played; a count-in has beats alone."""
     state, plan = session.state(), session.plan
-    segment, tempo_map = state.segment, plan.section.tempo_map
+    segment = state.segment
     if state.transport_ns is None or state.transport_ns < segment.start_ns or segment.phase is Phase.OVER:
         return None, None
-    at = tempo_map.position_at(int(tempo_map.ticks_at_ns(state.transport_ns - segment.start_ns)))
-    is_count_in = segment.phase is Phase.COUNT_IN
-    return None if is_count_in else plan.first_bar + at.bar + 1, at.beat + 1
+    music, start_ns = plan.music_of(segment)
+    at = music.tempo_map.position_at(int(music.tempo_map.ticks_at_ns(state.transport_ns - start_ns)))
+    if segment.phase is Phase.COUNT_IN:
+        return None, at.beat + 1
+    within = at.bar - segment.index * plan.section.bar_count if segment.phase is Phase.PASS else at.bar
+    return plan.first_bar + within + 1, at.beat + 1
 
 
 def direction_of(session: Session) -> Direction:

@@ -55,11 +55,11 @@ class Engraver:
         self._numbers, self._beat_ticks = numbers or BarNumbers(), beat_ticks
         self._as_written = as_written
         self._atlas = atlas
-        self._whole, known, self._is_small = whole_score(score, limbs)
-        self._limbs = shown_limbs(self._whole, known)
-        self.rows_y = staff_rows(self._whole, self._limbs)
-        self._closing = closing_hats(self._whole)
-        self._staff_strokes = staff_strokes(self._whole, self._limbs, self._is_small, self._closing)
+        self.whole, known, self._is_small = whole_score(score, limbs)
+        self._limbs = shown_limbs(self.whole, known)
+        self.rows_y = staff_rows(self.whole, self._limbs)
+        self._closing = closing_hats(self.whole)
+        self._staff_strokes = staff_strokes(self.whole, self._limbs, self._is_small, self._closing)
         self._meant = score
         self._write()
 
@@ -72,10 +72,10 @@ class Engraver:
 
     def _write(self, ticks: NDArray[np.int64] | None = None) -> None:
         """Find where strokes are written, or have them at `ticks`."""
-        self.strokes = written_strokes(self._whole, feet_of(self._whole), ticks)
+        self.strokes = written_strokes(self.whole, feet_of(self.whole), ticks)
         self._order = np.argsort(self.strokes.tick, kind="stable")
         self._in_order = self.strokes.tick[self._order]
-        known = np.union1d(self.strokes.tick, self._whole.notes["tick"])
+        known = np.union1d(self.strokes.tick, self.whole.notes["tick"])
         self._seconds: dict[int, float] = dict(
             zip(known.tolist(), self.score.tempo_map.seconds_at(known).tolist(), strict=True)
         )
@@ -135,7 +135,7 @@ class Engraver:
         rows = self.rows(start, self.score.tempo_map.bar_start(bar + 1))
         strokes = self.strokes
         rows += [i for is_foot in (False, True) for i in strokes.held_into(start, is_foot)]
-        notes = self._whole.notes[rows]
+        notes = self.whole.notes[rows]
         parts = [
             strokes.tick[rows] - start,
             strokes.until[rows] - start,

@@ -88,6 +88,14 @@ class OutlineAtlas(Atlas):
         """Half of how high outlines are, shape (n,)."""
         return np.array(self._upright)[numbers]
 
+    def twin(self, number: int, atlas: Atlas) -> tuple[Glyph, Glyph]:
+        """The glyph here whose outline has this number, and the same letter or sign in another atlas."""
+        for name, glyph in self._signs.items():
+            if glyph.uv[0] == number:
+                return glyph, atlas.sign(name)
+        (character, face), glyph = next(item for item in self._letters.items() if item[1].uv[0] == number)
+        return glyph, atlas.letter(character, face)
+
     def drawn(self, kind: ShapeKind, half: tuple[float, float], width: float) -> int:
         """The outline of a ring or a cross, whose line does not grow with it."""
         key = (int(kind), round(half[0], 4), round(half[1], 4), round(width, 4))

@@ -55,10 +55,10 @@ def click_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp | 
 
 
 def _segments(jumps: Indices, count: int) -> Indices:
-    """Number of the segment of each hit (m,): a new one begins where the place jumps."""
-    begins = np.zeros(count, np.int64)
+    """Number of the segment of each hit (m,): a new one begins where the place jumps; behind the last there is none."""
+    begins = np.zeros(count + 1, np.int64)
     begins[jumps] = 1
-    return np.cumsum(begins)
+    return np.cumsum(begins[:count])
 
 
 def _smoothed(at_s: Floats, raw: RawWay, segment: Indices) -> Floats:

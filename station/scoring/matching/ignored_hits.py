@@ -116,7 +116,7 @@ class Unwritten:
         """Where music may land, rising: the ones of silent bars after music, and of the bar after the end; on what."""
         full = self._bars_with(np.ones(len(self._score), np.bool_))
         after_music = np.flatnonzero(full[:-1] & ~full[1:]) + 1
-        on_one = self._score.onset_ns == self._bar_ns[self._score.bar]
+        on_one = self._score.on_the_grid.onset_ns == self._bar_ns[self._score.bar]
         pieces = {*np.unique(self._score.notes["piece"][on_one]).tolist(), *_LANDED_ON}
         return self._bar_ns[after_music].tolist(), frozenset(pieces)
 

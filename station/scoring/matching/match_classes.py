@@ -13,26 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
+from station.core.stand_ins import STAND_INS, stand_in
 
 ALTERNATES = MappingProxyType({Piece.CRASH_2: Piece.CRASH_1, Piece.RIDE_2: Piece.RIDE})
 """Piece -> the piece that it answers for on every kit."""
-
-FOLDS = MappingProxyType(
-    {
-        Piece.TOM_1: (Piece.TOM_2, Piece.TOM_3, Piece.FLOOR_TOM_1),
-        Piece.TOM_2: (Piece.TOM_1, Piece.TOM_3, Piece.FLOOR_TOM_1),
-        Piece.TOM_3: (Piece.TOM_2, Piece.FLOOR_TOM_1, Piece.TOM_4),
-        Piece.TOM_4: (Piece.FLOOR_TOM_1, Piece.TOM_3, Piece.TOM_2),
-        Piece.FLOOR_TOM_1: (Piece.FLOOR_TOM_2, Piece.TOM_4, Piece.TOM_3, Piece.TOM_2),
-        Piece.FLOOR_TOM_2: (Piece.FLOOR_TOM_1, Piece.TOM_4, Piece.TOM_3),
-        Piece.SPLASH: (Piece.CRASH_1, Piece.CRASH_2),
-        Piece.CHINA: (Piece.CRASH_2, Piece.CRASH_1),
-        Piece.CRASH_1: (Piece.CRASH_2, Piece.RIDE),
-        Piece.RIDE: (Piece.RIDE_2, Piece.CRASH_1),
-        Piece.COWBELL: (Piece.RIDE,),
-    }
-)
-"""Piece that a kit lacks -> where a drummer goes instead, nearest first (our choice, by pitch and place on the kit)."""
 
 
 def match_classes(kit: Collection[Piece] | None = None) -> NDArray[np.int64]:
@@ -44,7 +28,7 @@ def match_classes(kit: Collection[Piece] | None = None) -> NDArray[np.int64]:
     for piece, other in ALTERNATES.items():
         table[piece] = other
     if kit is not None:
-        for piece, others in FOLDS.items():
-            if piece not in kit:
-                table[piece] = next((table[o] for o in others if o in kit), table[piece])
+        for piece in STAND_INS:
+            nearest = stand_in(piece, kit)
+            table[piece] = table[piece if nearest is None else nearest]
     return table

@@ -15,12 +15,11 @@ from station.scoring.analysis.summary import Summary, SummaryGroup
 from station.scoring.analysis.technique.observability import unobservable
 from station.scoring.analysis.timing_spread import Spread
 from station.scoring.report.advice import advise
+from station.scoring.report.assessment_schema import SCHEMA
 from station.scoring.report.praise import praise
 from station.scoring.report.technique_table import Json, plain
 
 __all__ = ["Json", "assessment"]
-
-SCHEMA = "drum-station/assessment/1"
 
 _DECIMALS = 3
 

@@ -14,6 +14,7 @@ from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.lesson import BarCue
 from station.drills.library import find_lesson
+from station.drills.reading.lesson_file import parse_lesson
 from station.engine.messages import Bus, Command, Play, Stop
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import figure_of
@@ -255,3 +256,22 @@ def test_a_lesson_is_watched_with_its_cues_and_to_its_landing() -> None:
     use(made, lambda player, now_ns: player.stopped(now_ns).sought(now_ns, BAR_NS))
     second = made.snapshot()
     assert (second.view, second.hud.say, second.hud.bar_count) == (NamedView.FEET, "Ghosts low", 3)
+
+
+def test_a_lesson_that_is_changed_plays_on_from_where_it_is() -> None:
+    """Rock 1 at 80 beats a minute; 700 ms in it is changed to 100, and sounds anew 50 ms later, on the second beat."""
+    made, sent = deck()
+    use(made, SongPlayer.played)
+    made.started(NS_PER_S)
+    made.advance(NS_PER_S + 700 * NS_PER_MS)
+    changed = parse_lesson(ROCK.text.replace("tempo_bpm = 80", "tempo_bpm = 100", 1), "x", ROCK.name).lesson
+    assert changed is not None
+    sent.clear()
+    made.revise(DemonstratedLesson(changed, KIT), (1, 2))
+    assert [type(command) for command in sent] == [Stop, Play]
+    assert made.player.playing
+    assert made.player.loop == (0, 1)
+    second_beat_ns = made.player.position_ns(made.now_ns + LEAD_NS)
+    assert abs(second_beat_ns - 600 * NS_PER_MS) < NS_PER_MS
+    made.advance(made.now_ns + 10 * NS_PER_MS)
+    assert len(made.snapshot().score) == len(changed.played_once)

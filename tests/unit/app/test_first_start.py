@@ -45,3 +45,4 @@ def test_every_page_has_its_help() -> None:
     assert topic_of(RoomState(Stage.PLAYING), free=False) is Topic.PLAYING
     assert topic_of(RoomState(Stage.RESULT, question="rushed?"), free=False) is Topic.QUESTION
     assert topic_of(RoomState(Stage.RESULT), free=False) is Topic.RESULT
+    assert topic_of(RoomState(Stage.RESULT, exam=True), free=False) is Topic.EXAM

@@ -9,6 +9,7 @@ from station.app.actions.practice_actions import Begin
 from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
 from station.app.importer import Importer
+from station.app.music_files.lesson_import import KeptLesson
 from station.app.room_state import Stage
 from station.app.sessions.session_control import Launch
 from station.core.units import NS_PER_S
@@ -49,7 +50,7 @@ def test_an_import_is_listed_among_ones_own_and_chosen(tmp_path: Path) -> None:
     assert [(group.title, [card.title for card in group.cards]) for group in view.selection.groups()[:1]] == [
         ("Your own", ["My beat"])
     ]
-    assert view.imports.kept is not None
+    assert isinstance(view.imports.kept, KeptLesson)
     assert view.imports.kept.path == tmp_path / "lessons" / "beat.toml"
     assert "My beat: 1 bar" in view.toast
 

@@ -1,6 +1,7 @@
 """What becomes a lesson of the user's own: where it lies, what it is called, what is refused."""
 
 import os
+import shlex
 from pathlib import Path
 
 import pytest
@@ -92,6 +93,10 @@ def test_a_link_and_a_song_s_folder_are_imported(tmp_path: Path) -> None:
     assert (by_folder.path.stem, by_folder.title) == ("Band-Song", "Band - Song")
     assert [note.piece for note in load_part(str(song)).score] == [Piece.KICK, Piece.SNARE] * 2
     assert not is_lesson(str(song))
+    assert not any("station song new" in remark for remark in by_folder.remarks)
+    (song / "song.ogg").write_bytes(b"")
+    (said,) = (line for line in import_lesson(str(song), "x").remarks if "station song new" in line)
+    assert shlex.split(said.split("`")[1])[:5] == ["station", "song", "new", "--part", str(song)]
 
 
 @pytest.mark.parametrize(

@@ -88,3 +88,19 @@ def test_a_student_who_holds_the_lesson_is_judged_more_strictly_the_next_time(
     assert main(["practice", "rock-1", *VIRTUAL[:2], "sd_ms=5,seed=1", "--no-pictures", *options]) == 0
     assert "You hold it at beginner: judged as elementary from next time on." in capsys.readouterr().out
     assert level_of(["--student", "Anna"], capsys) == "elementary"
+
+
+# --- on a smaller kit -------------------------------------------------------------------------------------------------
+
+
+def test_a_lesson_is_practised_on_the_pieces_that_there_are(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["practice", "rock-fill-1", *VIRTUAL, "--json", "--fold", "kick, snare,hihat"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["session"]["title"] == "Rock fill: around the kit (smaller kit)"
+    assert set(report["per_piece"]) == {"kick", "snare", "hihat"}
+
+
+@pytest.mark.parametrize("pieces", ["kick,snair", ""])
+def test_a_piece_that_nobody_knows_is_told(pieces: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["practice", "rock-fill-1", *VIRTUAL, "--fold", pieces]) == 2
+    assert "expected pieces such as kick,snare,hihat" in capsys.readouterr().err

@@ -1,5 +1,7 @@
 """Lines and columns counted by eye."""
 
+import time
+
 import pytest
 
 from station.core.toml.toml_places import Places
@@ -183,3 +185,56 @@ def test_headers_stand_in_the_order_of_the_text() -> None:
 def test_what_is_true_of_every_line_that_follows_is_told_once() -> None:
     _, _, found = load('a = ["x"\nb = 2\n\nc = 3\nd = 4\n')
     assert [fault[:2] for fault in found] == [(2, 1)]
+
+
+LISTS = """\
+a = [ 1,2.5 ,
+  -3e2,  2020-01-01 10:00:00 ,
+  true
+  , ]
+b = [[], [ ], [7], [8, 9]]
+c = [1, # one
+  2]
+d = [1, "x", 3]
+"""
+
+
+@pytest.mark.parametrize(
+    ("path", "place", "written"),
+    [
+        (("a", 0), (1, 7), "1"),
+        (("a", 1), (1, 9), "2.5"),
+        (("a", 2), (2, 3), "-3e2"),
+        (("a", 3), (2, 10), "2020-01-01 10:00:00"),
+        (("a", 4), (3, 3), "true"),
+        (("b", 1), (5, 10), "[ ]"),
+        (("b", 2, 0), (5, 16), "7"),
+        (("b", 3, 1), (5, 24), "9"),
+        (("c", 1), (7, 3), "2"),
+        (("d", 0), (8, 6), "1"),
+        (("d", 2), (8, 14), "3"),
+    ],
+)
+def test_entries_of_lists(path: tuple[str | int, ...], place: tuple[int, int], written: str) -> None:
+    places = Places.of(LISTS)
+    assert places.find(path) == place
+    assert places.text[places.values[path] : places.ends[path]] == written
+
+
+def test_no_entry_of_a_list_is_made_up() -> None:
+    assert len(Places.of(LISTS).values) == 4 + 5 + 4 + 3 + 2 + 3
+
+
+def test_a_number_of_too_many_digits_within_a_list_has_its_place() -> None:
+    _, _, found = load(f"a = [1, 2,\n  {'9' * 5000}]\n")
+    assert found[0][:2] == (2, 3)
+
+
+@pytest.mark.parametrize("entry", ["1.25, ", "1,", "1 \n,", "1" + 20 * " " + ","])
+def test_a_list_as_long_as_a_file_may_be_is_placed_in_time(entry: str) -> None:
+    """Half a second of its own on a slow machine; four times that are let pass."""
+    count = 900_000 // len(entry)
+    begin_s = time.process_time()
+    places = Places.of(f"a = [{entry * count}]\n")
+    assert time.process_time() - begin_s < 2.0
+    assert len(places.values) == count + 1

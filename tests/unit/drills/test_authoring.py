@@ -24,7 +24,7 @@ DOCS = Path(__file__).parents[3] / "docs" / "lessons.md"
 def test_the_examples_of_the_manual_are_lessons() -> None:
     examples = re.findall(r"```toml\n(.*?)```", DOCS.read_text(encoding="utf-8"), re.DOTALL)
     lessons = [example for example in examples if "\nlessons =" not in example]
-    assert len(lessons) == 9
+    assert len(lessons) == 10
     for example in lessons:
         assert parse_lesson(example, "docs/lessons.md", "example").faults == []
 

@@ -5,7 +5,7 @@ import pytest
 from station.core.toml.toml_source import load
 from station.drills.library import find_lesson, lesson_names
 from station.drills.reading.lesson_file import parse_lesson
-from station.drills.writing.lesson_text import show, with_value
+from station.drills.writing.lesson_text import show
 from tests.same_lesson import first_difference
 from tests.unit.drills.lesson_faults import GOOD
 
@@ -137,31 +137,6 @@ def test_a_shipped_lesson_stands_as_it_is_shown(name: str) -> None:
     """If not: python -m tools.lesson_reference."""
     text = find_lesson(name).text
     assert show(text) == text
-
-
-# --- one key ----------------------------------------------------------------------------------------------------------
-
-TEXT = 'title = "T"  # mine\nloop = [1,\n  2]  # both\n\n[goals]\nmin_score = 3\n'
-
-
-def test_a_key_is_set_in_its_place() -> None:
-    assert with_value(TEXT, "loop", [2, 2]) == TEXT.replace("[1,\n  2]", "[2, 2]")
-    assert with_value(TEXT, "title", 'A "B"') == TEXT.replace('"T"', '"A \\"B\\""')
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
-        (TEXT, TEXT.replace("# both\n", "# both\npasses = 4\n")),
-        ("[grid]\npasses = 3\n", "passes = 4\n[grid]\npasses = 3\n"),
-        ("", "passes = 4\n"),
-        ('title = "T"', 'title = "T"\npasses = 4'),
-        ('about = """\n[x]\n"""\n[grid]\n', 'about = """\n[x]\n"""\npasses = 4\n[grid]\n'),
-        ('goals.level = "studio"\n', 'goals.level = "studio"\npasses = 4\n'),
-    ],
-)
-def test_a_key_that_is_not_there_follows_the_others(text: str, expected: str) -> None:
-    assert with_value(text, "passes", 4) == expected
 
 
 # --- the same lesson --------------------------------------------------------------------------------------------------

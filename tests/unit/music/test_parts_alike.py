@@ -42,6 +42,7 @@ def _part(*notes: Note, tempo_map: TempoMap | None = None) -> DrumPart:
         (Feature.BUZZES, replace(_STROKE, articulation=Articulation.BUZZ, ornament=Ornament.ROLL)),
         (Feature.CHOKES, replace(_STROKE, choke_ticks=PPQ)),
         (Feature.STICKING, replace(_STROKE, limb=Limb.LEFT_HAND)),
+        (Feature.TIMING, replace(_STROKE, late_ms=-12.0)),
     ],
 )
 def test_each_feature_of_a_stroke_and_it_alone(feature: Feature, note: Note) -> None:

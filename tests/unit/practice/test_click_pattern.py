@@ -11,11 +11,11 @@ from station.practice.session.cues.click_pattern import (
     ClickLevels,
     ClickPattern,
     Displacement,
-    Gap,
     bar_clicks,
     click_cues,
     count_in,
 )
+from station.practice.session.cues.quiet_bars import Gap
 
 FOUR = MeterChange(0, 4, 4)
 SLOW = TempoMap.constant(60.0)  # a beat a second

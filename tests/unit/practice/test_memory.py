@@ -8,14 +8,19 @@ from pathlib import Path
 import pytest
 
 from station.core.errors import DeviceError
+from station.core.settings import Settings
 from station.drills.course import Course, CoursePart
+from station.drills.daily.day_plan import daily_plan
 from station.drills.library import find_lesson
 from station.drills.mastery.mastery_json import SCHEMA
 from station.drills.mastery.next_pass import new_item
 from station.drills.mastery.practice_steps import item_of
 from station.drills.mastery.reviews import Review
+from station.practice.book.lesson_book import day_facts
 from station.practice.headless.virtual_session import practise_adaptively
+from station.practice.records.assigned_lessons import Taken, assignments_folder, write_taken
 from station.practice.records.memory import Memory, Remembered
+from station.practice.records.teachers_wishes import wishes_of
 from station.practice.session.plan import PlanOptions
 from station.simulation.student_spec import parse_spec
 
@@ -121,3 +126,26 @@ def test_a_course_that_is_followed_goes_on_after_what_is_mastered(tmp_path: Path
     turn = followed.next_turn()
     assert turn is not None
     assert (turn.item.name, turn.why) == ("rock-4", "it comes next in Beats")
+
+
+def test_what_a_teacher_wants_comes_next_until_it_is_stable_or_forgotten(tmp_path: Path) -> None:
+    """Rock 5 is wanted in two days, rock 4 whenever; the report names rock 5, as the plan of the day does."""
+    settings = replace(Settings(), sessions=str(tmp_path), student="Ann")
+    wanted = ("rock-5", TODAY + timedelta(days=2)), ("rock-4", None), ("no-such", TODAY)
+    for number, (name, due) in enumerate(wanted):
+        taken = Taken(str(number), 1, "2026-11-01T12:00:00", ((name, name),), due=due)
+        write_taken(assignments_folder(settings.sessions_dir, "Ann") / str(number), taken)
+
+    def turn(day: date) -> tuple[str, str]:
+        kept = Memory.of(settings.sessions_dir, "Ann", "rock-1", LESSON.loop)
+        followed = Remembered.of(LESSON, PlanOptions(), day, kept, None, wishes_of(settings, day))
+        found = followed.next_turn()
+        assert found is not None
+        facts = day_facts(settings, day, assigned=wishes_of(settings, day).assigned)
+        followed.keep()
+        assert found.item.name == daily_plan(facts).items[1].lesson
+        return found.item.name, found.why
+
+    due = TODAY + timedelta(days=2)
+    assert turn(TODAY) == ("rock-5", f"your teacher wants it by {due.day} {due:%B}")
+    assert turn(due + timedelta(days=15)) == ("rock-4", "your teacher asked for it")

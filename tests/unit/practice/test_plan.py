@@ -15,7 +15,8 @@ from station.motion.kit.kit import load_kit
 from station.motion.sticking.hand_notes import Hands
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
-from station.practice.session.cues.click_pattern import ClickBeats, ClickPattern, Gap
+from station.practice.session.cues.click_pattern import ClickBeats, ClickPattern
+from station.practice.session.cues.quiet_bars import Gap
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Phase, PlanOptions, plan_practice
 from tests.fakes.scores import rock_beat

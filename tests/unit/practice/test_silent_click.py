@@ -11,12 +11,13 @@ from station.core.settings import Settings
 from station.drills.library import find_lesson
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.records.session_report import practice_document
-from station.practice.session.cues.click_pattern import PLAIN, Gap
+from station.practice.session.cues.click_pattern import PLAIN
+from station.practice.session.cues.quiet_bars import Gap, QuietBars
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.simulation.student_spec import parse_spec
 
 
-def craft(gap: Gap | None) -> dict[str, Any]:
+def craft(gap: QuietBars | None) -> dict[str, Any]:
     """rock-1 is two bars, played eight times: 16 bars."""
     plan = plan_practice(find_lesson("rock-1"), PlanOptions(demonstrations=0, click=replace(PLAIN, gap=gap)))
     document: dict[str, Any] = practice_document(
@@ -44,5 +45,5 @@ def test_a_click_that_never_falls_silent_has_no_gaps() -> None:
 def test_gaps_as_people_write_them() -> None:
     assert bars_of_gap("2/1") == Gap(2, 1)
     for text in ("2", "2/0", "0/2", "a/b", "2/-1", ""):
-        with pytest.raises(ArgumentTypeError, match="such as 2/1"):
+        with pytest.raises(ArgumentTypeError, match="such as 4/1"):
             bars_of_gap(text)

@@ -13,6 +13,7 @@ from station.music.performance import Performance
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.scoring.align import align
+from station.scoring.following.warp import _segments
 from station.scoring.matching.alignment import Alignment, Reference, judgements
 from tests.fakes.scores import flams, rock_beat
 
@@ -183,3 +184,8 @@ def test_judgements_name_everyone_once() -> None:
     assert sorted(j.hit_index for j in said if j.hit_index is not None) == [0, 1, 2, 3]
     assert next(j for j in said if j.note_index == 2).velocity_error == 10.5
     assert next(j for j in said if j.label is Label.MISS).hit_index is None
+
+
+def test_a_jump_behind_the_last_hit_begins_no_segment() -> None:
+    """By hand: hits 0 and 1 before a jump at hit 2, hits 2 to 4 after it, none after a jump at hit 5."""
+    assert _segments(np.array([2, 5]), 5).tolist() == [0, 0, 1, 1, 1]

@@ -1,3 +1,4 @@
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from station.core.errors import DeviceError
 from station.core.note_map import NoteMeaning
 from station.core.pieces import Piece
 from station.sound.buses import Bus
-from station.sound.track import EDGE_S, SEAM_S, TRACK_JUMP_S, PreparedTrack, Track, TrackVoice, load
+from station.sound.track import EDGE_S, LEAVE_S, SEAM_S, TRACK_JUMP_S, PreparedTrack, Track, TrackVoice, load
 from tests.unit.sound.kits import RATE_HZ, impulse, mixer_of
 
 EDGE = round(EDGE_S * RATE_HZ)
@@ -182,3 +183,19 @@ def test_a_file_that_is_gone_or_cut_short_is_told(tmp_path: Path, size: int | No
         path.write_bytes(bytes(size))
     with pytest.raises(DeviceError, match="choose its file again"):
         load(PreparedTrack(path, RATE_HZ, 10, None))
+
+
+def test_a_loop_that_is_left_goes_on_into_what_follows_and_fades() -> None:
+    """Frames 1000 to 3000 twice; then 3000, 3001 … by a straight line down to nothing, never the loop's beginning."""
+    leave = round(LEAVE_S * RATE_HZ)
+    track = replace(ramp_track(32_000, start=1000, loop=(1000, 3000)), turns=2)
+    voice = TrackVoice(track)
+    heard = numbers(voice.read(4000))
+    assert heard[EDGE : 2000 - SEAM - 1].tolist() == list(range(1000 + EDGE, 3000 - SEAM - 1))
+    assert heard[2000:].tolist() == list(range(1000, 3000)), "the last turn has no seam"
+    assert not voice.has_ended
+    left = numbers(voice.read(leave + 100))
+    after = np.arange(leave)
+    assert left[:leave] == pytest.approx((3000 + after) * (1 - after / leave), abs=0.5)
+    assert not left[leave:].any()
+    assert voice.has_ended

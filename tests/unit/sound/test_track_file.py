@@ -119,3 +119,19 @@ def test_it_is_prepared_in_a_process_of_its_own(tmp_path: Path) -> None:
     assert good.result(60).file.exists()
     with pytest.raises(BadInput, match=r"none\.wav"):
         bad.result(60)
+
+
+@pytest.mark.parametrize("speed", [0.5, 0.6, 1.5])
+def test_a_slowed_track_does_not_drift_in_a_minute(speed: float) -> None:
+    """Bursts at odd times: each within 5 ms of its time over the speed, the last ten as the first within 1 ms."""
+    at_s = np.arange(1, 59) + np.random.default_rng(4).uniform(0.0, 0.4, 58)
+    sound = np.zeros((60 * RATE_HZ, 2), np.float32)
+    burst = np.sin(2 * np.pi * 800 * np.arange(2000) / RATE_HZ) * np.exp(-np.arange(2000) / 300)
+    for second in at_s:
+        sound[round(second * RATE_HZ) :][:2000] += burst[:, None]
+    out = np.abs(stretched(sound, RATE_HZ, speed)[:, 0])
+    around = np.rint(at_s / speed * RATE_HZ).astype(int)
+    windows = np.stack([out[at - 4000 : at + 4000] for at in around])
+    off_ms = 1e3 * (np.argmax(windows > 0.3 * windows.max(axis=1, keepdims=True), axis=1) - 4000) / RATE_HZ
+    assert np.abs(off_ms).max() < 5.0
+    assert abs(off_ms[:10].mean() - off_ms[-10:].mean()) < 1.0

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from station.core.units import PPQ
-from station.drills.grid.grid_writer import PLAIN_CELLS, TUPLET_CELLS
+from station.drills.grid.skeletons import PLAIN_CELLS, TUPLET_CELLS
 from station.drills.transcription.timing.beat_spans import BeatSpans, Floats, Ints
 from station.drills.transcription.timing.divisions import cell_places
 from station.drills.transcription.timing.meant import Meant

@@ -210,7 +210,8 @@ def _patterns(
 def _events(score: Score, losses: LostBars, for_kit: bool = False) -> list[_Event]:
     """All notes; `for_kit` with the instruments of Hydrogen's kit alone and, for want of a tempo, no grace strokes."""
     found = []
-    for note, bar, onset_ns in zip(score, score.bar.tolist(), score.onset_ns.tolist(), strict=True):
+    onsets_ns = score.on_the_grid.onset_ns.tolist()
+    for note, bar, onset_ns in zip(score, score.bar.tolist(), onsets_ns, strict=True):
         tick = note.tick
         if note.lead_ms > 0:
             tick = int(score.tempo_map.ticks_at_ns(onset_ns))

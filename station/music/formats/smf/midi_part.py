@@ -24,8 +24,12 @@ _KEEPS: Mapping[Feature, str] = MappingProxyType(
         Feature.SECTIONS: "",
     }
 )
+_PLAYED = tuple(
+    Loss(feature, f"{feature.value}: strokes stand where they sound; an import takes that for a take's")
+    for feature in (Feature.TIMES, Feature.TIMING)
+)
 _MOVED = tuple(
-    Loss(feature, f"{feature.value}: all a bar later, for the grace strokes before the first")
+    Loss(feature, f"{feature.value}: all a bar later, for the strokes that sound before the first beat")
     for feature in (Feature.TIMES, Feature.TEMPO, Feature.METERS, Feature.SECTIONS)
 )
 _CUT = tuple(
@@ -72,7 +76,13 @@ def write_midi_part(part: DrumPart) -> WrittenFile:
     from station.music.formats.smf.track_writer import bars_before, score_bytes  # with mido; a reader does without
 
     data = score_bytes(part.score, part.score.title or "part", _section_markers(part))
-    lost = (*(_MOVED if bars_before(part.score) else ()), *(_CUT if part.score.closing_rest_bars else ()))
+    score = part.score
+    conditions = (
+        (_PLAYED, score.notes["late_ms"].any()),
+        (_MOVED, bars_before(score)),
+        (_CUT, score.closing_rest_bars),
+    )
+    lost = [loss for losses, holds in conditions if holds for loss in losses]
     of_sections = () if part.sections else (Feature.SECTIONS,)
     return WrittenFile(data, tuple(loss for loss in lost if loss.feature not in of_sections))
 

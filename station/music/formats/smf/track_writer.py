@@ -2,8 +2,9 @@
 
 A score keeps its ticks exactly where 480 or 26880 ticks a quarter note can (26880 = `PPQ`/4 holds triplets,
 quintuplets, septuplets down to 1/1024), else to the nearest 1/26880; it keeps tempo, meter, title, velocities, chokes,
-and the hi-hat's openness where it is neither shut nor open. A grace stroke stands `lead_ms` before its main stroke;
-where the first would come before the file's start, one empty bar goes before all. Limbs, dynamics and ornaments have no
+and the hi-hat's openness where it is neither shut nor open. A grace stroke stands `lead_ms` before its main stroke, and
+a stroke with a timing of its own where it sounds; where the first would come before the file's start, one empty bar
+goes before all. Limbs, dynamics and ornaments have no
 place in a MIDI file: a lesson keeps those.
 
 A performance is written in real time, one tick for `PERFORMANCE_TICK_NS`. It keeps the note numbers of the kit that
@@ -80,7 +81,8 @@ def bars_before(score: Score) -> int:
 
 
 def _onset_ticks(score: Score) -> NDArray[np.int64]:
-    return np.where(score.is_grace, score.tempo_map.ticks_at_ns(score.onset_ns), score.notes["tick"])
+    is_elsewhere = score.is_grace | (score.notes["late_ms"] != 0)
+    return np.where(is_elsewhere, score.tempo_map.ticks_at_ns(score.onset_ns), score.notes["tick"])
 
 
 def _division(score: Score, onsets: NDArray[np.int64]) -> int:

@@ -6,6 +6,7 @@ Source of the keys: `station.practice.session.cues.click_pattern.ClickPattern`, 
 """
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from types import MappingProxyType
 
@@ -20,6 +21,8 @@ from station.practice.session.cues.click_pattern import (
     ClickPattern,
     Displacement,
 )
+from station.practice.session.cues.quiet_bars import EXPECTED as EXPECTED_GAP
+from station.practice.session.cues.quiet_bars import gap_of
 
 MAX_VELOCITY = 127
 MAX_ACCENT = 32
@@ -32,7 +35,8 @@ _PLACES: Mapping[str, Displacement] = MappingProxyType(
 )
 CLICK_HELP = (
     "what clicks, such as parts=2,swing=2 or on=2and4,count: on=all|2and4|bar, parts=1…8 clicks a beat, "
-    "swing=1…3.5, place=beat|e|and|a, accents=1+3 (0: none), levels=110/90/70, count (a voice counts)"
+    "swing=1…3.5, place=beat|e|and|a, accents=1+3 (0: none), levels=110/90/70, "
+    "gap=4/1|random|random:30%, count (a voice counts)"
 )
 
 
@@ -92,6 +96,12 @@ def _levels(pattern: ClickPattern, value: str) -> ClickPattern | None:
     return replace(pattern, levels=ClickLevels(accent, beat, subdivision))
 
 
+def _gap(pattern: ClickPattern, value: str) -> ClickPattern | None:
+    with suppress(BadInput):
+        return replace(pattern, gap=gap_of(value))
+    return None
+
+
 def _count(pattern: ClickPattern, value: str) -> ClickPattern | None:
     return replace(pattern, counts=True) if not value else None
 
@@ -109,6 +119,7 @@ _KEYS: Mapping[str, Change] = MappingProxyType(
         "place": _place,
         "accents": _accents,
         "levels": _levels,
+        "gap": _gap,
         "count": _count,
     }
 )
@@ -120,6 +131,7 @@ _EXPECTED: Mapping[str, str] = MappingProxyType(
         "place": f"one of {', '.join(_PLACES)}",
         "accents": f"beats from 1 to {MAX_ACCENT} such as 1+3, or 0 for none",
         "levels": f"accent/beat/subdivision, each 0 to {MAX_VELOCITY}",
+        "gap": EXPECTED_GAP,
         "count": "count alone",
     }
 )

@@ -20,6 +20,7 @@ from station.core.units import NS_PER_S
 from station.engine.messages import CUE_DTYPE, Bus, ClickVoice
 from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoMap
+from station.practice.session.cues.quiet_bars import QuietBars
 from station.sound.buses import PART_LABELS, SPOKEN_LEAD_S, word_of_beat
 
 MAX_SUBDIVISIONS = 8
@@ -45,22 +46,6 @@ class Displacement(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Gap:
-    """The click sounds for some bars, then is silent for some: the quiet count."""
-
-    sounding: int
-    quiet: int
-
-    def __post_init__(self) -> None:
-        assert self.sounding >= 1, "a click that never sounds is none"
-        assert self.quiet >= 1, "a gap lasts a bar at least"
-
-    def is_quiet(self, bar: int) -> bool:
-        """Whether the click is silent in `bar`, from 0."""
-        return bar % (self.sounding + self.quiet) >= self.sounding
-
-
-@dataclass(frozen=True, slots=True)
 class ClickLevels:
     """Velocities 0 (no cue at all) … 127 of the clicks by their weight."""
 
@@ -82,7 +67,7 @@ class ClickPattern:
     accents: tuple[int, ...] = (0,)
     swing: Swing = field(default_factory=Swing)
     displacement: Displacement = Displacement.NONE
-    gap: Gap | None = None
+    gap: QuietBars | None = None
     counts: bool = False
     levels: ClickLevels = ClickLevels()
 
@@ -92,6 +77,8 @@ class ClickPattern:
 
 PLAIN = ClickPattern()
 """Every beat, the bar's first accented."""
+SILENT = ClickPattern(levels=ClickLevels(0, 0, 0))
+"""No click, where something else keeps the time."""
 
 
 class _Click(NamedTuple):
@@ -130,7 +117,7 @@ def leads_ns(cues: NDArray[np.void]) -> NDArray[np.int64]:
     return np.where(spoken, SPOKEN_LEAD_NS, 0)
 
 
-def silences(tempo_map: TempoMap, end_tick: int, gap: Gap | None) -> tuple[tuple[int, int], ...]:
+def silences(tempo_map: TempoMap, end_tick: int, gap: QuietBars | None) -> tuple[tuple[int, int], ...]:
     """From when until when in ns the click of `gap` is silent over [0, `end_tick`) and comes back, in order."""
     found: list[tuple[int, int]] = []
     first = bar = 0

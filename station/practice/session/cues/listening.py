@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_S
-from station.engine.messages import CUE_DTYPE, Bus, Command, EngineEvent, Play, Started, Stop
+from station.engine.messages import CUE_DTYPE, Bus, Command, EngineEvent, Play, SetBacking, Started, Stop
 from station.music.performance import Performance
 from station.practice.session.cues.click_pattern import leads_ns
+from station.sound.track import PreparedTrack
 
 SOON_NS = NS_PER_S // 5
 """How long after the request the first sound comes: time for the cues to reach the sound card; our choice."""
@@ -44,18 +45,23 @@ def cues_between(cues: NDArray[np.void], start_ns: int, end_ns: int) -> NDArray[
 
 @dataclass(eq=False)
 class Listening:
-    """One hearing of `cues`, which last `length_ns`; they begin at `from_ns` of what they were taken from."""
+    """One hearing of `cues`, which last `length_ns`; they begin at `from_ns` of what they were taken from.
+
+    A `track` sounds with them.
+    """
 
     cues: NDArray[np.void]
     length_ns: int
     from_ns: int = 0
+    track: PreparedTrack | None = None
 
     def __post_init__(self) -> None:
         self._zero_ns: int | None = None
 
     def start(self) -> tuple[Command, ...]:
         """The commands that make it sound."""
-        return (Play(self.cues, SOON_NS),)
+        play = Play(self.cues, SOON_NS)
+        return (play,) if self.track is None else (SetBacking(self.track), play)
 
     def stop(self) -> tuple[Command, ...]:
         """The commands that end it."""

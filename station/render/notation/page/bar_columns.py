@@ -30,6 +30,7 @@ _NOTES_Y = (-5.3, 4.2)
 _TOP, _BAND, _BANDS = -10.0, 0.5, 44
 """The bands in which room is measured, from the highest down, and how high each is."""
 _STAFF_BANDS = slice(round((-2.0 - _TOP) / _BAND), round((2.0 - _TOP) / _BAND))
+_NO_TIMES: Floats = np.zeros(0)
 _FORCE_STEPS = 26
 """Halvings of the interval in which the force on a line is sought: to a hundred-thousandth of a space."""
 
@@ -70,16 +71,17 @@ def bar_columns(
     length_s: float,
     ticks_at: Callable[[Floats], NDArray[np.int64]],
     beside: tuple[float, float] = (0.0, 0.0),
+    also_s: Floats = _NO_TIMES,
 ) -> BarColumns:
     """The columns of an engraved bar `length_s` long; so much stands `beside` its notes, before and after them.
 
     `shapes` (n,) of `draw_list.SHAPE_DTYPE`, their times and those of `ticks_at`, which says where in the score a time
-    is, from the bar's start.
+    is, from the bar's start. `also_s` (m,) are times that have a column though nothing stands there.
     """
     still = shapes[shapes["time_s"][:, 1] == 0]
     at_s, y = still["time_s"][:, 0], still["centre"][:, 1]
     within = (y > _NOTES_Y[0]) & (y < _NOTES_Y[1])
-    times_s = np.unique(np.concatenate([[0.0], at_s[within]])).astype(np.float64)
+    times_s = np.unique(np.concatenate([[0.0], at_s[within], also_s.astype(np.float32)])).astype(np.float64)
     left, right = _extents(still, times_s)
     ticks = ticks_at(np.append(times_s, length_s))
     doublings = np.log2(np.maximum(np.diff(ticks), _SHORTEST) / (PPQ / 2))

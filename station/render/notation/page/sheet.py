@@ -87,7 +87,7 @@ class _SheetPages:
         self._atlas = OutlineAtlas()
         bars = sheet_bars(score, _starts(words, swing), words.repeat, words.first_bar)
         self._written = frozenset(bar.bar for bar in bars)
-        above = _line_words(score, words, swing)
+        above = line_words(score, words, swing)
         self._setter = LineSetter(Engraver(score, self._atlas, as_written=True), bars, above, self._atlas)
         self._bars = self._setter.set_bars()
 
@@ -193,7 +193,7 @@ def _starts(words: SheetWords, swing: Mapping[int, SwingMark]) -> dict[int, str]
     return starts
 
 
-def _line_words(
+def line_words(
     score: Score, words: SheetWords, swing: Mapping[int, SwingMark]
 ) -> dict[int, list[tuple[float, LineWord]]]:
     """What stands above the bars, by bar: how many seconds after its start, and the words."""

@@ -58,6 +58,44 @@ def sheet_bars(
     return _with_meters([replace(bars[0], number=""), *bars[1:]] if has_pickup else bars, score, has_pickup)
 
 
+@dataclass(frozen=True, slots=True)
+class BarRun:
+    """Bars `first_bar` to `last_bar` of a score that stand on the sheet once and are played `times` times.
+
+    `passes`, from 1, say which passes of the run before these bars end; `has_endings`: such runs follow.
+    """
+
+    first_bar: int
+    last_bar: int
+    times: int = 1
+    passes: tuple[int, ...] = ()
+    has_endings: bool = False
+
+
+def unfolded_bars(score: Score, runs: Sequence[BarRun]) -> list[SheetBar]:
+    """The bars of `runs`, which cover the score in order, each as it is; they count from 1 in each run."""
+    bars: list[SheetBar] = []
+    for run, after in zip(runs, [*runs[1:], None], strict=True):
+        is_last_ending = after is None or not after.passes
+        bars += [_run_bar(run, bar, is_last_ending) for bar in range(run.first_bar, run.last_bar + 1)]
+    return _with_meters(_with_lines(bars, {run.first_bar for run in runs}), score, has_pickup=False)
+
+
+def _run_bar(run: BarRun, bar: int, is_last_ending: bool) -> SheetBar:
+    is_first, is_last = bar == run.first_bar, bar == run.last_bar
+    comes_back = (run.times > 1 and not run.has_endings) or (bool(run.passes) and not is_last_ending)
+    text = f"{number_words(run.passes)}." if is_first and run.passes else ""
+    return SheetBar(
+        bar,
+        str(bar - run.first_bar + 1),
+        BarLine.REPEAT_END if is_last and comes_back else BarLine.PLAIN,
+        opens_repeat=is_first and run.times > 1,
+        times=run.times if is_last and run.times > 2 and not run.has_endings else 0,
+        volta=Volta(text, is_first, is_last and not is_last_ending) if run.passes else None,
+        in_phrase=bar - run.first_bar,
+    )
+
+
 def _passage(passage: Passage, number: int) -> Iterator[SheetBar]:
     """The bars of a passage whose first one is called `number`."""
     body, last = passage.last_bar - passage.first_bar + 1, passage.written_bars[-1]

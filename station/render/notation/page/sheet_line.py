@@ -16,6 +16,7 @@ from station.render.notation.bar_lines import REPEAT_WIDTH, THIN, BarLine, Volta
 from station.render.notation.engraving import Engraver
 from station.render.notation.page.bar_columns import BarColumns, bar_columns
 from station.render.notation.page.line_breaks import BarBox, SetBar
+from station.render.notation.page.page_places import BarPlace
 from station.render.notation.page.sheet_bars import SheetBar
 from station.render.notation.sheet_words import LineWord, draw_number, draw_times, draw_voltas, draw_words
 from station.render.notation.skyline import Skyline
@@ -33,6 +34,15 @@ _SIGNATURE_X = _CLEF_END + note_shapes.SIGNATURE_GAP
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class LineShapes:
+    """A line's shapes in staff spaces from its left end and its middle line, and how far up and down it reaches."""
+
+    shapes: NDArray[np.void]
+    top: float
+    bottom: float
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class LineInk:
     """A line in points, its middle line at y = 0, and how far it reaches: `top` is negative."""
 
@@ -41,10 +51,30 @@ class LineInk:
     bottom: float
 
 
+class KeptBars:
+    """The bars that were engraved for one score and another, all with one atlas: those that are alike are set once."""
+
+    MOST = 4000
+    """Twice the longest lesson (our choice)."""
+
+    def __init__(self) -> None:
+        self.forms: dict[object, int] = {}
+        self.engraved: dict[object, NDArray[np.void]] = {}
+        self.columns: dict[object, BarColumns] = {}
+
+    def forget_many(self) -> None:
+        """Forget all where there are more than are worth keeping."""
+        if len(self.engraved) > self.MOST:
+            for table in (self.forms, self.engraved, self.columns):
+                table.clear()
+
+
 class LineSetter:
     """Sets the lines of a sheet whose `bars` are those of the score that `engraver` has, as notation writes it.
 
-    `words` stand above the bars of the score, each with the seconds from the bar's start.
+    `words` stand above the bars of the score, each with the seconds from the bar's start. Where `step_ticks` are said
+    a bar has a column at every such step, though nothing stands there: room for what may be written. `kept` has the
+    bars of other scores that were set with the same atlas and steps.
     """
 
     def __init__(
@@ -53,13 +83,16 @@ class LineSetter:
         bars: Sequence[SheetBar],
         words: Mapping[int, Sequence[tuple[float, LineWord]]],
         atlas: OutlineAtlas,
+        step_ticks: int = 0,
+        kept: KeptBars | None = None,
     ) -> None:
         self._engraver, self._bars, self._words, self._atlas = engraver, bars, words, atlas
+        self._step_ticks = step_ticks
         self._score: Score = engraver.score
-        self._forms = written_forms(self._score)
+        self._kept = KeptBars() if kept is None else kept
+        self._kept.forget_many()
+        self._forms = written_forms(self._score, self._kept.forms)
         self._contexts = {bar.bar: engraver.context(bar.bar) for bar in bars}
-        self._engraved: dict[object, NDArray[np.void]] = {}
-        self._columns: dict[object, BarColumns] = {}
 
     def set_bars(self) -> list[SetBar]:
         """The bars as line breaks ask for them."""
@@ -78,37 +111,45 @@ class LineSetter:
         )
 
     def _columns_of(self, bar: SheetBar) -> BarColumns:
-        key = (self._form(bar.bar), bar.opens_repeat, bar.line)
-        if key not in self._columns:
+        key = (self._form(bar.bar), bar.opens_repeat, bar.line, self._step_ticks)
+        if key not in self._kept.columns:
             tempo = self._score.tempo_map
             ends = [tempo.bar_start(bar.bar), tempo.bar_start(bar.bar + 1)]
             start_s, end_s = tempo.seconds_at(ends).tolist()
-            self._columns[key] = bar_columns(
+            steps = range(ends[0], ends[1], self._step_ticks) if self._step_ticks else ()
+            self._kept.columns[key] = bar_columns(
                 self._shapes(bar.bar, opens_line=False),
                 end_s - start_s,
                 lambda times_s: tempo.ticks_at(times_s + start_s),
                 (REPEAT_WIDTH if bar.opens_repeat else 0.0, line_width(bar.line)),
+                tempo.seconds_at(list(steps)) - start_s,
             )
-        return self._columns[key]
+        return self._kept.columns[key]
 
     def _form(self, bar: int) -> object:
         """What tells bars apart that are engraved differently."""
-        return self._forms[bar], self._contexts[bar]
+        return self._forms[bar], self._contexts[bar], self._engraver.rows_y
 
     def _shapes(self, bar: int, opens_line: bool) -> NDArray[np.void]:
         """A bar's engraved shapes, their times counted from its start."""
         opens_line = opens_line and self._engraver.is_held_into(bar)  # else it looks the same
         key = (self._form(bar), opens_line)
-        if key not in self._engraved:
+        if key not in self._kept.engraved:
             shapes = self._engraver.bar(bar, with_line=False, opens_line=opens_line).copy()
             shapes["time_s"][:, 0] -= np.float32(self._score.tempo_map.seconds_at(self._score.tempo_map.bar_start(bar)))
-            self._engraved[key] = shapes
-        return self._engraved[key]
+            self._kept.engraved[key] = shapes
+        return self._kept.engraved[key]
 
     # --- drawing ------------------------------------------------------------------------------------------------------
 
     def line(self, boxes: Sequence[BarBox], set_bars: Sequence[SetBar], left: float, space: float) -> LineInk:
         """The line that `boxes` share, its staff beginning at `left`, with staff spaces of `space` points."""
+        line = self.shapes_of(boxes, set_bars)
+        ink = filled(line.shapes, self._atlas, PaperSpot((left, 0.0), space))
+        return LineInk(ink, line.top * space, line.bottom * space)
+
+    def shapes_of(self, boxes: Sequence[BarBox], set_bars: Sequence[SetBar]) -> LineShapes:
+        """The line that `boxes` share."""
         first, after = boxes[0].index, boxes[-1].index + 1
         lead = set_bars[first].lead
         courtesy = self._bars[after].meter if after < len(self._bars) else None
@@ -126,9 +167,17 @@ class LineSetter:
         for shapes in bars:
             skyline.add_shapes(shapes)
         self._above(staff, skyline, boxes, lead)
-        shapes = np.concatenate([staff.shapes(), *bars])
-        ink = filled(shapes, self._atlas, PaperSpot((left, 0.0), space))
-        return LineInk(ink, skyline.top * space, skyline.bottom * space)
+        return LineShapes(np.concatenate([staff.shapes(), *bars]), skyline.top, skyline.bottom)
+
+    def place(self, box: BarBox, set_bars: Sequence[SetBar], first: int) -> BarPlace:
+        """Where the moments of the bar of `box` stand in the line that begins with bar number `first` of the sheet."""
+        lead, bar = set_bars[first].lead, self._bars[box.index].bar
+        tempo = self._score.tempo_map
+        start = tempo.bar_start(bar)
+        times_s = self._columns_of(self._bars[box.index]).times_s + float(tempo.seconds_at(start))
+        ticks = np.append(tempo.ticks_at(times_s), tempo.bar_start(bar + 1)) - start
+        edge = 0.0 if box.index == first else lead + box.left
+        return BarPlace(bar, edge, lead + box.right, ticks, lead + np.append(box.places, box.right))
 
     def _bar(self, box: BarBox, lead: float, opens_line: bool) -> NDArray[np.void]:
         return placed(self._shapes(self._bars[box.index].bar, opens_line), self._ruler(box, lead))

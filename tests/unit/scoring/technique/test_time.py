@@ -7,7 +7,8 @@ from station.core.pieces import Limb, Piece
 from station.core.units import NS_PER_S, PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.practice.session.cues.click_pattern import Gap, silences
+from station.practice.session.cues.click_pattern import silences
+from station.practice.session.cues.quiet_bars import Gap
 from station.scoring.analysis.points import ALL_FREE, Feel
 from station.scoring.analysis.summary import SummaryView, summarise
 from station.scoring.analysis.technique.click_gaps import gaps

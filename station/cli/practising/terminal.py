@@ -15,6 +15,7 @@ from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
 from station.music.score import Score
 from station.practice.control.pad_commands import PadCommands, ways_to_go_on
+from station.practice.exam.exam_take import exam_runner
 from station.practice.headless.end_signals import end_asked
 from station.practice.headless.guarded_output import GuardedOutput
 from station.practice.headless.live import LiveOutcome, LiveSetup, practise_live, wait_for_kits
@@ -44,8 +45,11 @@ def practise_in_terminal(
     capture: Path,
     until_saved: ExitStack,
     request: BackingRequest | None = None,
+    is_exam: bool = False,
 ) -> LiveOutcome:
-    """Practise a plan, along to a track if one is asked for, or what an adaptation asks for pass by pass.
+    """Practise a plan, along to a track where one is asked for or in a song, or what an adaptation asks for.
+
+    In an exam nothing is shown of what was right or wrong, and nothing pauses.
 
     From the first count-in on nothing ends the program before the session is kept: `until_saved` is left then.
 
@@ -53,7 +57,9 @@ def practise_in_terminal(
     before it began.
     """
     pads = PadCommands(settings, asked.plan.score if isinstance(asked, Adaptation) else asked.score)
-    runner, ways_on = SessionRunner(asked, latency_of(settings, load_calibration()), pads), ways_to_go_on(settings)
+    latency = latency_of(settings, load_calibration())
+    runner = exam_runner(asked, latency) if is_exam else SessionRunner(asked, latency, pads)
+    ways_on = [] if is_exam else ways_to_go_on(settings)
     text, telling = LiveText(partial(say, end=""), ways_on), GuardedOutput()
     clock = MonotonicClock()
     config = EngineConfig.from_settings(settings)
@@ -69,13 +75,15 @@ def practise_in_terminal(
                 telling.attempt(say, f"\nof {len(config.kits)} kits there is {here}; the others may come", end="")
             if (lacking := len(config.sticks) - len(runner.heard.sensors)) > 0:
                 telling.attempt(say, f"\n{_LACKING_SENSORS.format(count=lacking, asked=len(config.sticks))}", end="")
-            telling.attempt(say, f"\n{level_words(runner.session.plan.level)}\n{LEGEND}")
+            if not is_exam:
+                telling.attempt(say, f"\n{level_words(runner.session.plan.level)}\n{LEGEND}")
             runner.session.waits = settings.auto_pause and bool(ways_on) and is_attended()
-            if request is not None:
+            if request is not None or runner.session.plan.lesson.band is not None:
                 telling.attempt(say, "\nmaking the track ready …")
                 runner.session.backing = _track(request, runner.session, settings)
             section = runner.session.plan.section
-            drill = _drill(section, telling) if config.sticks and is_soon_made(section) else None
+            may_track = bool(config.sticks) and not runner.session.plan.steps and is_soon_made(section)
+            drill = _drill(section, telling) if may_track else None
             setup = replace(setup, asked=until_saved.enter_context(end_asked()))
             return practise_live(setup, runner, capture, drill)
         finally:
@@ -90,7 +98,7 @@ def _drill(section: Score, telling: GuardedOutput) -> DrillModel | None:
     return None
 
 
-def _track(request: BackingRequest, session: Session, settings: Settings) -> PreparedTrack | None:
+def _track(request: BackingRequest | None, session: Session, settings: Settings) -> PreparedTrack | None:
     backing = Backing(request)
-    backing.ask(session.plan, session.heard.rate_hz or settings.rate_hz)
+    backing.ask(session.plan, session.heard.rate_hz or settings.rate_hz, settings.band_drums)
     return backing.ready(wait_s=None)

@@ -1,0 +1,160 @@
+"""Throws hostile assignments, returns and notes at what reads them: a value or one line comes out, in time and memory.
+
+    python -m benchmarks.parcels.fuzz_parcels --inputs 100000 --seed 1
+
+An assignment that can be read has its lessons read too, and some are taken into a home of their own, where afterwards
+nothing may lie but what taking leaves; of some returns the first session is judged again. Time is the process's own.
+Prints a table, and keeps each input that does harm in `--keep`.
+"""
+
+import argparse
+import random
+import resource
+import shutil
+import signal
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+
+from benchmarks.parcels.hostile_parcels import hostile, seeds
+from station.core.errors import BadInput
+from station.core.settings import Settings
+from station.practice.exchange.assignment_file import lessons_of, parse_assignment
+from station.practice.exchange.note_file import parse_note
+from station.practice.exchange.parcel import Kind
+from station.practice.exchange.return_file import parse_return
+from station.practice.exchange.return_judging import judge_returned
+from station.practice.exchange.student_store import take
+
+LIMIT_S, LIMIT_MB = 1.0, 300
+_JUDGED, _TAKEN = 0.15, 0.05
+"""Shares of returns that are judged again and of assignments that are taken (our choice: a million must end)."""
+_JUDGING_S = 5.0
+_LONGEST_LINE = 400
+_TOLD_EVERY = 20_000
+
+
+class TooSlow(BaseException):
+    """An input took longer than its limit: nothing that catches an `Exception` may hide it."""
+
+
+@dataclass
+class Tally:
+    """What came of the inputs of one kind."""
+
+    read: int = 0
+    refused: int = 0
+    slowest_s: float = 0.0
+    failures: list[str] = field(default_factory=list)
+
+
+def _use(kind: Kind, data: bytes, rng: random.Random) -> None:
+    match kind:
+        case Kind.ASSIGNMENT:
+            lessons_of(parse_assignment(data, "input"), "input")
+            if rng.random() < _TAKEN:
+                _take(data)
+        case Kind.RETURN:
+            returned = parse_return(data, "input")
+            if rng.random() < _JUDGED:
+                signal.setitimer(signal.ITIMER_PROF, _JUDGING_S)
+                judge_returned(returned, 1, "input", Settings())
+        case Kind.NOTE:
+            assert all("\n" not in line for line in parse_note(data, "input").lines)
+
+
+def _take(data: bytes) -> None:
+    """Take it, and see that nothing lies where nothing should."""
+    home = Path(tempfile.mkdtemp(prefix="taken-"))
+    try:
+        (home / "in").mkdir()
+        (home / "in" / "x.drum-assignment").write_bytes(data)
+        take(
+            home / "in" / "x.drum-assignment", Settings(student="x", sessions=str(home / "out")), datetime(2026, 11, 23)
+        )
+        for path in (home / "out").rglob("*"):
+            depth = len(path.relative_to(home / "out").parts)
+            assert path.is_dir() or (depth == 4 and path.suffix in (".json", ".drum-assignment")) or depth == 3, path
+        assert sorted(path.name for path in home.iterdir()) == ["in", "out"], "it lies beside its home"
+    finally:
+        shutil.rmtree(home)
+
+
+def _tried(kind: Kind, data: bytes, rng: random.Random, tally: Tally) -> str | None:
+    """Read one input; why it did harm, None where it did none."""
+    began_s = time.process_time()
+    signal.setitimer(signal.ITIMER_PROF, LIMIT_S)
+    try:
+        with _limited_memory():
+            _use(kind, data, rng)
+        tally.read += 1
+    except BadInput as fault:
+        tally.refused += 1
+        line = str(fault)
+        if not line.isprintable() or len(line) > _LONGEST_LINE or "internal" in line:
+            return f"says {line!r}"
+    except (Exception, TooSlow) as fault:
+        return f"{type(fault).__name__}: {str(fault)[:200]}"
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        tally.slowest_s = max(tally.slowest_s, time.process_time() - began_s)
+    return None
+
+
+def _too_slow(*_: object) -> None:
+    raise TooSlow
+
+
+@contextmanager
+def _limited_memory() -> Iterator[None]:
+    """Within, the process may have so much more; what is thrown was made before."""
+    used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+    _, most = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (used + LIMIT_MB * 2**20, most))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
+
+
+def run(count: int, seed: int, keep: Path, tell: Callable[[str], None]) -> dict[Kind, Tally]:
+    """Throw `count` inputs; those that do harm are kept in the folder `keep`."""
+    rng, of = random.Random(seed), seeds()
+    tallies = {kind: Tally() for kind in Kind}
+    for index in range(1, count + 1):
+        kind, data = hostile(of, rng)
+        why = _tried(kind, data, rng, tallies[kind])
+        if why is not None:
+            tallies[kind].failures.append(f"{seed}-{index}: {why}")
+            keep.mkdir(parents=True, exist_ok=True)
+            (keep / f"{seed}-{index}{kind.ending}").write_bytes(data)
+            tell(f"FAILED {kind.name} {seed}-{index}: {why}")
+        if index % _TOLD_EVERY == 0:
+            tell(f"{index} of {count}: {sum(len(one.failures) for one in tallies.values())} failed")
+    return tallies
+
+
+def main() -> None:
+    """Read the words of the command line, and throw."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--inputs", type=int, default=10_000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--keep", type=Path, default=Path("fuzz-failures"))
+    options = parser.parse_args()
+    signal.signal(signal.SIGPROF, _too_slow)
+    tallies = run(options.inputs, options.seed, options.keep, lambda line: print(line, flush=True))
+    for kind, tally in tallies.items():
+        print(
+            f"{kind.name:11} {tally.read:8} read {tally.refused:8} refused {len(tally.failures):4} failed, "
+            f"slowest {tally.slowest_s:.2f} s of its own time"
+        )
+    with suppress(ValueError):
+        print(f"peak memory of the whole program {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MB")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,47 @@
+"""A result as it is shown: one's own when a session is over, a student's when their return is opened."""
+
+from dataclasses import dataclass
+
+from station.app.room_state import ShownResult
+from station.core.errors import StationError
+from station.drills.exam.rubric import Marks
+from station.practice.records.previous_session import NONE_KEPT, PreviousSession
+from station.practice.session.session import SessionResult
+from station.scenes.heat_map import heat_map
+from station.scenes.hit_table import every_hit
+from station.scenes.result_tables import session_facts
+from station.scenes.wrong_pads import wrong_pads
+from station.scoring.report.assessment_document import Json
+
+
+@dataclass(frozen=True, eq=False)
+class SavedSession:
+    """What a session that is over leaves: its `result`, the `report` of it, and what went wrong, if anything did.
+
+    `marks` are those of an exam.
+    """
+
+    result: SessionResult
+    report: ShownResult
+    fault: StationError | None = None
+    marks: Marks | None = None
+
+
+def shown_result(
+    result: SessionResult,
+    document: dict[str, Json],
+    folder: str = "",
+    before: PreviousSession | str = NONE_KEPT,
+    student: str = "",
+) -> ShownResult:
+    """The `result` with the `document` of it in `folder`; `student` is who played, empty for whoever sits here."""
+    return ShownResult(
+        facts=session_facts(result, document),
+        document=document,
+        folder=folder,
+        heat=heat_map(result),
+        hits=every_hit(result),
+        before=before,
+        wrong_pads=wrong_pads(result),
+        student=student,
+    )

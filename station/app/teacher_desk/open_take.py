@@ -1,0 +1,50 @@
+"""A session of a return opened to be heard and seen: judged, and laid out as a result, in a process with limits."""
+
+import copyreg
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from station.app.sessions.shown_result import SavedSession, shown_result
+from station.app.teacher_desk.judge_worker import Heard, within_limits
+from station.app.teacher_desk.stroke_lines import StrokeLine, stroke_lines
+from station.core.settings import Settings
+from station.practice.exchange.return_file import read_return
+from station.practice.exchange.return_judging import judge_returned
+
+_NO_BEFORE = "it is a student's: what they played before lies with them"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OpenedTake:
+    """A take as it is opened: what is `saved` of it to be shown and heard, what was `heard`, its `strokes`."""
+
+    saved: SavedSession
+    heard: Heard
+    strokes: tuple[StrokeLine, ...]
+
+
+def opened_take(path: Path, number: int, settings: Settings) -> OpenedTake:
+    """Session `number` of the return at `path`; raises `BadInput`."""
+    return within_limits(lambda: _opened(path, number, settings), path, number)
+
+
+def _opened(path: Path, number: int, settings: Settings) -> OpenedTake:
+    returned = read_return(path)
+    judged = judge_returned(returned, number, str(path), settings)
+    shown = shown_result(judged.result, judged.document, before=_NO_BEFORE, student=returned.student)
+    saved, heard = SavedSession(judged.result, shown), Heard(judged.figures, judged.differences)
+    return OpenedTake(saved, heard, stroke_lines(judged.result, shown.hits))
+
+
+def _read_only(values: dict[Any, Any]) -> Mapping[Any, Any]:
+    return MappingProxyType(values)
+
+
+def _reduced(view: MappingProxyType[Any, Any]) -> tuple[Any, ...]:
+    return _read_only, (dict(view),)
+
+
+copyreg.pickle(MappingProxyType, _reduced)  # a kit's tables are read-only: so they come out of the process as well

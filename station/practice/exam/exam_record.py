@@ -1,0 +1,141 @@
+"""What is kept of an exam and told of it: `exam.json` beside the session's report, and both as text.
+
+Schema `drum-station/exam/1` (docs/exam.md). Which unseen pieces a student has met is read from these files: a piece
+that was shown once is unseen no more, and its next exam says so.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from station.core.counts import counted
+from station.core.errors import BadInput
+from station.drills.exam.exam_piece import ExamPiece, Unseen
+from station.drills.exam.rubric import BANDS, Marks, Rubric
+from station.practice.records.kept_json import kept_document
+from station.practice.records.session_files import folder_name, write_document
+from station.scoring.report.assessment_document import Json
+
+EXAM_NAME = "exam.json"
+SCHEMA = "drum-station/exam/1"
+_WIDTH = 10
+_MOST_BYTES = 100_000
+"""Of a file that is ours: a few hundred are usual."""
+
+
+def exam_document(piece: ExamPiece, marks: Marks | None, seen_before: bool) -> dict[str, Json]:
+    """What is kept: the piece, its rubric, and the `marks`, None while it is only looked at."""
+    unseen = piece.unseen
+    return {
+        "schema": SCHEMA,
+        "lesson": piece.lesson.name,
+        "title": piece.lesson.title,
+        "tempo_bpm": round(piece.tempo_bpm, 3),
+        "preview_s": piece.preview_s,
+        "level": str(piece.rubric.level),
+        "unseen": None if unseen is None else {"level": unseen.level, "seed": unseen.seed},
+        "seen_before": seen_before,
+        "rubric": [
+            {"criterion": str(line.criterion), "worth": round(line.worth, 3), "asks": line.words}
+            for line in piece.rubric.lines
+        ],
+        "marks": None if marks is None else _marks(marks),
+    }
+
+
+def _marks(marks: Marks) -> dict[str, Json]:
+    return {
+        "total": round(marks.total, 3),
+        "band": marks.band.name,
+        "lines": [
+            {
+                "criterion": str(mark.line.criterion),
+                "worth": round(mark.line.worth, 3),
+                "points": round(mark.points, 3),
+                "measured": mark.words,
+            }
+            for mark in marks.lines
+        ],
+    }
+
+
+def keep_exam(folder: Path, document: dict[str, Json]) -> None:
+    """Write `exam.json` into the session's folder; raises `DeviceError`."""
+    write_document(folder / EXAM_NAME, document)
+
+
+def was_seen(sessions: Path, student: str, unseen: Unseen) -> bool:
+    """Whether this student has had that piece in an exam before."""
+    wanted = {"level": unseen.level, "seed": unseen.seed}
+    return any(document.get("unseen") == wanted for document in _kept(sessions / folder_name(student)))
+
+
+def _kept(student: Path) -> Iterator[dict[str, object]]:
+    """The exams of a student; a file that cannot be read tells nothing."""
+    for path in student.glob(f"*/{EXAM_NAME}"):
+        document = _document(path)
+        if document is not None:
+            yield document
+
+
+def _document(path: Path) -> dict[str, object] | None:
+    try:
+        document = kept_document(path, _MOST_BYTES)
+    except BadInput:
+        return None
+    return document if isinstance(document, dict) else None
+
+
+def exam_result(folder: Path) -> str:
+    """What the exam in a session's folder came to, in a few words; empty where there is none, or it has no marks."""
+    document = _document(folder / EXAM_NAME)
+    marks = None if document is None or document.get("schema") != SCHEMA else document.get("marks")
+    if not isinstance(marks, dict):
+        return ""
+    total, band = marks.get("total"), marks.get("band")
+    if not isinstance(total, int | float) or not 0 <= total <= 100 or band not in [each.name for each in BANDS]:
+        return ""
+    return f"{band}, {shown_total(total)} of 100"
+
+
+# --- in words ---------------------------------------------------------------------------------------------------------
+
+
+def rubric_text(piece: ExamPiece) -> str:
+    """What is asked, shown before anybody plays."""
+    look = f"{look_words(piece)}\n" if piece.preview_s else ""
+    return f"{piece.lesson.title}: {asked_words(piece)}\n{look}\n{_lines(piece.rubric)}\n\n{BANDS_WORDS}\n"
+
+
+def asked_words(piece: ExamPiece) -> str:
+    """How much is to be played, how fast, and how strictly it is judged."""
+    bars = counted(piece.lesson.score.bar_count, "bar")
+    return f"{bars} at {piece.beats_a_minute:g} bpm, played once, judged as {piece.rubric.level}."
+
+
+def look_words(piece: ExamPiece) -> str:
+    """How long it may be looked at."""
+    return f"You have {piece.preview_s:g} seconds to look at it."
+
+
+def _lines(rubric: Rubric) -> str:
+    return "\n".join(f"{line.title:{_WIDTH}}{line.worth_words:>4}  {line.words}" for line in rubric.lines)
+
+
+BANDS_WORDS = ", ".join(f"{band.name} from {band.least}" for band in BANDS if band.least)
+SEEN_WORDS = "You have met this piece before: it was no unseen reading."
+
+
+def shown_total(total: float) -> str:
+    """A total of 100 as it is shown: never rounded up."""
+    return f"{int(total * 10) / 10:.1f}"
+
+
+def marks_text(marks: Marks, seen_before: bool = False) -> str:
+    """The marks, a line a criterion and the total, which is never rounded up."""
+    rows = [
+        f"{each.line.title:{_WIDTH}}{each.points:5.1f} of {each.line.worth_words:>4}  {each.words}"
+        for each in marks.lines
+    ]
+    total = f"{'Together':{_WIDTH}}{shown_total(marks.total):>5} of  100  {marks.band.name}"
+    known = ["", SEEN_WORDS] if seen_before else []
+    return "\n".join([*rows, total, *known]) + "\n"

@@ -1,0 +1,125 @@
+"""The sessions that a student practised of an assignment, put together as a return."""
+
+from dataclasses import dataclass, replace
+from datetime import datetime
+from pathlib import Path
+
+from station.core.disk.files import read_regular
+from station.core.errors import BadInput, StationError
+from station.core.settings import Settings
+from station.core.units import NS_PER_S
+from station.devices.capture.capture import parse_capture
+from station.practice.exchange.note_file import overruled
+from station.practice.exchange.parcel import Kind
+from station.practice.exchange.parcel_json import MOST_JSON_BYTES
+from station.practice.exchange.return_file import (
+    MOST_CAPTURE_BYTES,
+    MOST_PAIRS_BYTES,
+    MOST_SESSIONS,
+    AssignmentWord,
+    Return,
+    ReturnedSession,
+    size_of,
+)
+from station.practice.exchange.session_figures import LONGEST_S, SessionFigures, report_figures
+from station.practice.exchange.student_store import TakenAssignment, session_key, verdicts_on
+from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, PAIRS_NAME, folder_name
+
+_STARTED, _STARTED_LETTERS = "%Y-%m-%dT%H-%M-%S", 19
+_ROOM = Kind.RETURN.value.most_bytes - (1 << 20)
+"""For the sessions: what the table and the page in words take is left free (our choice)."""
+
+
+@dataclass(frozen=True, slots=True)
+class PractisedSession:
+    """A session of the student's own in its `folder`: `name` is its lesson's in the assignment, `played` its begin."""
+
+    folder: Path
+    name: str
+    played: datetime
+    figures: SessionFigures
+
+
+def practised(settings: Settings, one: TakenAssignment) -> list[PractisedSession]:
+    """The student's sessions of an assignment since they took it, the newest first, as a note judges them.
+
+    What cannot be read is left out.
+    """
+    name_of = {here: name for name, here in one.taken.lessons}
+    verdicts = verdicts_on(one)
+    found: list[PractisedSession] = []
+    for path in sorted(
+        (settings.sessions_dir / folder_name(settings.student)).glob(f"*/{DOCUMENT_NAME}"), reverse=True
+    ):
+        played = _started(path.parent)
+        if played is None or played < one.taken.when:
+            continue
+        try:
+            figures = report_figures(read_regular(path, MOST_JSON_BYTES), str(path), "")
+        except BadInput:
+            continue
+        if one.assignment.id in figures.assignments and figures.lesson in name_of:
+            name = name_of[figures.lesson]
+            ruled = overruled(figures, verdicts.get(session_key(name, played)))
+            found.append(PractisedSession(path.parent, name, played, ruled))
+    return found
+
+
+def _started(folder: Path) -> datetime | None:
+    try:
+        return datetime.strptime(folder.name[:_STARTED_LETTERS], _STARTED)
+    except ValueError:
+        return None
+
+
+@dataclass(frozen=True, slots=True)
+class ReturnFacts:
+    """What a return says beside its sessions: a new `id`, when it was `made` (aware), the student's own `words`."""
+
+    id: str
+    made: datetime
+    words: str = ""
+    most: int = MOST_SESSIONS
+
+
+def return_of(settings: Settings, one: TakenAssignment, facts: ReturnFacts) -> Return:
+    """The newest sessions of an assignment, as many as there is room for; raises `BadInput` where there are none."""
+    ours = practised(settings, one)
+    if not ours:
+        raise BadInput(
+            one.assignment.title, "", f"{settings.student} has practised none of its lessons since it was taken"
+        )
+    sessions: list[ReturnedSession] = []
+    room = _ROOM
+    for each in ours[: min(facts.most, MOST_SESSIONS)]:
+        session = _packed(each, one)
+        if session is not None and size_of(session) <= room:
+            sessions.append(session)
+            room -= size_of(session)
+    if not sessions:
+        raise BadInput(one.assignment.title, "", "no session of it has a capture that can be sent")
+    word = AssignmentWord.of(one.assignment)
+    left_out = len(ours) - len(sessions)
+    return Return(facts.id, word, settings.student, facts.made, tuple(sessions[::-1]), facts.words, left_out)
+
+
+def _packed(each: PractisedSession, one: TakenAssignment) -> ReturnedSession | None:
+    """A session as it is sent; None where its files are not all there, or longer than may be sent."""
+    lesson = one.assignment.lesson(each.name)
+    assert lesson is not None, "its name was found there"
+    try:
+        capture = read_regular(each.folder / CAPTURE_NAME, MOST_CAPTURE_BYTES)
+        report = read_regular(each.folder / DOCUMENT_NAME, MOST_JSON_BYTES)
+        pairs = read_regular(each.folder / PAIRS_NAME, MOST_PAIRS_BYTES)
+        seconds = _length_s(capture)
+    except StationError:
+        return None
+    figures = replace(each.figures, seconds=seconds)
+    return ReturnedSession(each.name, each.played, figures, lesson.text, capture, report, pairs)
+
+
+def _length_s(capture: bytes) -> float:
+    """From the first to the last record of a capture."""
+    records = parse_capture(capture).records
+    length = (records[-1].at_ns - records[0].at_ns) / NS_PER_S if records else 0.0
+    return min(max(length, 0.0), LONGEST_S)
