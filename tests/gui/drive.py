@@ -209,7 +209,14 @@ class Drive:
         return self._pixels
 
     def unread(self, ctx: imgui.test_engine.TestContext) -> list[str]:
-        """What cannot be read of the panels as they stand now (`legible`)."""
+        """What cannot be read of the panels as they stand now (`legible`).
+
+        Two frames are looked at: what grows, as where something has just been read, can be scrolled to a frame later.
+        """
+        first, second = self._faults(ctx), self._faults(ctx)
+        return [line for line in first if line in second]
+
+    def _faults(self, ctx: imgui.test_engine.TestContext) -> list[str]:
         self._wants_faults = True
         ctx.yield_(2)
         assert not self._wants_faults

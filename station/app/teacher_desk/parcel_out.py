@@ -20,7 +20,7 @@ def parcel_path(typed: str, kind: Kind, ours: Container[Path]) -> Path:
 
 
 def proposed_path(name: str, kind: Kind) -> str:
-    """Where a file of that name would go, in the user's home, with a number where it is taken."""
-    home = Path.home()
+    """Where a file of that name would go, in the user's home ("~"), with a number where it is taken."""
     names = (f"{name}{kind.ending}", *(f"{name}-{number}{kind.ending}" for number in range(2, 100)))
-    return str(next((home / each for each in names if not (home / each).exists()), home / names[0]))
+    home = Path("~")
+    return str(home / next((each for each in names if not (home / each).expanduser().exists()), names[0]))

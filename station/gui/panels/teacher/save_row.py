@@ -1,5 +1,7 @@
 """Where a file goes: a line to type its place, the system's dialog where there is one, the button that writes it."""
 
+from pathlib import Path
+
 from imgui_bundle import imgui
 from imgui_bundle import portable_file_dialogs as dialogs
 
@@ -39,11 +41,12 @@ class SaveRow:
     def gui(self) -> bool:
         """Draw it; whether the file is to be written."""
         imgui.set_next_item_width(-1)
-        _, self.path = imgui.input_text_with_hint(self.path_label, f"a file {self._kind.ending}", self.path)
+        hint, flags = f"a file {self._kind.ending}", imgui.InputTextFlags_.elide_left
+        _, self.path = imgui.input_text_with_hint(self.path_label, hint, self.path, flags)
         theme.tooltip(f"{self._title}: {self.path}")
         row = FlowRow()
         if self._has_dialog and row.button(f"Choose…{self.path_label}", _CHOOSE) and self._asked is None:
             filters = [f"*{self._kind.ending}", f"*{self._kind.ending}"]
-            self._asked = dialogs.save_file(self._title, self.path, filters)
+            self._asked = dialogs.save_file(self._title, str(Path(self.path).expanduser()), filters)
         row.place(theme.points(_WRITE))
         return bool(theme.main_button(self._label, (-1, theme.points(38.0))))
