@@ -2,7 +2,6 @@
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from imgui_bundle import imgui
@@ -15,19 +14,15 @@ from station.gui.panels.exam_notes import NOTES, READY_LABEL
 from station.gui.panels.exam_panel import EXAM, LEVEL_LABEL, LOOK_LABEL, NEXT_LABEL, SEED_LABEL
 from station.practice.exam.exam_take import exam_plan
 from station.render.files.png_file import write_png
-
-if TYPE_CHECKING:
-    from tests.gui.drive import Drive
+from tests.gui.drive import Drive, open_panel
 
 UNSEEN = Unseen(2, 11)
 PICTURES = "EXAM_PICTURES"
 """A folder in the environment, where pictures of the window are wanted."""
 
 
-def exam(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
+def exam(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """From the rubric to the marks, with a virtual student who reads well."""
-    from tests.gui.drive import open_panel
-
     seen = drive.seen
     open_panel(ctx, EXAM)
     drive.wait_until(ctx, lambda state: state.exam.piece is not None)
@@ -84,7 +79,7 @@ def _scrolls(panel: str) -> float:
     return float(max(w.scroll_max.y for w in children))
 
 
-def _picture(drive: "Drive", ctx: imgui.test_engine.TestContext, name: str) -> None:
+def _picture(drive: Drive, ctx: imgui.test_engine.TestContext, name: str) -> None:
     folder = os.environ.get(PICTURES)
     if folder:
         write_png(np.ascontiguousarray(drive.shot(ctx)), Path(folder) / f"{name}.png")
