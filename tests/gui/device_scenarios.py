@@ -32,7 +32,7 @@ from tests.gui.room import KIT
 def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The devices page: live lines, a threshold and a rule set by looking, kept and taken by the engine."""
     open_panel(ctx, DEVICES)
-    desk = drive.station.mapping
+    desk = drive.station.parts.mapping
     for text in ("99 26 50", "99 24 64", "99 26 0a", "99 2e 40"):
         drive.engine.play_bytes(text)
         ctx.yield_(2)
@@ -58,7 +58,7 @@ def devices(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def pads_are_learnt(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """An unknown note gets a name, a pad is learnt with one hit and undone, Esc gives up, ten strokes make a curve."""
-    desk = drive.station.mapping
+    desk = drive.station.parts.mapping
     drive.engine.play_bytes("99 0e 40")
     ctx.yield_(2)
     drive.seen["unknown"] = desk.unknown

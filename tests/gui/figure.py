@@ -21,7 +21,7 @@ def figure(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_input_value("##figure/Arms/##amplitude_gain", 90.0)
     ctx.yield_(2)
     seen["gain"] = drive.state.style.options.value("amplitude_gain")
-    seen["moves so"] = drive.station.sessions.player.drummer.style.amplitude_gain
+    seen["moves so"] = drive.station.parts.sessions.player.drummer.style.amplitude_gain
     ctx.item_click("1##keep1")
     ctx.item_click("##style")
     ctx.yield_(2)

@@ -28,7 +28,7 @@ def planned_day(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref(f"//{TODAY}")
     ctx.item_click(f"**/{START_LABEL}")
     drive.wait_for(ctx, Stage.PLAYING)
-    laid = drive.station.sessions.practice.session.plan
+    laid = drive.station.parts.sessions.practice.session.plan
     seen["planned"] = [plan.items[0].lesson, plan.items[0].beats_a_minute, plan.items[0].rise]
     seen["begun"] = [laid.lesson.name, round(laid.beats_a_minute, 3), str(laid.rise)]
     seen["unread while playing"] = drive.unread(ctx)

@@ -15,7 +15,7 @@ from tests.gui.key_chord import chord
 
 def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The demonstration is watched, stepped through, reversed, slowed down and looped; Start practises the loop."""
-    deck, engine, seen = drive.station.sessions.player, drive.engine, drive.seen
+    deck, engine, seen = drive.station.parts.sessions.player, drive.engine, drive.seen
 
     def at_ms() -> int:
         return round(deck.player.position_ns(deck.now_ns) / 1e6)
@@ -71,7 +71,7 @@ def player(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The graph is opened, follows the play line, is zoomed by wheel, its line dragged; a result shows there."""
-    panel, deck, seen = drive.window.pages.graph, drive.station.sessions.player, drive.seen
+    panel, deck, seen = drive.window.pages.graph, drive.station.parts.sessions.player, drive.seen
     ctx.set_ref("//Transport")
     ctx.item_click("Panels##panels")
     ctx.item_click("//$FOCUSED/Graph")

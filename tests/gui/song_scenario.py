@@ -19,7 +19,7 @@ def song(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     times_s = beats_s(5, 4 * BARS + 1, wander=0.003)
     part, sound = write_part(Path(), BARS), Path("band.wav")
     write_band(sound, times_s)
-    page = drive.station.song
+    page = drive.station.parts.song
     page._start = WorkAtOnce  # what other processes do is asked in the page's own tests
     drive.window.params.docking_params.dockable_window_of_name(SONG).is_visible = True
     ctx.yield_(3)
