@@ -14,7 +14,7 @@ from station.app.importer import ImportView
 from station.app.phase_page import PhaseView
 from station.app.room_state import RoomState, ShownResult, Stage
 from station.app.selection import Selection
-from station.app.sessions.demo_player import PlayerView
+from station.app.sessions.demo_picture import PlayerView
 from station.app.settings.preferences import PracticePreferences
 from station.app.settings.view_settings import ViewSettings
 from station.app.songs.song_page import SongView

@@ -19,7 +19,7 @@ from station.app.actions.player_actions import (
     StepOnce,
 )
 from station.app.actions.practice_actions import ChooseBars
-from station.app.sessions.demo_player import PlayerView
+from station.app.sessions.demo_picture import PlayerView
 from station.gui.keyboard_kit import slot_pressed
 from station.practice.demonstration.song_player import SongStep
 

@@ -6,8 +6,8 @@ stepped through, it is silent: drums cannot sound backwards.
 """
 
 from collections.abc import Callable
-from concurrent.futures import Executor, Future
-from dataclasses import dataclass, replace
+from concurrent.futures import Executor
+from dataclasses import replace
 from typing import assert_never
 
 from station.app.actions.player_actions import (
@@ -24,23 +24,17 @@ from station.app.actions.player_actions import (
     StepOnce,
     Wind,
 )
-from station.core.units import NS_PER_MS, NS_PER_S, PPQ
-from station.drills.directions import NO_DIRECTION, Direction, direction_at
+from station.app.sessions.demo_drummer import DemoDrummer, DemonstratedLesson
+from station.app.sessions.demo_picture import Counting, PlayerView, demo_bar_numbers, demo_snapshot
+from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.lesson import Lesson
 from station.engine.messages import Command, Play, Stop
 from station.motion.drummer import Drummer
-from station.motion.kit.kit import Kit
-from station.motion.sticking.hand_notes import Hands
-from station.motion.style.style import Style
-from station.music.score import Score
 from station.practice.demonstration.song_cues import SOUNDED_NS, CountIn, after, count_in_of, song_cues
 from station.practice.demonstration.song_player import FLAGS, Song, SongPlayer, SongStep
-from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
-from station.practice.session.leading_hand import with_sticking
-from station.render.snapshot import BarNumbers, Hud, Snapshot
+from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves
-from station.scenes.demonstrator import Demonstrator, as_taught
-from station.scenes.score_words import bar_numbers
+from station.scenes.demonstrator import Demonstrator
 
 LEAD_NS = 50 * NS_PER_MS
 """How long after a change the sound begins: the engine's way and a block of sound fit in (our choice)."""
@@ -52,34 +46,6 @@ _Controls = Seek | GoToFlag | KeepFlag | StepOnce | Wind | SetReverse
 
 Control = Callable[[SongPlayer, int], SongPlayer]
 """What a control does with a player at a session time."""
-
-
-@dataclass(frozen=True, eq=False)
-class DemonstratedLesson:
-    """What is demonstrated: a lesson, on which kit and by whose leading hand, and what clicks."""
-
-    lesson: Lesson
-    kit: Kit
-    hands: Hands | None = None
-    click: ClickPattern = PLAIN
-
-
-@dataclass(frozen=True, slots=True)
-class PlayerView:
-    """The player at `now_ns`, its `lesson`, and what is chosen for steps and sound; `is_shown` once it is used."""
-
-    lesson: Lesson
-    player: SongPlayer
-    now_ns: int
-    step: SongStep
-    click: bool
-    counts_in: bool
-    is_shown: bool
-
-    @property
-    def position_ns(self) -> int:
-        """Where in the song it is."""
-        return self.player.position_ns(self.now_ns)
 
 
 class DemoPlayer:
@@ -98,14 +64,7 @@ class DemoPlayer:
     ) -> None:
         self._send = send
         self._watched = watched
-        self.score = watched.lesson.played_once
-        """The whole lesson at its own tempo, and its landing."""
-        self._demonstrator = demonstrator or Demonstrator()
-        self._maker = maker
-        self._coming: _Coming | None = None
-        self._drummer: Drummer | None = None
-        self._seen = self.score  # what the drummer plays
-        self._style = self._demonstrator.style
+        self._drummer = DemoDrummer(watched, demonstrator or Demonstrator(), maker)
         self._flags: dict[str, tuple[int | None, ...]] = {}
         self._sounding_until_ns: int | None = None
         self._due = False
@@ -114,7 +73,7 @@ class DemoPlayer:
         self.step, self.click = SongStep.BEAT, True
         self.counts_in = False
         """Whether a bar is counted before it plays."""
-        self.player = SongPlayer(Song.of(self.score))
+        self.player = SongPlayer(Song.of(watched.score))
 
     # --- what it plays -----------------------------------------------------------------------------------------------
 
@@ -126,14 +85,12 @@ class DemoPlayer:
     def load(self, watched: DemonstratedLesson, bars: tuple[int, int] | None) -> None:
         """Take a lesson, its `bars` (first, last, from 1) as the loop; the same lesson stays where it is."""
         before, self._watched = self._watched, watched
-        if watched.lesson is not before.lesson or watched.hands != before.hands or watched.kit != before.kit:
-            self._dismiss()
+        self._drummer.take(watched)
         if watched.lesson is not before.lesson:
             self.halt()
             self._flags[before.lesson.name] = self.player.flags
-            self.score = watched.lesson.played_once
             flags = self._flags.get(watched.lesson.name, (None,) * FLAGS)
-            self.player = SongPlayer(Song.of(self.score), speed_percent=self.player.speed_percent, flags=flags)
+            self.player = SongPlayer(Song.of(watched.score), speed_percent=self.player.speed_percent, flags=flags)
         self.repeat(bars)
 
     def revise(self, watched: DemonstratedLesson, bars: tuple[int, int] | None) -> None:
@@ -144,11 +101,11 @@ class DemoPlayer:
         counts, is_heard = self._left_ns > 0, self._sounding_until_ns is not None and self.player.is_heard
         at_ns = self.now_ns + (LEAD_NS if is_heard and not counts else 0)
         tick = self.player.song.tick_at(self.player.position_ns(at_ns))
-        self._watched, self.score = watched, watched.lesson.played_once
-        song, loop = Song.of(self.score), None if bars is None else (bars[0] - 1, bars[1] - 1)
+        self._watched = watched
+        song, loop = Song.of(watched.score), None if bars is None else (bars[0] - 1, bars[1] - 1)
         there_ns = int(song.tempo_map.ns_at(min(tick, song.end_tick)))
         self.player = replace(self.player, song=song, at_ns=there_ns, since_ns=at_ns).looped(at_ns, loop)
-        self._ask_drummer()
+        self._drummer.revise(watched)
         if counts:
             self._sound_on()
         elif is_heard:
@@ -164,47 +121,12 @@ class DemoPlayer:
 
     def perform_as(self, demonstrator: Demonstrator) -> None:
         """Let another body or manner demonstrate from now on."""
-        if demonstrator.figure is not self._demonstrator.figure:
-            self._dismiss()
-        self._demonstrator = demonstrator
-
-    def _dismiss(self) -> None:
-        """Nobody plays: who does is made when asked for."""
-        self._drummer = self._coming = None
-
-    def _ask_drummer(self) -> None:
-        """Have a drummer made who plays the lesson as it is now; the one before plays until then."""
-        if self._coming is not None:
-            self._coming.made.cancel()
-        self._coming = None
-        if self._maker is None or self._drummer is None:
-            self._dismiss()
-            return
-        style = self._demonstrator.style
-        made = self._maker.submit(_drummer_of, self._watched, self._demonstrator)
-        self._coming = _Coming(made, self.score, style)
-
-    def _welcome(self) -> None:
-        """Let the drummer play who is ready now."""
-        coming = self._coming
-        if coming is not None and coming.made.done():
-            self._drummer, self._seen, self._style, self._coming = (
-                coming.made.result(),
-                coming.score,
-                coming.style,
-                None,
-            )
+        self._drummer.perform_as(demonstrator)
 
     @property
     def drummer(self) -> Drummer:
-        """Who plays the whole lesson, in the present style; made, and made anew, when asked for."""
-        if self._drummer is None:
-            self._drummer, self._seen = _drummer_of(self._watched, self._demonstrator), self.score
-            self._style = self._demonstrator.style
-        if self._style is not self._demonstrator.style:
-            self._style = self._demonstrator.style
-            self._drummer = self._drummer.with_style(as_taught(self._style, self.lesson.cues))
-        return self._drummer
+        """Who plays the whole lesson, in the present style."""
+        return self._drummer.now()
 
     # --- what the user does ------------------------------------------------------------------------------------------
 
@@ -261,7 +183,7 @@ class DemoPlayer:
     def advance(self, now_ns: int) -> None:
         """Move to `now_ns`; once a frame."""
         self.now_ns = now_ns
-        self._welcome()
+        self._drummer.advance()
         if self._due:
             self._begin_sound()
         self.player = self.player.stopped_at_end(now_ns)
@@ -289,11 +211,11 @@ class DemoPlayer:
         if self._due:
             at_ns = self.player.position_ns(self.now_ns)
             self.player = replace(self.player, at_ns=at_ns, since_ns=_WAITING_NS)
-            self._drummer = self.drummer  # who may have to be made: then sound and picture begin together
+            self._drummer.now()  # who may have to be made: then sound and picture begin together
 
     def _begin_sound(self) -> None:
         self._due = False
-        cues = song_cues(self.score, self.player, self._watched.click if self.click else None)
+        cues = song_cues(self._watched.score, self.player, self._watched.click if self.click else None)
         cues = cues if self._counting is None else after(self._counting, cues)
         lead_ns = LEAD_NS + max(-int(cues["at_ns"].min(initial=0)), 0)  # a counted word begins before its beat
         self.player = self.player.started(self.now_ns + lead_ns + self._counted_ns)
@@ -327,69 +249,12 @@ class DemoPlayer:
 
     def snapshot(self) -> Snapshot:
         """The picture of the demonstration."""
-        drummer, position_s = self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S
-        raising_s = self._left_ns / NS_PER_S if position_s == 0 else 0.0  # while the beginning is counted in
-        return Snapshot(
-            score=self._seen,
-            position_s=position_s,
-            kit=drummer.kit,
-            figure=drummer.figure,
-            pose=drummer.pose(position_s - raising_s),
-            limbs=drummer.assignment.limbs,
-            hud=self._hud(),
-            bar_numbers=self._bar_numbers,
-            beat_ticks=self.lesson.beat_ticks,
-            view=self._direction.view,
-        )
-
-    @property
-    def _direction(self) -> Direction:
-        """What the lesson's cues say of where the player is, once it is used."""
-        if not self.is_shown:
-            return NO_DIRECTION
-        bar = self.player.place(self.now_ns).bar
-        return direction_at(self.lesson.cues, min(bar, self.lesson.score.bar_count - 1))
-
-    @property
-    def _bar_numbers(self) -> BarNumbers:
-        return bar_numbers(self.lesson.sections, 0, self.lesson.score.bar_count)
+        drummer = self.drummer
+        return demo_snapshot(self.view(), Counting(self._counting, self._left_ns), drummer, self._drummer.score)
 
     def curves(self) -> ScoreCurves:
         """The same for the graph."""
-        return ScoreCurves(self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S, self._bar_numbers)
-
-    def _hud(self) -> Hud:
-        player, place = self.player, self.player.place(self.now_ns)
-        start = self.score.tempo_map.bar_start(place.bar)
-        speed = "" if player.speed_percent == 100 else f" at {player.speed_percent} %"
-        quarters = self.score.tempo_map.bpm_at(player.song.tick_at(player.position_ns(self.now_ns)))
-        return Hud(
-            title=self.lesson.title,
-            phase="Count-in" if self._left_ns else f"Demonstration{speed}",
-            count_in=None if self._counting is None else self._counting.beat(self._left_ns),
-            bar=place.bar + 1,
-            beat=place.beat + 1,
-            beats=self.score.tempo_map.meter_at(start).beats,
-            bar_count=self.score.bar_count,
-            beats_a_minute=quarters * PPQ / self.lesson.beat_ticks * player.speed_percent / 100,
-            say="" if self._left_ns else self._direction.say,
-        )
-
-
-@dataclass(frozen=True, eq=False)
-class _Coming:
-    """A drummer who is being made: of which score, in which style."""
-
-    made: Future[Drummer]
-    score: Score
-    style: Style
-
-
-def _drummer_of(watched: DemonstratedLesson, demonstrator: Demonstrator) -> Drummer:
-    """Who plays a whole lesson."""
-    score = with_sticking(watched.lesson.played_once, watched.kit, watched.hands)
-    style = as_taught(demonstrator.style, watched.lesson.cues)
-    return Drummer(score, watched.kit, demonstrator.figure, style)
+        return ScoreCurves(self.drummer, self.player.position_ns(self.now_ns) / NS_PER_S, demo_bar_numbers(self.lesson))
 
 
 def _course(player: SongPlayer) -> tuple[object, ...]:

@@ -8,7 +8,7 @@ from datetime import date
 from typing import TYPE_CHECKING
 
 from station.app.room_state import SessionRequest
-from station.app.sessions.demo_player import DemonstratedLesson
+from station.app.sessions.demo_drummer import DemonstratedLesson
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput
 from station.core.settings import setting_source

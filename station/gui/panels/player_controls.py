@@ -25,7 +25,7 @@ from station.app.actions.player_actions import (
     Wind,
 )
 from station.app.actions.practice_actions import ChooseBars
-from station.app.sessions.demo_player import PlayerView
+from station.app.sessions.demo_picture import PlayerView
 from station.core.units import NS_PER_S
 from station.gui import theme
 from station.gui.widgets.flow_row import LINE_HEIGHT, FlowRow

@@ -13,7 +13,7 @@ from station.app.actions.action import Action
 from station.app.actions.practice_actions import Answer, Begin, Dismiss, EndSession, Pause, Veto
 from station.app.actions.settings_actions import SetView
 from station.app.room_state import RoomState, Stage
-from station.app.sessions.demo_player import PlayerView
+from station.app.sessions.demo_picture import PlayerView
 from station.app.settings.view_settings import ViewSettings
 from station.app.window_state import State
 from station.core.named_view import NamedView

@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from station.app.actions.player_actions import SetCountIn, SetDemoClick
-from station.app.sessions.demo_player import LEAD_NS, Control, DemonstratedLesson, DemoPlayer
+from station.app.sessions.demo_drummer import DemonstratedLesson
+from station.app.sessions.demo_player import LEAD_NS, Control, DemoPlayer
 from station.core.named_view import NamedView
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S

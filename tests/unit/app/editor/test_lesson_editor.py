@@ -22,7 +22,8 @@ from station.app.actions.editor_actions import (
 from station.app.catalog import Catalog
 from station.app.editor.draft_files import DraftFiles
 from station.app.editor.lesson_editor import LessonEditor
-from station.app.sessions.demo_player import DemonstratedLesson, DemoPlayer
+from station.app.sessions.demo_drummer import DemonstratedLesson
+from station.app.sessions.demo_player import DemoPlayer
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput
 from station.core.pieces import Piece
