@@ -6,6 +6,9 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 EXTRAS := $(wildcard benchmarks examples)
 
+# The tests start a hundred programs: what one of them has compiled the others read.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: practice test check format lint types imports unit setup setup-test oracles bench soak clean help
 
 help:  ## list the targets
@@ -40,7 +43,7 @@ imports: $(READY)
 	@$(BIN)/lint-imports --no-cache | tail -n 12
 
 unit: $(READY)
-	@$(BIN)/python -m pytest -q -n 2 --dist loadgroup
+	@$(BIN)/python -m pytest -q -n 2 --dist loadgroup --no-loadscope-reorder
 
 oracles: $(READY)  ## comparisons with files that may not be passed on, read from ORACLES=../shared/data (tests/oracles)
 	@ORACLES=$(or $(ORACLES),../shared/data) $(BIN)/python -m pytest -q -r fE -m oracle tests/oracles

@@ -5,6 +5,8 @@ from collections.abc import Iterator
 
 import pytest
 from hypothesis import settings
+from xdist.remote import Producer
+from xdist.scheduler import LoadGroupScheduling
 
 # On a shared machine a stall of any length may fall into any example: time belongs in benchmarks, not in properties.
 # The same examples in every run, so that a red test means a change; `SEARCH=1` looks for new ones.
@@ -21,12 +23,34 @@ def _nobodys_settings(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None
         yield
 
 
+LONGEST = ("tests/gui", "tests/e2e", "tests/render", "tests/unit/motion")
+"""Their modules take longest: begun first, in this order, they leave no worker alone at the end."""
+
+
+def _place(item: pytest.Item) -> int:
+    folder = item.path.relative_to(item.config.rootpath).as_posix()
+    return next((place for place, long in enumerate(LONGEST) if folder.startswith(f"{long}/")), len(LONGEST))
+
+
 @pytest.hookimpl(tryfirst=True)  # xdist reads the groups in the same hook
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Tests with a JACK server go to one worker: libjack keeps one state a process and one registry a user."""
     for item in items:
         if item.get_closest_marker("jack"):
             item.add_marker(pytest.mark.xdist_group("jack"))
+    items.sort(key=_place)  # the rest stays in random order
+
+
+class _ByModule(LoadGroupScheduling):  # type: ignore[misc]  # xdist is not typed
+    """A module's tests go to one worker, so that what they share is made once; groups stay together as ever."""
+
+    def _split_scope(self, nodeid: str) -> str:
+        return str(super()._split_scope(nodeid)).partition("::")[0]
+
+
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> LoadGroupScheduling | None:
+    """How `--dist loadgroup` deals out the tests here: xdist asks its projects by this hook."""
+    return _ByModule(config, log) if config.getoption("dist") == "loadgroup" else None
 
 
 def pytest_make_parametrize_id(val: object) -> str | None:

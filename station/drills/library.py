@@ -5,11 +5,12 @@ name is its file's stem; names are unique, whatever folder a file lies in. Any o
 path. Files that end in `.course.toml` are courses.
 """
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from contextlib import suppress
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
+from types import MappingProxyType
 
 import station
 from station.core.errors import BadInput
@@ -58,14 +59,20 @@ def _files(folder: Path) -> dict[str, Path]:
     return {path.stem: path for path in sorted(folder.rglob(f"*{_ENDING}")) if not is_course(path)}
 
 
+@cache
+def _shipped() -> Mapping[str, Path]:
+    """The files of the shipped lessons by name; what ships stays as it is while the station runs."""
+    return MappingProxyType(_files(lessons_dir()))
+
+
 def lesson_names() -> list[str]:
     """Names of all shipped lessons, sorted."""
-    return sorted(_files(lessons_dir()))
+    return sorted(_shipped())
 
 
 def lesson_path(name: str) -> Path:
     """The file of the shipped lesson of that name."""
-    return _files(lessons_dir())[name]
+    return _shipped()[name]
 
 
 def find_lesson(name_or_path: str) -> Lesson:
@@ -73,7 +80,7 @@ def find_lesson(name_or_path: str) -> Lesson:
 
     Raises `BadInput`: the file's fault, that there is none, or for an unknown name the shipped names nearest to it.
     """
-    files = _files(lessons_dir())
+    files = _shipped()
     if name_or_path in files:
         return read_lesson(files[name_or_path])
     path = Path(name_or_path)
@@ -167,14 +174,14 @@ def _like(word: str, names: list[str]) -> str:
 
 def shipped_lessons() -> list[Lesson]:
     """All shipped lessons in the order of the list."""
-    files = _files(lessons_dir())
+    files = _shipped()
     return [read_lesson(files[row.name]) for row in lesson_rows()]
 
 
 def lesson_rows() -> list[LessonRow]:
     """The list of shipped lessons: grooves, fills, rudiments …, each kind by level and name."""
     top = lessons_dir()
-    kinds = {path: "" if path.parent == top else path.parent.name for path in _files(top).values()}
+    kinds = {path: "" if path.parent == top else path.parent.name for path in _shipped().values()}
     return sorted(rows_below(top, kinds), key=lambda row: (_rank(row.folder), row.folder, row.level, row.name))
 
 

@@ -28,9 +28,7 @@ TIMEOUT_S = 360.0  # everything is drawn without a graphics card, on a machine t
 def environment(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
     for found in screen():
         home = tmp_path_factory.mktemp("config")  # nobody's own settings and kits are read or written
-        found.pop("PYTHONDONTWRITEBYTECODE", None)  # a dozen windows open: one compiles, the others read what it made
-        bytecode = str(tmp_path_factory.mktemp("bytecode"))
-        yield {**found, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(home), "PYTHONPYCACHEPREFIX": bytecode}
+        yield {**found, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(home)}
 
 
 def run(scenario: str, environment: dict[str, str], folder: Path) -> dict[str, Any]:

@@ -7,7 +7,7 @@ for a high hi-hat and keep the wrist straight.
 """
 
 import math
-from dataclasses import astuple, dataclass, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -156,10 +156,11 @@ def _easiest(
     turn = slopes.free * turn
     x, y, z = target.point_m.tolist()
     way = side * grip.yaw if slopes.azimuth is None else _turn(root, target, slopes.azimuth)
-    rises = {t: _over_the_piece(target, root, way + t, slopes) for t in set(turn.tolist())}
-    rise = np.array([rises[t] for t in turn.tolist()])
-    lies = {r: grip.lie(r, slopes.hand_roll) for r in rises.values()}
-    palm, crossing, roll = (np.array(part) for part in zip(*(astuple(lies[r]) for r in rise.tolist()), strict=True))
+    turns, which = np.unique(turn, return_inverse=True)
+    rises = [_over_the_piece(target, root, way + t, slopes) for t in turns.tolist()]
+    lies = [grip.lie(r, slopes.hand_roll) for r in rises]
+    rise = np.array(rises)[which]
+    palm, crossing, roll = np.array([(lie.palm, lie.crossing, lie.roll) for lie in lies])[which].T
     way += math.atan2(root[1] - y, root[0] - x) - math.atan2(root[1] - BEHIND_M - y, root[0] - x)
     stick_yaw = way + turn
     tries = Contact(
