@@ -161,7 +161,7 @@ class NeverDone(WorkAtOnce):
 
 
 def test_a_take_that_takes_too_long_is_ended(sent: Return, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(judge_worker, "LONGEST_S", -1.0)
+    monkeypatch.setattr(judge_worker, "LONGEST_WAIT_S", -1.0)
     desk = Desk(sent, tmp_path)
     desk.page = TeacherPage(store_with(tmp_path), desk.shown.append, find_lesson, NeverDone)
     desk.page.advance()

@@ -30,6 +30,8 @@ _GRID_SHARE = 0.5
 _SHARE, _LEAST_HIGH, _LEAST_PICTURE, _BELOW = 0.62, 400.0, 90.0, 122.0
 """The page's share of the window without the strip (`_BELOW` design pixels); what it needs at least, and the picture:
 in a low window there is none (our choice)."""
+_BEGIN = "Click a cell to write the first stroke; Space plays, F1 explains the page."
+
 _Leaf = Callable[[EditorView, tuple[float, float]], None]
 
 
@@ -101,8 +103,11 @@ class EditorPanel:
         return lines * float(imgui.get_text_line_height_with_spacing())
 
     def _foot(self, view: EditorView) -> None:
-        """The first fault of the text, and how many more there are."""
+        """The first fault of the text, and how many more there are; where nothing stands yet, how one begins."""
         if view.is_sound:
+            return
+        if view.is_blank:
+            theme.soft(theme.one_line(_BEGIN, imgui.get_content_region_avail().x))
             return
         first, more = view.faults[0], len(view.faults) - 1
         words = f"{first.place}: {first.text}" if first.place else first.text
