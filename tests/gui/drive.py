@@ -115,6 +115,7 @@ STUDENTS = {
     "drill": "beginner,seed=3",
     "practise": "pro,seed=4",
     "exam": "seed=1,sd_ms=4",
+    "exam_in_a_small_window": "seed=1,sd_ms=4",
     "there_and_back": "intermediate,seed=2",
     "highway": "intermediate,seed=2,velocity_sd=30",
 }
@@ -1072,6 +1073,7 @@ SCENARIOS = {
     "song": song,
     "planned_day": planned_day,
     "exam": exam,
+    "exam_in_a_small_window": exam,
     "there_and_back": there_and_back,
 }
 
