@@ -1,9 +1,11 @@
 """Throws hostile assignments, returns and notes at what reads them: a value or one line comes out, in time and memory.
 
-    python -m benchmarks.parcels.fuzz_parcels --inputs 100000 --seed 1
+    python -m benchmarks.parcels.fuzz_parcels --inputs 1000000 --seed 1 --kinds assignment return
 
-An assignment that can be read has its lessons read too, and some are taken into a home of their own, where afterwards
-nothing may lie but what taking leaves; of some returns the first session is judged again. Time is the process's own.
+Each input has its own source of chance, made of the seed and its number: `--first` goes on where a run was ended, and
+throws a single one again with `--inputs 1`. The kinds take turns. An assignment that can be read has its lessons read
+too, and some are taken into a home of their own, where afterwards nothing may lie but what taking leaves; of some
+returns the first session is judged again. Time is the process's own, memory what it takes beyond what it began with.
 Prints a table, and keeps each input that does harm in `--keep`.
 """
 
@@ -14,8 +16,7 @@ import shutil
 import signal
 import tempfile
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
@@ -25,17 +26,17 @@ from station.core.errors import BadInput
 from station.core.settings import Settings
 from station.practice.exchange.assignment_file import lessons_of, parse_assignment
 from station.practice.exchange.note_file import parse_note
-from station.practice.exchange.parcel import Kind
+from station.practice.exchange.parcel import KINDS, Kind
 from station.practice.exchange.return_file import parse_return
 from station.practice.exchange.return_judging import judge_returned
 from station.practice.exchange.student_store import take
 
 LIMIT_S, LIMIT_MB = 1.0, 300
-_JUDGED, _TAKEN = 0.15, 0.05
+_JUDGED, _TAKEN = 0.1, 0.05
 """Shares of returns that are judged again and of assignments that are taken (our choice: a million must end)."""
 _JUDGING_S = 5.0
 _LONGEST_LINE = 400
-_TOLD_EVERY = 20_000
+_TOLD_EVERY = 10_000
 
 
 class TooSlow(BaseException):
@@ -89,8 +90,7 @@ def _tried(kind: Kind, data: bytes, rng: random.Random, tally: Tally) -> str | N
     began_s = time.process_time()
     signal.setitimer(signal.ITIMER_PROF, LIMIT_S)
     try:
-        with _limited_memory():
-            _use(kind, data, rng)
+        _use(kind, data, rng)
         tally.read += 1
     except BadInput as fault:
         tally.refused += 1
@@ -109,33 +109,49 @@ def _too_slow(*_: object) -> None:
     raise TooSlow
 
 
-@contextmanager
-def _limited_memory() -> Iterator[None]:
-    """Within, the process may have so much more; what is thrown was made before."""
+def _limit_memory() -> None:
+    """From here on the process may have so much more."""
     used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
     _, most = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (used + LIMIT_MB * 2**20, most))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
-def run(count: int, seed: int, keep: Path, tell: Callable[[str], None]) -> dict[Kind, Tally]:
-    """Throw `count` inputs; those that do harm are kept in the folder `keep`."""
-    rng, of = random.Random(seed), seeds()
+@dataclass(frozen=True, slots=True)
+class Throw:
+    """What is thrown: inputs `first` to `last` of a `seed`, these `kinds` in turn; what does harm goes to `keep`."""
+
+    first: int
+    last: int
+    seed: int
+    kinds: tuple[Kind, ...]
+    keep: Path
+
+
+def run(throw: Throw, tell: Callable[[str], None]) -> dict[Kind, Tally]:
+    """Throw them; every ten thousand one line is told."""
+    of = {kind: [seed for seed in seeds() if seed.kind is kind] for kind in throw.kinds}
     tallies = {kind: Tally() for kind in Kind}
-    for index in range(1, count + 1):
-        kind, data = hostile(of, rng)
+    _limit_memory()
+    for index in range(throw.first, throw.last + 1):
+        rng = random.Random(f"{throw.seed}-{index}")
+        kind, data = hostile(of[throw.kinds[index % len(throw.kinds)]], rng)
         why = _tried(kind, data, rng, tallies[kind])
         if why is not None:
-            tallies[kind].failures.append(f"{seed}-{index}: {why}")
-            keep.mkdir(parents=True, exist_ok=True)
-            (keep / f"{seed}-{index}{kind.ending}").write_bytes(data)
-            tell(f"FAILED {kind.name} {seed}-{index}: {why}")
+            name = f"{throw.seed}-{index}"
+            tallies[kind].failures.append(f"{name}: {why}")
+            throw.keep.mkdir(parents=True, exist_ok=True)
+            (throw.keep / f"{name}{kind.ending}").write_bytes(data)
+            tell(f"FAILED {kind.name} {name}: {why}")
         if index % _TOLD_EVERY == 0:
-            tell(f"{index} of {count}: {sum(len(one.failures) for one in tallies.values())} failed")
+            tell(f"{index} of {throw.last}: {_sum_of(tallies)}")
     return tallies
+
+
+def _sum_of(tallies: dict[Kind, Tally]) -> str:
+    failed = sum(len(one.failures) for one in tallies.values())
+    slowest_s = max(one.slowest_s for one in tallies.values())
+    peak_mb = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    return f"{failed} failed, slowest {slowest_s:.2f} s, peak {peak_mb:.0f} MB, {time.process_time():.0f} s in all"
 
 
 def main() -> None:
@@ -143,17 +159,20 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--inputs", type=int, default=10_000)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--first", type=int, default=1)
+    parser.add_argument("--kinds", nargs="+", choices=sorted(KINDS), default=sorted(KINDS))
     parser.add_argument("--keep", type=Path, default=Path("fuzz-failures"))
     options = parser.parse_args()
     signal.signal(signal.SIGPROF, _too_slow)
-    tallies = run(options.inputs, options.seed, options.keep, lambda line: print(line, flush=True))
+    kinds = tuple(KINDS[word] for word in options.kinds)
+    throw = Throw(options.first, options.first + options.inputs - 1, options.seed, kinds, options.keep)
+    tallies = run(throw, lambda line: print(line, flush=True))
     for kind, tally in tallies.items():
         print(
             f"{kind.name:11} {tally.read:8} read {tally.refused:8} refused {len(tally.failures):4} failed, "
             f"slowest {tally.slowest_s:.2f} s of its own time"
         )
-    with suppress(ValueError):
-        print(f"peak memory of the whole program {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MB")
+    print(_sum_of(tallies))
 
 
 if __name__ == "__main__":

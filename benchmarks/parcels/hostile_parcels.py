@@ -7,6 +7,7 @@ import hashlib
 import io
 import json
 import random
+import re
 import struct
 import warnings
 import zipfile
@@ -20,6 +21,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from benchmarks.hostile_bytes import lines_again, number, ways_for
+from benchmarks.parcels.huge_parcels import huge_lessons, huge_reports, huge_values, of_all_lessons, of_all_sessions
 from station.core.settings import Settings
 from station.devices.capture.capture import MAGIC, CaptureRecord, RecordWriter, parse_capture
 from station.drills.lesson import Lesson
@@ -226,7 +228,7 @@ def broken_bytes(seed: Seed, rng: random.Random) -> bytes:
 def lying_directory(seed: Seed, rng: random.Random) -> bytes:
     """A field in the table at the zip file's end says something else: sizes, sums, places, packings, flags."""
     data = bytearray(zipped(_whole(seed.table, seed.members)))
-    marks = [at for at in range(len(data) - 4) if data[at : at + 4] in (b"PK\x01\x02", b"PK\x05\x06", b"PK\x03\x04")]
+    marks = [found.start() for found in re.finditer(rb"PK(?:\x01\x02|\x05\x06|\x03\x04)", data)]
     at = rng.choice(marks) + rng.choice((4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30, 32, 38, 42))
     wide = rng.choice(("<H", "<I"))
     most = 2**16 if wide == "<H" else 2**32
@@ -379,6 +381,35 @@ def _spoil(value: dict[Any, Any] | list[Any], rng: random.Random) -> None:
             value[key] = rng.choice(_HOSTILE_WORDS)
 
 
+def as_much_as_goes_in(seed: Seed, rng: random.Random) -> bytes:
+    """A parcel with as much of one thing as any may have: in its table, its lessons, its reports."""
+    table, members = dict(seed.table), dict(seed.members)
+    if seed.kind is Kind.NOTE or rng.random() < 0.3:
+        table[rng.choice([*table, "more"])] = rng.choice(huge_values())
+    elif seed.kind is Kind.ASSIGNMENT:
+        table["lessons"], members = of_all_lessons(rng.choice(huge_lessons()))
+    else:
+        members = of_all_sessions(members, rng.choice(huge_reports(members["sessions/1/report.json"])))
+        table["sessions"] = [table["sessions"][0]] * (len(members) // 4)
+    return zipped(_whole(table, members))
+
+
+def false_claims(seed: Seed, rng: random.Random) -> bytes:
+    """Every part is well made, but of another: reports that claim more, lessons, captures and pairs exchanged."""
+    members = {name: data for name, data in seed.members.items() if name != "README.txt"}
+    if seed.kind is Kind.RETURN:
+        name = rng.choice([one for one in members if one.endswith("report.json")])
+        report = json.loads(members[name])
+        report |= {"score": 100.0, "right": report["counts"]["notes"], "level": "studio"}
+        report["session"] |= {"passes": rng.choice((1, 99, 100_000)), "beats_a_minute": rng.choice((60, 240, 4000))}
+        members[name] = json.dumps(report).encode()
+    for name in rng.sample(sorted(members), min(len(members), 2)):
+        like = [other for other in members if other.rpartition("/")[2][-5:] == name[-5:]]
+        members[name] = members[rng.choice(like)]
+    table = {**seed.table, "id": rng.choice(_IDS)}
+    return zipped(_whole(table, members))
+
+
 def no_parcel(seed: Seed, rng: random.Random) -> bytes:
     """Something else altogether."""
     lone = rng.choice(list(seed.members.values()))
@@ -388,11 +419,14 @@ def no_parcel(seed: Seed, rng: random.Random) -> bytes:
 
 
 _HARMS: tuple[tuple[Harm, int], ...] = (
-    (broken_bytes, 20),
-    (lying_directory, 10),
-    (strange_members, 15),
-    (strange_table, 25),
-    (broken_table, 10),
-    (strange_content, 18),
-    (no_parcel, 2),
+    (broken_bytes, 160),
+    (lying_directory, 90),
+    (strange_members, 150),
+    (strange_table, 250),
+    (broken_table, 98),
+    (strange_content, 190),
+    (false_claims, 40),
+    (as_much_as_goes_in, 2),
+    (no_parcel, 20),
 )
+"""In thousandths (our choice); what is as large as it may be takes a hundred times as long as another."""

@@ -169,7 +169,7 @@ def _sticks(drive: Drive, ctx: Context) -> None:
         )
     )
     save_air(kit, air_path())
-    drive.station.sticks.begin()
+    drive.station.parts.sticks.begin()
     open_panel(ctx, STICKS)
     for device, limb, rate_hz in (("x-IMU3 4711", Limb.RIGHT_HAND, 400.0), ("x-IMU3 4712", Limb.LEFT_HAND, 200.0)):
         save_stick(Mounting(limb, learnt=True), device)

@@ -34,7 +34,7 @@ def draw(folder: Path, size: tuple[int, int]) -> None:
         drive = Drive(Path(home), None, 1, size)
 
         def scenario(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
-            drive.station.song._start = WorkAtOnce
+            drive.station.parts.song._start = WorkAtOnce
             drive.window.params.docking_params.dockable_window_of_name(SONG).is_visible = True
             drive.window.pages.song.part, drive.window.pages.song.sound = part.name, sound.name
             drive.station.dispatch(OpenSong(str(part), str(sound)))

@@ -1,5 +1,8 @@
 """What the window shows in passing: one or two lines that go away by themselves."""
 
+from collections.abc import Callable
+
+from station.core.errors import StationError
 from station.core.units import NS_PER_S
 
 SHOWN_NS = 8 * NS_PER_S
@@ -20,6 +23,13 @@ class Toasts:
         """Show a line from the next `update` on, with others that come before it; an empty one is left out."""
         if line:
             self._waiting.append(line)
+
+    def attempt(self, act: Callable[[], object]) -> None:
+        """Do it; what cannot be done is said."""
+        try:
+            act()
+        except StationError as fault:
+            self.notify(str(fault))
 
     def update(self, now_ns: int) -> None:
         """Show what waits; what was shown long enough goes."""

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from datetime import date, timedelta
 from typing import assert_never
 
-from station.app.actions.today_actions import LeaveOutBlock, LookAtDay, PlanDay, Reflect, StartBlock, TodayAction
+from station.app.actions.today_actions import BookAction, LeaveOutBlock, LookAtDay, PlanDay, Reflect
 from station.app.room_state import Stage
 from station.app.settings.settings_store import SettingsStore
 from station.core.settings import Settings
@@ -101,7 +101,7 @@ class TodayPage:
 
     # --- what the user does ------------------------------------------------------------------------------------------
 
-    def act(self, action: TodayAction) -> None:
+    def act(self, action: BookAction) -> None:
         """Do what the user asks, as soon as the book is free."""
         today = date.today() if self._known is None else self._known[0]
         match action:
@@ -114,8 +114,6 @@ class TodayPage:
             case LookAtDay(day):
                 self._looked_at = day
                 self._ask(lambda book: None)
-            case StartBlock():
-                pass  # the controller's: what is played is not the book's
             case _:
                 assert_never(action)
 

@@ -3,7 +3,6 @@
 import json
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from imgui_bundle import imgui
 
@@ -21,10 +20,8 @@ from station.gui.panels.editor.editor_toolbar import (
     STEP_LABEL,
 )
 from station.gui.panels.lessons_panel import EDIT_LABEL, NEW_LABEL, RESUME_LABEL, UNSAVED
+from tests.gui.drive import Drive
 from tests.gui.key_chord import chord
-
-if TYPE_CHECKING:
-    from tests.gui.drive import Drive
 
 Test = imgui.test_engine.TestContext
 HIHAT, SNARE, KICK = (LineAt(0, piece) for piece in (Piece.HIHAT, Piece.SNARE, Piece.KICK))
@@ -64,7 +61,7 @@ def choose_step(ctx: Test, step: GridStep) -> None:
     ctx.combo_click(f"{STEP_LABEL}/{words}")
 
 
-def two_empty_bars(drive: "Drive", ctx: Test) -> None:
+def two_empty_bars(drive: Drive, ctx: Test) -> None:
     """A new lesson from the list, with a second bar, written in sixteenths."""
     ctx.set_ref("//Lessons")
     ctx.item_click(f"**/{NEW_LABEL}")
@@ -78,7 +75,7 @@ def two_empty_bars(drive: "Drive", ctx: Test) -> None:
     assert drive.state.editor is not None
 
 
-def save_as(drive: "Drive", ctx: Test, name: str) -> None:
+def save_as(drive: Drive, ctx: Test, name: str) -> None:
     """Keep it under a name, tell what its file says, and go back to the lessons."""
     ctx.set_ref("//Editor")
     ctx.item_click(SAVE_AS_LABEL)
@@ -98,7 +95,7 @@ def save_as(drive: "Drive", ctx: Test, name: str) -> None:
     drive.seen["chosen"] = "" if card is None else card.name
 
 
-def point_at(drive: "Drive", ctx: Test, line: Line, bar: int, tick: int) -> None:
+def point_at(drive: Drive, ctx: Test, line: Line, bar: int, tick: int) -> None:
     """Move the mouse to a cell of the grid."""
     part = drive.window.pages.editor.grid
     assert part.geometry is not None
@@ -108,7 +105,7 @@ def point_at(drive: "Drive", ctx: Test, line: Line, bar: int, tick: int) -> None
     ctx.mouse_move_to_pos(imgui.ImVec2(x + 4, y + part.geometry.sizes.row / 2))
 
 
-def by_mouse(drive: "Drive", ctx: Test) -> None:
+def by_mouse(drive: Drive, ctx: Test) -> None:
     """Each stroke by a click, a run of the hi-hat by a drag, ghosts from the list of letters."""
     two_empty_bars(drive, ctx)
     choose_step(ctx, GridStep.EIGHTHS)
@@ -135,7 +132,7 @@ def by_mouse(drive: "Drive", ctx: Test) -> None:
     save_as(drive, ctx, "mouse")
 
 
-def by_keyboard(drive: "Drive", ctx: Test) -> None:
+def by_keyboard(drive: Drive, ctx: Test) -> None:
     """Letters and rests line by line, arrows between them; a slip is taken back."""
     two_empty_bars(drive, ctx)
     ctx.mouse_move_to_pos(imgui.ImVec2(2, 2))
@@ -157,7 +154,7 @@ def by_keyboard(drive: "Drive", ctx: Test) -> None:
     save_as(drive, ctx, "keyboard")
 
 
-def by_kit(drive: "Drive", ctx: Test) -> None:
+def by_kit(drive: Drive, ctx: Test) -> None:
     """A pass over the click, as a hand plays it."""
     two_empty_bars(drive, ctx)
     drive.engine.strokes = played_groove()
@@ -181,7 +178,7 @@ def by_kit(drive: "Drive", ctx: Test) -> None:
     save_as(drive, ctx, "kit")
 
 
-def by_steps(drive: "Drive", ctx: Test) -> None:
+def by_steps(drive: Drive, ctx: Test) -> None:
     """The same stroke by stroke: the kit writes where the cursor is."""
     two_empty_bars(drive, ctx)
     drive.station.dispatch(SetStepEntry(on=True))
@@ -196,7 +193,7 @@ def by_steps(drive: "Drive", ctx: Test) -> None:
     save_as(drive, ctx, "steps")
 
 
-def edits_until_killed(drive: "Drive", ctx: Test) -> None:
+def edits_until_killed(drive: Drive, ctx: Test) -> None:
     """Edits without end, each told in a file when it has been made, until somebody ends the program."""
     told = Path(drive.settings).with_name("edits.jsonl")
     drive.station.dispatch(NewLesson())
@@ -214,7 +211,7 @@ def edits_until_killed(drive: "Drive", ctx: Test) -> None:
             file.flush()
 
 
-def finds_draft(drive: "Drive", ctx: Test) -> None:
+def finds_draft(drive: Drive, ctx: Test) -> None:
     """What a killed program left is offered, and gone on with; undo leads back to the beginning."""
     (left,) = drive.state.drafts
     ctx.set_ref("//Lessons")
@@ -231,7 +228,7 @@ def finds_draft(drive: "Drive", ctx: Test) -> None:
     drive.seen["kept"] = [path.name for path in drive.state.settings.own_lessons_dir.glob("*.toml")]
 
 
-def closes_by_escape(drive: "Drive", ctx: Test) -> None:
+def closes_by_escape(drive: Drive, ctx: Test) -> None:
     """Escape closes a list, then the help, and only then the editor."""
     drive.station.dispatch(NewLesson())
     ctx.yield_(3)
@@ -253,7 +250,7 @@ def closes_by_escape(drive: "Drive", ctx: Test) -> None:
         tell()
 
 
-def changes_what_plays(drive: "Drive", ctx: Test) -> None:
+def changes_what_plays(drive: Drive, ctx: Test) -> None:
     """A copy of a lesson that ships plays on while it is changed; the drummer and the sound follow."""
     drive.choose(ctx, passes=1)
     ctx.set_ref("//Lessons")
@@ -284,15 +281,3 @@ def changes_what_plays(drive: "Drive", ctx: Test) -> None:
     ctx.key_press(imgui.Key.escape)
     ctx.yield_(5)
     seen["left"] = [drive.state.editor is None, len(drive.state.drafts)]
-
-
-EDITOR_SCENARIOS = {
-    "by_mouse": by_mouse,
-    "by_keyboard": by_keyboard,
-    "by_kit": by_kit,
-    "by_steps": by_steps,
-    "edits_until_killed": edits_until_killed,
-    "finds_draft": finds_draft,
-    "changes_what_plays": changes_what_plays,
-    "closes_by_escape": closes_by_escape,
-}

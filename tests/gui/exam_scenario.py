@@ -1,7 +1,6 @@
 """An exam in the window: the rubric is read, an unseen piece looked at and played once, the marks stand beside it."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from imgui_bundle import imgui
 
@@ -12,19 +11,15 @@ from station.drills.exam.exam_piece import Unseen, reading_piece
 from station.gui.panels.exam_notes import NOTES, READY_LABEL
 from station.gui.panels.exam_panel import EXAM, LEVEL_LABEL, LOOK_LABEL, NEXT_LABEL, SEED_LABEL
 from station.practice.exam.exam_take import exam_plan
-
-if TYPE_CHECKING:
-    from tests.gui.drive import Drive
+from tests.gui.drive import Drive, open_panel
 
 UNSEEN = Unseen(2, 11)
 Look = Callable[[str], None]
 """Looks at the window, in which one is there."""
 
 
-def exam(drive: "Drive", ctx: imgui.test_engine.TestContext, look: Look = lambda _: None) -> None:
+def exam(drive: Drive, ctx: imgui.test_engine.TestContext, look: Look = lambda _: None) -> None:
     """From the rubric to the marks, with a virtual student who reads well; `look` is told where one is."""
-    from tests.gui.drive import open_panel
-
     seen = drive.seen
     open_panel(ctx, EXAM)
     drive.wait_until(ctx, lambda state: state.exam.piece is not None)

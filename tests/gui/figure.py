@@ -1,18 +1,14 @@
 """The figure panel as a user has it: values typed, a style chosen, slots, a lane drawn, another hand that leads."""
 
-from typing import TYPE_CHECKING
-
 from imgui_bundle import imgui
 
 from station.core.settings import load_settings
 from station.motion.style.style import JOINTS
 from station.motion.style.style_file import load_style
-
-if TYPE_CHECKING:
-    from tests.gui.drive import Drive
+from tests.gui.drive import Drive
 
 
-def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
+def figure(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Everything in one window; what was set last is what the settings keep."""
     seen = drive.seen
     ctx.set_ref("//Transport")
@@ -25,7 +21,7 @@ def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_input_value("##figure/Arms/##amplitude_gain", 90.0)
     ctx.yield_(2)
     seen["gain"] = drive.state.style.options.value("amplitude_gain")
-    seen["moves so"] = drive.station.sessions.player.drummer.style.amplitude_gain
+    seen["moves so"] = drive.station.parts.sessions.player.drummer.style.amplitude_gain
     ctx.item_click("1##keep1")
     ctx.item_click("##style")
     ctx.yield_(2)
@@ -63,7 +59,7 @@ def figure(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     seen["kept lane"] = load_style(kept.style).automation["amplitude_gain"]
 
 
-def own_styles(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
+def own_styles(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A style is saved by name, left for others and taken again from the list."""
     seen = drive.seen
     ctx.item_input_value("##style-name", "My own")
@@ -95,14 +91,14 @@ def own_styles(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     seen["again"] = drive.state.style.options.style.name
 
 
-def seen_path(drive: "Drive") -> str:
+def seen_path(drive: Drive) -> str:
     """The file of the style that was saved, as imgui's paths write it."""
     saved = drive.seen["saved"]
     assert isinstance(saved, list)
     return str(saved[0]).replace("/", "\\/")
 
 
-def draw(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
+def draw(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Draw in the lane's picture, from a quarter of its bars up to the middle."""
     ctx.mouse_move_to_pos(in_lane(drive, 0.25, 0.25))
     ctx.mouse_down(0)
@@ -111,7 +107,7 @@ def draw(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
 
 
-def in_lane(drive: "Drive", across: float, up: float) -> imgui.ImVec2:
+def in_lane(drive: Drive, across: float, up: float) -> imgui.ImVec2:
     """A place in the lane's picture, as shares of its bars and of its values."""
     (left, low), (right, high) = drive.window.pages.figure.lanes.ends.tolist()
     return imgui.ImVec2(left + across * (right - left), low + up * (high - low))

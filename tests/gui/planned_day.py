@@ -3,7 +3,6 @@
 import json
 from datetime import date, timedelta
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from imgui_bundle import imgui
 
@@ -12,15 +11,11 @@ from station.app.window_state import State
 from station.gui.panels.practice_panel import PRACTICE
 from station.gui.panels.today_panel import LEAVE_OUT_LABEL, START_LABEL, TODAY
 from station.practice.book.book_day import BookDay, BookFolder
-
-if TYPE_CHECKING:
-    from tests.gui.drive import Drive
+from tests.gui.drive import Drive, open_panel
 
 
-def planned_day(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
+def planned_day(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Everything in one window, after three days of practice."""
-    from tests.gui.drive import open_panel
-
     seen, sessions = drive.seen, drive.state.settings.sessions_dir
     practised(sessions)
     open_panel(ctx, TODAY)
@@ -33,7 +28,7 @@ def planned_day(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref(f"//{TODAY}")
     ctx.item_click(f"**/{START_LABEL}")
     drive.wait_for(ctx, Stage.PLAYING)
-    laid = drive.station.sessions.practice.session.plan
+    laid = drive.station.parts.sessions.practice.session.plan
     seen["planned"] = [plan.items[0].lesson, plan.items[0].beats_a_minute, plan.items[0].rise]
     seen["begun"] = [laid.lesson.name, round(laid.beats_a_minute, 3), str(laid.rise)]
     seen["unread while playing"] = drive.unread(ctx)

@@ -1,7 +1,6 @@
 """The scenario of the panel of songs: a part and a band are opened, pinned, and kept as a lesson."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from imgui_bundle import imgui
 
@@ -9,20 +8,18 @@ from station.app.actions.song_actions import SetPoint
 from station.gui.panels.song_panel import OPEN_LABEL, PIN_LABEL, SAVE_LABEL, SONG
 from tests.fakes.song_files import write_part
 from tests.fakes.work_at_once import WorkAtOnce
+from tests.gui.drive import Drive
 from tests.unit.practice.test_song_sound import beats_s, write_band
-
-if TYPE_CHECKING:
-    from tests.gui.drive import Drive
 
 BARS = 8
 
 
-def song(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
+def song(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Three beats are pinned as they are and one half a beat off, the last one by hand; the song is kept."""
     times_s = beats_s(5, 4 * BARS + 1, wander=0.003)
     part, sound = write_part(Path(), BARS), Path("band.wav")
     write_band(sound, times_s)
-    page = drive.station.song
+    page = drive.station.parts.song
     page._start = WorkAtOnce  # what other processes do is asked in the page's own tests
     drive.window.params.docking_params.dockable_window_of_name(SONG).is_visible = True
     ctx.yield_(3)

@@ -1,9 +1,4 @@
-"""The editor's notation and words in the window: `staff_scenarios.py SCENARIO SESSIONS OUT`, as `drive.py` does it."""
-
-import json
-import sys
-from collections.abc import Callable
-from pathlib import Path
+"""The editor's notation and words: a groove by clicks on the staff, fields filled in and refused."""
 
 from imgui_bundle import imgui
 
@@ -14,10 +9,8 @@ from station.drills.editing.grid_cursor import Place
 from station.drills.editing.lesson_edits import SetText
 from station.gui.panels.editor.editor_panel import EDITOR
 from station.render.notation.staff import step_of
-from tests.gui.drive import PICTURE_EVERY, Drive
+from tests.gui.drive import Drive
 
-SIZES = {"clicks": (1280, 720), "words": (1280, 1300)}
-"""Of windows: the words' is so high that the first two dozen fields are seen, for the test engine finds no others."""
 EIGHTH = PPQ // 2
 BARE = 'title = "Groove"\ntempo_bpm = 90\n\n[grid]\nhihat = "| -------- | -------- |"\n'
 GROOVE = {
@@ -25,7 +18,6 @@ GROOVE = {
     Piece.SNARE: [(bar, beat * PPQ) for bar in (0, 1) for beat in (1, 3)],
     Piece.KICK: [(0, 0), (0, 2 * PPQ), (1, 0), (1, 2 * PPQ), (1, 2 * PPQ + EIGHTH)],
 }
-Scenario = Callable[[Drive, imgui.test_engine.TestContext], None]
 
 
 def ask(drive: Drive, ctx: imgui.test_engine.TestContext, action: EditorAction) -> None:
@@ -112,19 +104,3 @@ def words(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["faults"] = [fault.text for fault in editor.faults]
     drive.seen["unread"] = drive.unread(ctx)
     ask(drive, ctx, CloseEditor())
-
-
-SCENARIOS: dict[str, Scenario] = {"clicks": clicks, "words": words}
-
-
-def main(name: str, sessions: str, out: str) -> None:
-    drive = Drive(Path(sessions), None, PICTURE_EVERY, SIZES[name])
-    try:
-        drive.run([SCENARIOS[name]])
-    finally:
-        drive.station.close()
-    Path(out).write_text(json.dumps(dict(zip([name], drive.all_seen, strict=True))))
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])

@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from datetime import date, timedelta
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from imgui_bundle import imgui
 
@@ -22,16 +21,14 @@ from station.gui.panels.teacher.take_part import (
 )
 from station.gui.panels.teacher.teacher_panel import CHECK_LABEL, GIVE_TAB, LIST_LABEL, RETURNS_TAB, TEACHER
 from station.practice.session.plan import PlanOptions, plan_practice
+from tests.gui.drive import Drive, open_panel
 from tests.gui.dropped_files import drop_files
-
-if TYPE_CHECKING:
-    from tests.gui.drive import Drive
 
 TITLE, LESSON = "Week 3", "rock-1"
 DUE = date.today() + timedelta(days=8)
 
 
-def there_and_back(drive: "Drive", ctx: imgui.test_engine.TestContext) -> None:
+def there_and_back(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Teacher and student share one window here, and nothing but files goes between them."""
     ThereAndBack(drive, ctx, Path()).all()  # short names, for a field shows no more
 
@@ -41,7 +38,7 @@ class ThereAndBack:
 
     def __init__(
         self,
-        drive: "Drive",
+        drive: Drive,
         ctx: imgui.test_engine.TestContext,
         folder: Path,
         look: Callable[[str], None] = lambda name: None,
@@ -70,8 +67,6 @@ class ThereAndBack:
 
     def gives(self) -> None:
         """The teacher puts an assignment together of the lesson that is chosen."""
-        from tests.gui.drive import open_panel
-
         ctx = self.ctx
         open_panel(ctx, TEACHER)
         self._press(TEACHER, GIVE_TAB)

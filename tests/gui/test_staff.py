@@ -1,22 +1,16 @@
 """The editor's notation and its words in the real window: clicks on the staff and fields that are filled in."""
 
-import json
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from tests.gui.staff_scenarios import BARE
+from tests.gui.test_window import ROOT, run
 from tests.gui.x_server import screen
 
 pytestmark = [pytest.mark.gui, pytest.mark.timeout(400)]
 
-ROOT = Path(__file__).parents[2]
-SCRIPT = Path(__file__).with_name("staff_scenarios.py")
-TIMEOUT_S = 360.0
 HEAD = 'title = "Groove"\ntempo_bpm = 90\n\n[grid]\n#          1& 2& 3& 4&   1& 2& 3& 4&\n'
 HIHAT = 'hihat = "| xx xx xx xx | xx xx xx xx |"\n'
 SNARE = 'snare = "| -- o- -- o- | -- o- -- o- |"\n'
@@ -29,19 +23,6 @@ def environment(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, 
     for found in screen("1300x1320"):
         home = tmp_path_factory.mktemp("config")
         yield {**found, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(home)}
-
-
-def run(scenario: str, environment: dict[str, str], folder: Path) -> dict[str, Any]:
-    """What the scenario saw."""
-    out = folder / "seen.json"
-    command = [sys.executable, str(SCRIPT), scenario, str(folder / "sessions"), str(out)]
-    done = subprocess.run(
-        command, env=environment, cwd=folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
-    )
-    assert done.returncode == 0, done.stderr[-3000:]
-    seen: dict[str, Any] = json.loads(out.read_text())[scenario]
-    assert "traceback" not in seen, seen["traceback"]
-    return seen
 
 
 def test_a_groove_is_written_by_clicks_on_the_staff(environment: dict[str, str], tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 """The window as a user has it: imgui's test engine clicks, types and drags on a screen of the test's own.
 
-Each scenario of `drive.py` runs in a process of its own; what it saw is compared here with what a user would expect.
+Each scenario of `scenarios.py` runs in a process of its own; what it saw is compared here with what a user expects.
 """
 
 import json
@@ -20,7 +20,7 @@ from tests.gui.x_server import screen
 pytestmark = [pytest.mark.gui, pytest.mark.timeout(400)]
 
 ROOT = Path(__file__).parents[2]
-DRIVE = Path(__file__).with_name("drive.py")
+DRIVE = Path(__file__).with_name("scenarios.py")
 TIMEOUT_S = 360.0  # everything is drawn without a graphics card, on a machine that may be busy
 
 

@@ -1,6 +1,6 @@
 """Everything that can be asked of the controller, by mouse, keys or kit: `Action`, a closed set of plain values.
 
-`Controller.dispatch` takes them all; the parts that own what is changed take theirs, a file of this room each.
+`Controller.dispatch` takes them all; `handlers.handler_table` says who does what.
 """
 
 from dataclasses import dataclass
@@ -46,9 +46,6 @@ class Notify:
     line: str
 
 
-DeskAction = EditorAction | TodayAction | SongAction | ExamAction | TeacherAction | AssignedAction
-"""What is asked at the teacher's desk, of the day's plan, of an exam and of what a teacher gave: pages of their own."""
-
 Action = (
     Show
     | Notify
@@ -61,5 +58,10 @@ Action = (
     | FileAction
     | ImportAction
     | PhaseAction
-    | DeskAction
+    | EditorAction
+    | TodayAction
+    | SongAction
+    | ExamAction
+    | TeacherAction
+    | AssignedAction
 )

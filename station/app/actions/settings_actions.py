@@ -66,4 +66,5 @@ class LeadWith:
     hands: Hands
 
 
-SettingsAction = FinishFirstStart | SetView | KeepViewpoint | SetPreferences | LearnPause | Embody | PutUp | LeadWith
+KeptSetting = FinishFirstStart | SetView | KeepViewpoint | SetPreferences | LearnPause | PutUp | LeadWith
+SettingsAction = Embody | KeptSetting

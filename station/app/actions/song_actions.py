@@ -74,4 +74,5 @@ class SaveSong:
     title: str
 
 
-SongAction = OpenSong | BringSound | SetPoint | MovePoint | SnapPoint | RemovePoint | PlaySong | TapAlong | SaveSong
+PinAction = OpenSong | BringSound | SetPoint | MovePoint | SnapPoint | RemovePoint | PlaySong | TapAlong
+SongAction = PinAction | SaveSong

@@ -39,4 +39,5 @@ class LookAtDay:
     day: date | None
 
 
-TodayAction = PlanDay | StartBlock | LeaveOutBlock | Reflect | LookAtDay
+BookAction = PlanDay | LeaveOutBlock | Reflect | LookAtDay
+TodayAction = StartBlock | BookAction

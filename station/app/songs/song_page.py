@@ -15,12 +15,11 @@ from station.app.actions.song_actions import (
     BringSound,
     MovePoint,
     OpenSong,
+    PinAction,
     PlaySong,
     RemovePoint,
-    SaveSong,
     SetPoint,
     SnapPoint,
-    SongAction,
     TapAlong,
 )
 from station.app.settings.settings_store import SettingsStore
@@ -175,7 +174,7 @@ class SongPage:
 
     # --- what the user does ------------------------------------------------------------------------------------------
 
-    def act(self, action: SongAction) -> None:
+    def act(self, action: PinAction) -> None:
         """Do what the user asks; raises `StationError`."""
         match action:
             case OpenSong(part, sound):
@@ -195,8 +194,6 @@ class SongPage:
             case TapAlong(bar):
                 self._taps = []
                 self._view = replace(self._view, taps_from=bar)
-            case SaveSong():
-                raise AssertionError("the controller keeps it, and chooses it")
             case _:
                 assert_never(action)
 

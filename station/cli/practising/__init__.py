@@ -1,4 +1,4 @@
-"""What `practice` and `exam` do in a terminal: a live session, and the next block of the day's plan.
+"""What `practice` and `exam` are asked and do: options, the plan, a live session in the terminal, the report of it.
 
-In: a plan, settings. Out: the session's outcome. First read `terminal`.
+In: words of the command line, settings. Out: the session's outcome. First read `practice_options`, then `terminal`.
 """

@@ -9,13 +9,14 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, datetime
 from enum import IntEnum
+from itertools import islice
 from typing import Any, Generic, TypeVar
 from unicodedata import category
 
 from station.core.did_you_mean import did_you_mean, nearest, nearest_word
 from station.core.expected import LINE, TEXT, JsonSchema, expected_by, expects, later, list_like
 from station.core.pieces import word
-from station.core.toml.toml_faults import Fault, Faults, Noted, Wrong, placed, refused, wrong
+from station.core.toml.toml_faults import MOST_FAULTS, Fault, Faults, Noted, Wrong, placed, refused, wrong
 from station.core.toml.toml_source import Source
 from station.core.toml.toml_write import toml_text
 
@@ -79,7 +80,8 @@ def checked_values(raw: object, fields: Fields, noun: str = "key") -> tuple[dict
             values[key] = faults.attempt(fields[key].read, value, fields[key].default, key)
         elif not faults.are_many:
             faults.noted.append(Noted(no_such(noun, key, fields), (key,), at_key=True, is_unknown=True))
-    meant = {found for key in table if key not in fields and (found := nearest_word(key, fields))}
+    unknown = islice((key for key in table if key not in fields), MOST_FAULTS)
+    meant = {found for key in unknown if (found := nearest_word(key, fields))}
     for key, each in fields.items():
         if key not in table:
             values[key] = each.default

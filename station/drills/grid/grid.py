@@ -12,6 +12,7 @@ quarter note exactly.
 """
 
 import re
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -352,7 +353,8 @@ def _odd_one_out(text: str, runs: list[_Run], groups: tuple[int, ...]) -> int:
     words = [w for w in words if w]
     beats = groups if len(groups) == len(words) else (1,) * len(words)
     shares = [len(w) / n for w, n in zip(words, beats, strict=True)]
-    usual = max(shares, key=lambda n: (shares.count(n), n))
+    often = Counter(shares)
+    usual = max(often, key=lambda n: (often[n], n))
     return next((w[0] for w, n in zip(words, shares, strict=True) if n != usual), chars[0][0])
 
 

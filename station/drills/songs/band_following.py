@@ -193,26 +193,40 @@ def _fine(
     sd_s = _ATTACK_SD_S / np.sqrt(np.maximum(expected.weight, 1e-3))
     point_sd_s = _POINT_SD_S * np.sqrt(_crowd(song))
     for gate_s in _GATES_S:
-        seen_s, is_near = _nearest(np.interp(at, song.written_s, beat_s) + lean_s, expected, onsets, gate_s)
+        seen_s, worth = _heard_near(np.interp(at, song.written_s, beat_s) + lean_s, expected, onsets, gate_s)
+        is_near = worth > 0.0
+        own_sd_s = sd_s[is_near] / worth[is_near]
         times = np.concatenate([at[is_near], song.point_score_s])
         seen = np.concatenate([(seen_s - lean_s)[is_near], song.point_s - _point_lean_s(song, beat_s)])
-        beat_s = _rising(smoothed(song.written_s, times, seen, np.concatenate([sd_s[is_near], point_sd_s]), beat_s))
+        beat_s = _rising(smoothed(song.written_s, times, seen, np.concatenate([own_sd_s, point_sd_s]), beat_s))
         lean_s = leans(expected, np.where(is_near, seen_s - np.interp(at, song.written_s, beat_s), np.nan))
     return beat_s, _confidence(at, expected, is_near, onsets, song.written_s)
 
 
-def _nearest(
+def _heard_near(
     at_s: Floats, expected: ExpectedOnsets, onsets: SoundOnsets, gate_s: float
-) -> tuple[Floats, NDArray[np.bool_]]:
-    """The attack of its own band that is nearest to each expected time (n,), and whether it is within the gate."""
-    seen_s = np.full(len(at_s), np.inf)
+) -> tuple[Floats, Floats]:
+    """The attack of its own band that is likeliest meant at each expected time (n,), and its worth: 0 where none is.
+
+    Likeliest is a strong one near by: weak ones stand everywhere, for a chord that rings beats with itself.
+    """
+    seen_s, worth = at_s.copy(), np.zeros(len(at_s))
     for band in range(len(onsets.strength)):
-        times, own = onsets.at_s[onsets.band == band], expected.band == band
-        if len(times):
-            right = np.clip(np.searchsorted(times, at_s[own]), 1, max(1, len(times) - 1))
-            before, after = times[right - 1], times[np.minimum(right, len(times) - 1)]
-            seen_s[own] = np.where(at_s[own] - before < after - at_s[own], before, after)
-    return seen_s, np.abs(seen_s - at_s) < gate_s
+        is_own, own = onsets.band == band, expected.band == band
+        if not is_own.any():
+            continue
+        times, strong = onsets.at_s[is_own], np.minimum(onsets.weight[is_own], _MOST_STRENGTH)
+        which = np.searchsorted(times, at_s[own])[:, None] + np.arange(-_AROUND, _AROUND)
+        which = np.clip(which, 0, len(times) - 1)
+        near = 1.0 - np.square((times[which] - at_s[own, None]) / gate_s)
+        score = strong[which] * np.maximum(near, 0.0)
+        best = np.take_along_axis(which, np.argmax(score, axis=1)[:, None], axis=1)[:, 0]
+        seen_s[own], worth[own] = times[best], np.where(score.max(axis=1) > 0.0, strong[best], 0.0)
+    return seen_s, worth
+
+
+_AROUND = 3
+"""Attacks of a band to both sides that are looked at: they are 40 ms apart, the gate is 45 wide."""
 
 
 def _confidence(

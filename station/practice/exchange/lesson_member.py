@@ -21,6 +21,8 @@ _COURSE = ".course"
 """So end the names of courses, before `.toml` (`drills.course.ENDING`)."""
 MOST_LESSON_BYTES = 1 << 16
 """Of a lesson's text (our choice: thirty times the longest that ships)."""
+MOST_LESSONS_BYTES = 1 << 19
+"""Of all lessons' texts in a parcel (our choice: fifty of ten kilobytes, read within a second whatever they say)."""
 MOST_STROKES = 12_000
 """In all lessons of a parcel (our choice: a quarter of an hour of sixteenths at 200 bpm, read within a second)."""
 
@@ -55,8 +57,11 @@ def parsed(texts: Iterable[tuple[str, str]], source: str) -> "Iterator[Lesson]":
     """The lessons of (name, text); raises `BadInput` of `source` for the first that is none, or for too much music."""
     from station.drills.reading.lesson_file import parse_lesson  # noqa: PLC0415 - a refusal needs none of it
 
-    strokes = 0
+    strokes = size = 0
     for name, text in texts:
+        size += len(text.encode())
+        if size > MOST_LESSONS_BYTES:
+            raise BadInput(source, name, f"more than {MOST_LESSONS_BYTES} bytes up to here in the lessons of one file")
         found = parse_lesson(text, f"{source}: {name}", name)
         if found.lesson is None:
             raise refused(found.faults, is_file=False)

@@ -27,6 +27,8 @@ MOST_SESSIONS = 40
 """Our choice: six a day for a week; the newest are sent."""
 MOST_CAPTURE_BYTES = 24 << 20
 """Of one session (our choice: an hour of strokes is 1 MiB, twenty minutes of sensors on both sticks are these)."""
+MOST_REPORTS_BYTES = 2 << 20
+"""Of the reports of all sessions (our choice: half an hour of practice in each of forty, read within a second)."""
 MOST_PAIRS_BYTES = 4 << 20
 """Of a table with a line a stroke (our choice: forty thousand strokes)."""
 
@@ -171,6 +173,8 @@ def _return(parcel: Parcel) -> Return:
     beyond = next((name for name in parcel.members if name.startswith("sessions/") and _number_of(name) > count), None)
     if beyond is not None:
         raise parcel.fault(beyond, "belongs to no session of the table")
+    if sum(len(data) for name, data in parcel.members.items() if name.endswith(DOCUMENT_NAME)) > MOST_REPORTS_BYTES:
+        raise parcel.fault("sessions", f"reports of more than {MOST_REPORTS_BYTES >> 20} MiB together")
     sessions = tuple(_session(parcel, number_, one) for number_, one in enumerate(said["sessions"], 1))
     return Return(**{**said, "sessions": sessions})
 

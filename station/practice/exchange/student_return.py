@@ -15,6 +15,7 @@ from station.practice.exchange.parcel_json import MOST_JSON_BYTES
 from station.practice.exchange.return_file import (
     MOST_CAPTURE_BYTES,
     MOST_PAIRS_BYTES,
+    MOST_REPORTS_BYTES,
     MOST_SESSIONS,
     AssignmentWord,
     Return,
@@ -90,12 +91,12 @@ def return_of(settings: Settings, one: TakenAssignment, facts: ReturnFacts) -> R
             one.assignment.title, "", f"{settings.student} has practised none of its lessons since it was taken"
         )
     sessions: list[ReturnedSession] = []
-    room = _ROOM
+    room, reports = _ROOM, MOST_REPORTS_BYTES
     for each in ours[: min(facts.most, MOST_SESSIONS)]:
         session = _packed(each, one)
-        if session is not None and size_of(session) <= room:
+        if session is not None and size_of(session) <= room and len(session.report) <= reports:
             sessions.append(session)
-            room -= size_of(session)
+            room, reports = room - size_of(session), reports - len(session.report)
     if not sessions:
         raise BadInput(one.assignment.title, "", "no session of it has a capture that can be sent")
     word = AssignmentWord.of(one.assignment)

@@ -56,7 +56,7 @@ def kept(sessions: Path) -> list[dict[str, object]]:
 
 def played(line: Line, station: Controller) -> None:
     """Every note of the piece at its time; then it is over."""
-    plan = station.sessions.practice.session.plan
+    plan = station.parts.sessions.practice.session.plan
     line.says.append(Started(NS_PER_S))
     station.update(NS_PER_S + 1)
     from_ns = NS_PER_S + plan.passes_start_ns
@@ -96,7 +96,7 @@ def test_the_time_to_look_runs_down_and_the_take_begins(station: Controller, lin
     assert not any(isinstance(command, Play) for command in line.heard), "nothing is demonstrated"
     station.update(1 + 90 * NS_PER_S)
     assert view(station).stage is ExamStage.PLAYING
-    plan = station.sessions.practice.session.plan
+    plan = station.parts.sessions.practice.session.plan
     assert [segment.phase for segment in plan.segments] == [Phase.COUNT_IN, Phase.PASS]
 
 
@@ -138,7 +138,7 @@ def test_a_whole_take_is_marked_without_a_question_and_no_lesson_is_left_of_it(
 def test_nothing_pauses_it_nothing_shows_and_the_drummer_sits_still(station: Controller, line: Line) -> None:
     station.dispatch(BeginExam())
     station.dispatch(ReadyForExam())
-    plan = station.sessions.practice.session.plan
+    plan = station.parts.sessions.practice.session.plan
     line.says.append(Started(NS_PER_S))
     station.update(NS_PER_S + 1)
     from_ns = NS_PER_S + plan.passes_start_ns
@@ -219,7 +219,7 @@ def test_the_chosen_lesson_is_played_at_once_at_its_goal(station: Controller) ->
     station.dispatch(BeginExam())
     assert view(station).stage is ExamStage.PLAYING
     assert not view(station).shows_notes, "the score moves as in practice"
-    session = station.sessions.practice.session
+    session = station.parts.sessions.practice.session
     assert session.plan.lesson.name == "rock-1"
     assert isinstance(session.sitting, Sitting)
 

@@ -126,6 +126,9 @@ def test_a_tap_is_taken_for_what_was_heard_with_it(tmp_path: Path, makers: Maker
     """A measured kit of 8 ms, an output of 40 ms: what sounded with the stroke had left the station 48 ms before."""
     station = station_with(tmp_path, Line())
     kits = MappingProxyType({"kit": KitLatency(8_000_000)})
-    station.sessions.trust(Latency(kits=kits, output_ns=40_000_000))
-    assert station.sessions.heard_ns(Hit(NS_PER_S, Piece.SNARE, Zone.HEAD, 90, device="kit")) == NS_PER_S - 48_000_000
+    station.parts.sessions.trust(Latency(kits=kits, output_ns=40_000_000))
+    assert (
+        station.parts.sessions.heard_ns(Hit(NS_PER_S, Piece.SNARE, Zone.HEAD, 90, device="kit"))
+        == NS_PER_S - 48_000_000
+    )
     assert not makers.futures[0].done()

@@ -24,7 +24,7 @@ from station.cli.options.option_fields import (
     switch,
     whole_number,
 )
-from station.cli.practice import PracticeOptions
+from station.cli.practising.practice_options import PracticeOptions
 from station.core.errors import BadInput
 from station.core.settings import Settings
 

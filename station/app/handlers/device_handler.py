@@ -1,0 +1,50 @@
+"""How late devices are, and what the pages that are shown listen to."""
+
+from typing import assert_never
+
+from station.app.actions.action import Show
+from station.app.actions.equipment_actions import (
+    CalibrationAction,
+    CancelMeasuring,
+    ForgetMeasured,
+    KeepMeasured,
+    Measure,
+)
+from station.app.station_parts import StationParts
+from station.core.measured_latency import load_calibration
+from station.practice.session.device_latency import latency_of
+
+
+def measure(parts: StationParts, action: CalibrationAction) -> str | None:
+    """Measure latency, and have sessions trust what is kept; returns a line for the user."""
+    match action:
+        case Measure(by, distance_m):
+            from station.app.equipment.latency_methods import MeasureRequest
+
+            parts.calibration.measure(MeasureRequest.of(parts.store.now, by, distance_m))
+        case CancelMeasuring():
+            parts.calibration.cancel()
+        case KeepMeasured():
+            line = parts.calibration.keep()
+            parts.sessions.trust(latency_of(parts.store.now, load_calibration()))
+            parts.toasts.notify(line)
+            parts.calibration.look_up()
+        case ForgetMeasured():
+            parts.calibration.drop()
+        case _:
+            assert_never(action)
+    return None
+
+
+def show(parts: StationParts, action: Show) -> None:
+    """Show these pages: what is seen listens and is read, what is left listens no more."""
+    before, parts.shown = parts.shown, action
+    parts.mapping.listen(action.devices)
+    if not action.sticks:
+        parts.sticks.give_up()
+    if not action.practice:
+        parts.preferences.learn(on=False)
+    if action.catalog or action.today or action.teacher or action.assigned:
+        parts.chooser.offer_all()
+    if action.devices and not before.devices:
+        parts.calibration.look_up()

@@ -1,0 +1,117 @@
+"""What is practised now, and who makes way for it: sessions, the editor, an exam, a block of the day's plan."""
+
+from contextlib import suppress
+
+from station.app.actions.editor_actions import CloseEditor, EditorAction
+from station.app.actions.exam_actions import ExamAction, LeaveExam, ReadyForExam
+from station.app.actions.practice_actions import (
+    Begin,
+    ChoiceAction,
+    ChooseBars,
+    Drill,
+    EndSession,
+    Leave,
+    Pause,
+    PracticeAction,
+    StrikeKey,
+)
+from station.app.actions.today_actions import StartBlock
+from station.app.room_state import Stage
+from station.app.station_parts import StationParts
+from station.core.errors import DeviceError
+
+
+def choose(parts: StationParts, action: ChoiceAction) -> None:
+    """Choose a lesson, or bars of it, which are the editor's while it is open."""
+    if isinstance(action, ChooseBars) and parts.editor.is_open:
+        parts.editor.choose_played(action.bars)
+    else:
+        parts.chooser.act(action)
+
+
+def practise(parts: StationParts, action: PracticeAction) -> None:
+    """Begin, pause or end what is practised."""
+    match action:
+        case Begin() if parts.exam.looks:
+            parts.exam.act(ReadyForExam())
+        case Begin() | Drill() if parts.exam.is_on:
+            raise DeviceError("an exam is one take: go back to the lessons to practise")
+        case Begin():
+            _begin(parts)
+        case Drill(bar):
+            _begin(parts, bar)
+        case Pause(strokes):
+            parts.pads.forget()
+            parts.sessions.practice.turn(strokes)
+        case Leave():
+            _leave(parts)
+        case StrikeKey(hit):
+            with suppress(DeviceError):  # a dead engine hears none, and has said so
+                parts.engine.send(hit)
+        case _:
+            parts.sessions.act(action)
+
+
+def begin_block(parts: StationParts, action: StartBlock) -> None:
+    """Begin a block of the day's plan, where there is one."""
+    item = parts.today.block(action.place)
+    if item is not None:
+        parts.chooser.take_block(item)
+        _begin(parts)
+
+
+def sit_exam(parts: StationParts, action: ExamAction) -> None:
+    """What an exam is asked, whose place is the editor's while that is open."""
+    if parts.editor.is_open:
+        raise DeviceError("close the editor first: an exam takes its place")
+    parts.exam.act(action)
+
+
+def edit(parts: StationParts, action: EditorAction) -> None:
+    """What the editor is asked; it takes the place of a session, and gives it back with what was saved."""
+    was_open = parts.editor.is_open
+    if not was_open and parts.sessions.practice.stage is not Stage.IDLE:
+        raise DeviceError("end the session first: the editor takes its place")
+    if not was_open:
+        _leave_look(parts)
+    parts.editor.act(action)
+    if was_open and not parts.editor.is_open:
+        _turn_back(parts)
+
+
+def _turn_back(parts: StationParts) -> None:
+    """The editor is left: the lessons again, with what was saved."""
+    if parts.drafts.kept is not None:
+        parts.chooser.open(parts.drafts.kept)
+        parts.drafts.kept = None
+    parts.chooser.show_anew()
+
+
+def _begin(parts: StationParts, bar: int | None = None) -> None:
+    parts.make_ready()
+    _leave_look(parts)
+    parts.chooser.begin(bar)
+
+
+def _leave_look(parts: StationParts) -> None:
+    """Whoever begins something else takes no exam."""
+    if parts.exam.looks:
+        parts.exam.act(LeaveExam())
+
+
+def _leave(parts: StationParts) -> None:
+    stage = parts.sessions.practice.stage
+    if parts.mapping.learns or parts.sticks.learns:
+        parts.mapping.give_up()
+        parts.sticks.give_up()
+    elif stage is Stage.PLAYING:
+        parts.sessions.practice.end()
+    elif stage is Stage.RESULT:
+        parts.sessions.dismiss()
+    elif parts.exam.looks:
+        parts.exam.act(LeaveExam())
+    elif parts.editor.is_open and not parts.sessions.player.player.playing:
+        edit(parts, CloseEditor())
+    else:
+        parts.sessions.act(EndSession())  # one that waits for its track
+        parts.sessions.player.halt()
