@@ -8,6 +8,7 @@ from datetime import date
 from station.cli.console import print_json, say, write
 from station.cli.options.option_fields import Command, flag, option, whole_number
 from station.cli.today import settings_of
+from station.core.errors import BadInput
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -21,11 +22,13 @@ class BookOptions:
 
 def run(options: BookOptions) -> int:
     """Show the book."""
+    if options.days < 1:
+        raise BadInput("--days", f"{options.days}", "expected 1 or more")
     from station.practice.book.book_words import book_document, book_text
     from station.practice.book.lesson_book import LessonBook
 
     book = LessonBook(settings_of(options.student), say)
-    pages = [book.page(day) for day in book.days()[::-1][: max(options.days, 0)]]
+    pages = [book.page(day) for day in book.days()[::-1][: options.days]]
     if options.json:
         print_json(book_document(pages, book.returning()))
     else:

@@ -1,9 +1,7 @@
 """An exam in the window: the rubric is read, an unseen piece looked at and played once, the marks stand beside it."""
 
-import os
-from pathlib import Path
+from collections.abc import Callable
 
-import numpy as np
 from imgui_bundle import imgui
 
 from station.app.exam_page import ExamStage
@@ -13,16 +11,15 @@ from station.drills.exam.exam_piece import Unseen, reading_piece
 from station.gui.panels.exam_notes import NOTES, READY_LABEL
 from station.gui.panels.exam_panel import EXAM, LEVEL_LABEL, LOOK_LABEL, NEXT_LABEL, SEED_LABEL
 from station.practice.exam.exam_take import exam_plan
-from station.render.files.png_file import write_png
 from tests.gui.drive import Drive, open_panel
 
 UNSEEN = Unseen(2, 11)
-PICTURES = "EXAM_PICTURES"
-"""A folder in the environment, where pictures of the window are wanted."""
+Look = Callable[[str], None]
+"""Looks at the window, in which one is there."""
 
 
-def exam(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
-    """From the rubric to the marks, with a virtual student who reads well."""
+def exam(drive: Drive, ctx: imgui.test_engine.TestContext, look: Look = lambda _: None) -> None:
+    """From the rubric to the marks, with a virtual student who reads well; `look` is told where one is."""
     seen = drive.seen
     open_panel(ctx, EXAM)
     drive.wait_until(ctx, lambda state: state.exam.piece is not None)
@@ -33,14 +30,14 @@ def exam(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(3)
     seen["rubric"] = ctx.item_exists(f"**/{LOOK_LABEL}")
     seen["unread of the rubric"] = drive.unread(ctx)
-    _picture(drive, ctx, "1-asked")
+    look("asked")
     ctx.item_click(f"**/{LOOK_LABEL}")
     drive.wait_until(ctx, lambda state: state.exam.stage is ExamStage.LOOKING)
     ctx.yield_(20)
     seen["left_s"] = drive.state.exam.left_s
     seen["unread of the notes"] = drive.unread(ctx)
     seen["whole piece"] = _scrolls(f"{NOTES}") == 0.0
-    _picture(drive, ctx, "2-looked-at")
+    look("looked at")
     drive.engine.plan = exam_plan(reading_piece(UNSEEN), drive.state.settings)
     ctx.set_ref(f"//{NOTES}")
     ctx.item_click(f"**/{READY_LABEL}")
@@ -48,7 +45,7 @@ def exam(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(120)
     seen["notes while playing"] = drive.state.exam.shows_notes
     seen["told while playing"] = [drive.picture.hud.judged, drive.picture.double is None]
-    _picture(drive, ctx, "3-played")
+    look("played")
     drive.wait_for(ctx, Stage.RESULT)
     drive.wait_until(ctx, _is_marked)
     ctx.yield_(3)
@@ -58,11 +55,11 @@ def exam(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     seen["band"], seen["total"] = marks.band.name, marks.total
     seen["unread of the marks"] = drive.unread(ctx)
     seen["again"] = ctx.item_exists("//Transport/Once more##again")
-    _picture(drive, ctx, "4-marked")
+    look("marked")
     ctx.set_ref(f"//{EXAM}")
     ctx.item_click(f"**/{NEXT_LABEL}")
     ctx.yield_(5)
-    _picture(drive, ctx, "5-after")
+    look("after")
     drive.wait_for(ctx, Stage.IDLE)
     seen["after"] = drive.state.exam.stage.name
     seen["lesson"] = drive.state.player.lesson.name
@@ -77,9 +74,3 @@ def _scrolls(panel: str) -> float:
     children = [w for w in imgui.get_current_context().windows if w.name.startswith(f"{panel}/##exam-page")]
     assert children, "the page is drawn"
     return float(max(w.scroll_max.y for w in children))
-
-
-def _picture(drive: Drive, ctx: imgui.test_engine.TestContext, name: str) -> None:
-    folder = os.environ.get(PICTURES)
-    if folder:
-        write_png(np.ascontiguousarray(drive.shot(ctx)), Path(folder) / f"{name}.png")

@@ -68,6 +68,7 @@ SCENARIOS: dict[str, Scenario] = {
     "song": song,
     "planned_day": planned_day,
     "exam": exam,
+    "exam_in_a_small_window": exam,
     "there_and_back": there_and_back,
     "by_mouse": by_mouse,
     "by_keyboard": by_keyboard,
@@ -100,6 +101,7 @@ STUDENTS = {
     "drill": "beginner,seed=3",
     "practise": "pro,seed=4",
     "exam": "seed=1,sd_ms=4",
+    "exam_in_a_small_window": "seed=1,sd_ms=4",
     "there_and_back": "intermediate,seed=2",
     "highway": "intermediate,seed=2,velocity_sd=30",
 }

@@ -29,3 +29,12 @@ def test_a_rubric_a_look_one_take_and_marks(environment: dict[str, str], tmp_pat
     document = json.loads(kept.read_text())
     assert document["unseen"] == {"level": 2, "seed": 11}
     assert document["marks"]["total"] == pytest.approx(seen["total"], abs=1e-3)
+
+
+def test_the_whole_piece_and_its_buttons_are_seen_in_a_small_window(
+    environment: dict[str, str], tmp_path: Path
+) -> None:
+    seen = run("exam_in_a_small_window", environment, tmp_path)
+    assert seen["whole piece"], "nothing is scrolled while somebody plays"
+    assert seen["notes while playing"]
+    assert seen["band"] == "distinction"

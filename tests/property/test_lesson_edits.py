@@ -226,8 +226,8 @@ def test_no_text_is_too_strange_for_a_page_or_an_edit(table: object, seed: int) 
 
 
 def text_with(table: object) -> str:
-    """A text whose grid is any value that TOML can say."""
-    with suppress(ValueError):
+    """A text whose grid is the value, if TOML can say it."""
+    with suppress(TypeError, ValueError):
         text = f'title = "T"\ngrid = {toml_value(table)}\n'
         tomllib.loads(text)
         return text

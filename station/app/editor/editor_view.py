@@ -20,7 +20,7 @@ class EditorView:
     selected and repeated, None for all; `step` how fine one writes; `letter` what a click writes, empty for the usual
     stroke of the line; `playhead` where the demonstration is, None while it stands at the beginning. `undo` and `redo`
     say what they would take back or do again, empty where there is nothing. `takes` says whether what the kit plays is
-    written at the cursor.
+    written at the cursor. `is_blank` says whether this is a new lesson in which nothing stands yet.
     """
 
     name: str
@@ -41,6 +41,7 @@ class EditorView:
     step_entry: bool = False
     options: TakeOptions = field(default_factory=TakeOptions)
     take: TakeView | None = None
+    is_blank: bool = False
 
     @property
     def is_sound(self) -> bool:

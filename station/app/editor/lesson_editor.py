@@ -38,7 +38,7 @@ from station.app.editor.draft_files import DraftFiles
 from station.app.editor.editor_view import EditorView
 from station.app.editor.kit_entry import KitEntry
 from station.app.editor.open_draft import OpenDraft
-from station.app.editor.read_draft import place_of_played, played_bars
+from station.app.editor.read_draft import NEW_LESSON, place_of_played, played_bars
 from station.app.editor.take_recorder import TakeView
 from station.app.sessions.session_control import SessionControl
 from station.core.errors import BadInput
@@ -106,6 +106,7 @@ class LessonEditor:
             step_entry=self._step_entry,
             options=self._kit.options,
             take=take,
+            is_blank=draft.history.text == NEW_LESSON,
         )
 
     def _playhead(self, draft: OpenDraft, take: TakeView | None) -> Place | None:

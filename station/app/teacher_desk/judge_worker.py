@@ -1,9 +1,11 @@
 """A session of a return judged again in a process of its own: a stranger's capture may cost no more than that.
 
-The process has `MOST_MIB` of memory beyond what the program itself takes, and `LONGEST_S`; then it is ended.
+The process has `MOST_MIB` of memory beyond what the program itself takes, and computes `LONGEST_S`; then it is ended.
 """
 
+import math
 import multiprocessing
+import signal
 import time
 from collections.abc import Callable
 from contextlib import suppress
@@ -18,8 +20,10 @@ from station.practice.exchange.session_figures import SessionFigures
 
 Result = TypeVar("Result")
 MOST_MIB = 300
-LONGEST_S = 30.0
-"""Our choice: twenty times what an hour of practice takes."""
+LONGEST_S = 30
+"""Of computing, so that a busy computer refuses nothing (our choice: twenty times what an hour of practice takes)."""
+LONGEST_WAIT_S = 10.0 * LONGEST_S
+"""By the clock, for systems that cannot hold a process to its computing (our choice: nine others as busy beside it)."""
 _LOOK_AGAIN_S = 0.02
 
 
@@ -44,10 +48,13 @@ def heard(path: Path, number: int, settings: Settings) -> Heard:
 
 
 def within_limits(do: Callable[[], Result], path: Path, number: int) -> Result:
-    """What `do` makes of session `number` at `path`, with the memory that there may be; raises `BadInput`."""
+    """What `do` makes of session `number` at `path`, with the memory and time that there may be; raises `BadInput`."""
     _limit_memory()
+    _limit_computing()
     try:
         return do()
+    except _TimeIsOverError:
+        raise _too_long(path, number) from None
     except MemoryError:
         raise BadInput(path, f"session {number}", f"takes more than {MOST_MIB} MiB to judge") from None
 
@@ -63,13 +70,13 @@ class LimitedWork(Generic[Result]):
     ) -> None:
         self._path, self._number = path, number
         self._work: Work[Result] = start(do, path, number, settings)
-        self._until_s = time.monotonic() + LONGEST_S
+        self._until_s = time.monotonic() + LONGEST_WAIT_S
 
     def result(self) -> Result | None:
         """What came of it, None while it goes on; raises `BadInput` and `DeviceError`, also when its time is over."""
         found = self._work.result()
         if found is None and time.monotonic() > self._until_s:
-            raise BadInput(self._path, f"session {self._number}", f"takes more than {LONGEST_S:g} s to judge")
+            raise _too_long(self._path, self._number)
         return found
 
     def end(self) -> None:
@@ -86,6 +93,30 @@ def hear(path: Path, number: int, settings: Settings, start: StartWork = WorkerP
         return found
     finally:
         work.end()
+
+
+def _too_long(path: Path, number: int) -> BadInput:
+    return BadInput(path, f"session {number}", f"takes more than {LONGEST_S} s to judge")
+
+
+class _TimeIsOverError(BaseException):
+    """So that nothing which catches an `Exception` goes on."""
+
+
+def _limit_computing() -> None:
+    """Raise `_TimeIsOverError` after so much computing from here on; a second later the system ends the process."""
+    if multiprocessing.parent_process() is None:
+        return
+    with suppress(ImportError, OSError, ValueError):
+        import resource
+
+        last_s = math.ceil(time.process_time()) + LONGEST_S
+        signal.signal(signal.SIGXCPU, _end_of_time)
+        resource.setrlimit(resource.RLIMIT_CPU, (last_s, last_s + 1))
+
+
+def _end_of_time(*_: object) -> None:
+    raise _TimeIsOverError
 
 
 def _limit_memory() -> None:

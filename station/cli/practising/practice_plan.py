@@ -14,7 +14,7 @@ from station.practice.session.backing_track import BackingRequest, song_request
 from station.practice.session.cues.click_options import parse_click
 from station.practice.session.cues.quiet_bars import drawn
 from station.practice.session.leading_hand import hands_of
-from station.practice.session.plan import Plan, PlanOptions, plan_practice
+from station.practice.session.plan import MAX_TEMPO_BPM, MIN_TEMPO_BPM, Plan, PlanOptions, plan_practice
 from station.scoring.matching.hit_windows import Level
 
 
@@ -83,7 +83,7 @@ def _check_rise(options: PracticeOptions, backing: BackingRequest | None) -> Non
 def _plan_options(options: PracticeOptions, lesson: Lesson, settings: Settings) -> PlanOptions:
     tempo_bpm = tapped_tempo(lesson.beat_ticks / PPQ) if options.tempo == TAP else options.tempo
     if options.speed is not None:
-        tempo_bpm = lesson.tempo_bpm * options.speed / 100.0
+        tempo_bpm = _tempo_at(options.speed, lesson)
     demonstrations = 0 if options.no_demonstration else None
     pattern = parse_click(settings.click_pattern, setting_source("click_pattern"))
     gap = options.gap or pattern.gap
@@ -101,6 +101,16 @@ def _plan_options(options: PracticeOptions, lesson: Lesson, settings: Settings) 
         stands=settings.stands,
         rise=options.rise,
     )
+
+
+def _tempo_at(speed_pct: float, lesson: Lesson) -> float:
+    """Quarter notes a minute at so many percent of the lesson's own tempo; raises `BadInput`."""
+    tempo_bpm = lesson.tempo_bpm * speed_pct / 100.0
+    if not MIN_TEMPO_BPM <= tempo_bpm <= MAX_TEMPO_BPM:  # also refuses NaN
+        is_so_many = f"is {tempo_bpm:.3g} of its {lesson.tempo_bpm:g} beats a minute"
+        limits = f"expected {MIN_TEMPO_BPM:g} to {MAX_TEMPO_BPM:g}, such as --speed 60%"
+        raise BadInput("--speed", f"{speed_pct:g}%", f"{is_so_many}; {limits}")
+    return tempo_bpm
 
 
 def _level(options: PracticeOptions, lesson: Lesson, settings: Settings) -> Level:

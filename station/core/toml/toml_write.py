@@ -8,7 +8,10 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+")
 
 
 def toml_value(value: object) -> str:
-    """A truth, a text, a number, a day, a list of these, or a table in braces, as TOML."""
+    """A truth, a text, a number, a day, a list of these, or a table in braces, as TOML.
+
+    Raises `TypeError` for what TOML has no word for.
+    """
     if isinstance(value, dict):
         return "{" + ", ".join(f"{toml_key(key)} = {toml_value(each)}" for key, each in value.items()) + "}"
     if isinstance(value, list | tuple):
@@ -19,7 +22,9 @@ def toml_value(value: object) -> str:
         return toml_text(value)
     if isinstance(value, date):
         return value.isoformat()
-    return str(value)
+    if isinstance(value, int | float):
+        return str(value)
+    raise TypeError(f"TOML has no word for {value!r}")
 
 
 def toml_text(text: str) -> str:

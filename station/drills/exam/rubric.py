@@ -104,7 +104,7 @@ def rubric_of(level: Level, asks_loudness: bool) -> Rubric:
         Criterion.NOTES: ("Notes", "every written note on its piece, nothing besides"),
         Criterion.TIME: (
             "Time",
-            f"every note within {inner:g} ms of where you place that piece; nothing from {outer:g}",
+            f"every note within {inner:g} ms of where you place that piece; no marks from {outer:g} ms off",
         ),
         Criterion.FLOW: ("Flow", "every bar is played on: a slip costs its notes, stopping costs the bar"),
         Criterion.LOUDNESS: ("Loudness", "accents, normal strokes and ghosts as far apart as they are written"),

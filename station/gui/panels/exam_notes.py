@@ -13,6 +13,7 @@ from station.app.actions.exam_actions import LeaveExam, ReadyForExam
 from station.app.window_state import State
 from station.gui import theme
 from station.gui.flat_canvas import FlatCanvas
+from station.gui.widgets.page_height import PageHeight
 from station.gui.widgets.score_page import PagePlace, paint_page
 from station.music.score import Score
 from station.render.notation.page.editable_page import EditablePage, PageSetter
@@ -26,6 +27,8 @@ _MARGIN = 0.5
 """Staff spaces around the page."""
 _TIME, _TIME_SHARE = 190.0, 0.28
 """Design pixels of the column that says the time, and the most of the panel that it has."""
+_LEAST_HIGH = 300.0
+"""Of the panel: eight bars in a small window, and all that stands below the time (our choice)."""
 _TIME_SIZE, _BUTTON = 40.0, 44.0
 """Of the time, read from the stool, and of the button below it."""
 
@@ -35,6 +38,7 @@ class ExamNotes:
 
     def __init__(self, dispatch: Callable[[Action], None], canvas: FlatCanvas) -> None:
         self._dispatch, self._canvas = dispatch, canvas
+        self._height = PageHeight(_LEAST_HIGH)
         self._set: tuple[Score, PageSetter] | None = None
         self._fitted: tuple[tuple[object, ...], EditablePage, float] | None = None
 
@@ -43,6 +47,7 @@ class ExamNotes:
         view, whole = state.exam, imgui.get_content_region_avail()
         if view.piece is None or view.notes is None:
             return
+        self._height.fit()
         imgui.begin_child("##exam-time", imgui.ImVec2(min(theme.points(_TIME), _TIME_SHARE * whole.x), 0))
         self._time(view.left_s)
         imgui.end_child()

@@ -46,7 +46,7 @@ ONSET_LABEL, REMOVE_LABEL, SAVE_LABEL = "Onset##song", "Remove##song", "Keep##so
 TITLE_LABEL, BAR_LABEL, BEAT_LABEL, PLOT = "##song-title", "##song-bar", "##song-beat", "##song-outline"
 CHOOSE_LABEL = "…##song"
 NUDGES_MS = (-5, -1, 1, 5)
-_PATHS, _TITLE, _NUMBER, _BUTTON, _SMALL = (100.0, 260.0), 160.0, 46.0, 76.0, 56.0
+_PATHS, _TITLE, _NUMBER, _BUTTON, _SMALL = (100.0, 260.0), 160.0, 46.0, 76.0, 62.0
 """Design pixels, wide; a path's field at least and at most."""
 _OUTLINE, _BELOW = (90.0, 150.0), 330.0
 """Design pixels, high: the outline at least and at most, and what stands below it: the controls and five pins."""

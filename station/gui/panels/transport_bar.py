@@ -73,7 +73,7 @@ class TransportBar:
         imgui.begin_group()
         imgui.dummy(imgui.ImVec2(0, theme.points(LINE_HEIGHT)))
         imgui.same_line(0, 0)
-        self._first_line(room, player, FlowRow(whole - view_px - spacing.x))
+        self._first_line(room, player, FlowRow(whole - view_px - spacing.x, LINE_HEIGHT))
         imgui.end_group()
         below = imgui.get_cursor_pos_y()
         imgui.set_cursor_pos((imgui.get_window_width() - imgui.get_style().window_padding.x - view_px, top))
@@ -95,7 +95,7 @@ class TransportBar:
         if room.stage is Stage.RESULT:
             imgui.text_wrapped(room.question)
             return
-        row = FlowRow()
+        row = FlowRow(height=LINE_HEIGHT)
         self.controls.gui(player, row)
         _lines(found(room), row)
 

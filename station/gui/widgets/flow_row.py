@@ -11,11 +11,15 @@ LINE_HEIGHT = 38.0
 class FlowRow:
     """One line of controls; ask `place` before each, with the width that it takes."""
 
-    def __init__(self, width: float | None = None) -> None:
-        """From here to `width` pixels to the right, None for all that the panel has."""
+    def __init__(self, width: float | None = None, height: float = 0.0) -> None:
+        """From here to `width` pixels to the right, None for all that the panel has.
+
+        Buttons are `height` design pixels high, 0 for as high as fields and ticks.
+        """
         room = imgui.get_content_region_avail().x if width is None else width
         self._right = imgui.get_cursor_screen_pos().x + room
         self._is_empty = True
+        self._height = height
 
     def fits(self, width: float) -> bool:
         """Whether a control of `width` pixels has room beside the last one."""
@@ -29,7 +33,7 @@ class FlowRow:
 
     def button(self, label: str, width: float) -> bool:
         """A button of `width` design pixels in the row; returns whether it was pressed."""
-        size = imgui.ImVec2(theme.points(width), theme.points(LINE_HEIGHT))
+        size = imgui.ImVec2(theme.points(width), theme.points(self._height))
         self.place(size.x)
         return bool(imgui.button(label, size))
 

@@ -36,7 +36,10 @@ class StrokeVerdict:
 
 @dataclass(frozen=True, slots=True)
 class SessionVerdict:
-    """What the teacher says of the return's session `number`, from 1; None overrules nothing."""
+    """What the teacher says of the return's session `number`, from 1; None overrules nothing.
+
+    `reported` is the score that the report of the session says, beside which the teacher's own stands.
+    """
 
     number: int
     lesson: str
@@ -44,6 +47,7 @@ class SessionVerdict:
     score: float | None = None
     reached: bool | None = None
     strokes: tuple[StrokeVerdict, ...] = ()
+    reported: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +76,8 @@ def verdict_words(verdict: SessionVerdict) -> str:
     """What is said of a session, in a line."""
     reached = {True: "goals reached", False: "goals not yet reached", None: ""}[verdict.reached]
     score = "" if verdict.score is None else f"score {verdict.score:g}"
+    if verdict.score is not None and verdict.reported is not None:
+        score += f" (the report says {verdict.reported:.0f})"
     taken = sum(one.counts for one in verdict.strokes)
     strokes = [
         f"{count} {word}"
@@ -158,6 +164,7 @@ VERDICT_FIELDS: Fields = {
     "score": Field(or_none(number(0, 100)), None),
     "reached": Field(or_none(flag), None),
     "strokes": Field(_few(list_of(record(_stroke, _STROKE), "a list of strokes")), ()),
+    "reported": Field(or_none(number(0, 100)), None),
 }
 _ABOUT: Reader[tuple[str, str]] = record(lambda id, title: (id, title), {"id": needed(identity), "title": needed(line)})  # noqa: A006
 

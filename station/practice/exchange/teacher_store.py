@@ -5,7 +5,7 @@
 same name, the teacher's `.drum-note`. No file is called by what a stranger's file says without `folder_name`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from station.core.disk.files import read_regular, write_whole
@@ -13,7 +13,7 @@ from station.core.errors import BadInput
 from station.core.settings import Settings
 from station.practice.exchange.assignment_file import Assignment, assignment_bytes, read_assignment
 from station.practice.exchange.lesson_goals import GoalState, goal_states
-from station.practice.exchange.note_file import Note, note_bytes, overruled, read_note
+from station.practice.exchange.note_file import Note, SessionVerdict, note_bytes, overruled, read_note
 from station.practice.exchange.parcel import Kind
 from station.practice.exchange.return_file import Return, parse_return, read_return
 from station.practice.exchange.student_store import stem_of
@@ -145,13 +145,19 @@ def teacher_of(one: Received, settings: Settings) -> str:
 def keep_note_on(one: Received, note: Note) -> bytes:
     """The file of a note, of which a copy is kept beside the return; a later one takes its place.
 
-    Raises `BadInput` where it speaks of a session that the return has not, and `DeviceError`.
+    It says what the reports say beside what it overrules. Raises `BadInput` where it speaks of a session that the
+    return has not, and `DeviceError`.
     """
     for verdict in note.sessions:
         _check_session(one.returned, verdict.number, verdict.lesson)
-    data = note_bytes(note)
+    data = note_bytes(replace(note, sessions=tuple(_beside_report(each, one.returned) for each in note.sessions)))
     write_whole(_note_path(one.path), data)
     return data
+
+
+def _beside_report(verdict: SessionVerdict, returned: Return) -> SessionVerdict:
+    reported = None if verdict.score is None else returned.sessions[verdict.number - 1].figures.score
+    return replace(verdict, reported=reported)
 
 
 def _check_session(returned: Return, number: int, lesson: str) -> None:

@@ -121,7 +121,8 @@ def test_what_is_overruled_and_said_stands_in_the_note(desk: Desk, tmp_path: Pat
     desk.page.act(WriteNote(stem, str(out), "Ms Okafor"))
     note = read_note(tmp_path / "zoe.drum-note")
     assert (note.teacher, note.student, note.words, note.next) == ("Ms Okafor", "Zoë", "Well done.", "the same at 100")
-    assert note.sessions == (verdict,), "a session of which nothing is said is not there"
+    beside = replace(verdict, reported=desk.received.returned.sessions[0].figures.score)
+    assert note.sessions == (beside,), "a session of which nothing is said is not there"
     assert desk.page.view().answers[stem].is_written
     desk.page.act(WriteNote(stem, str(out)))
     (tmp_path / "other.drum-note").write_text("somebody's")
@@ -129,7 +130,7 @@ def test_what_is_overruled_and_said_stands_in_the_note(desk: Desk, tmp_path: Pat
         desk.page.act(WriteNote(stem, str(tmp_path / "other.drum-note")))
     again = TeacherPage(store_with(tmp_path), desk.shown.append, find_lesson, WorkAtOnce)
     again.advance()
-    assert again.view().answers[stem].verdicts == {1: verdict}, "it is there the next day"
+    assert again.view().answers[stem].verdicts == {1: beside}, "it is there the next day"
 
 
 def test_an_assignment_is_made_of_lessons_with_goals_and_a_day(desk: Desk, tmp_path: Path) -> None:
@@ -161,7 +162,7 @@ class NeverDone(WorkAtOnce):
 
 
 def test_a_take_that_takes_too_long_is_ended(sent: Return, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(judge_worker, "LONGEST_S", -1.0)
+    monkeypatch.setattr(judge_worker, "LONGEST_WAIT_S", -1.0)
     desk = Desk(sent, tmp_path)
     desk.page = TeacherPage(store_with(tmp_path), desk.shown.append, find_lesson, NeverDone)
     desk.page.advance()

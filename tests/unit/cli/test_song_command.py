@@ -103,6 +103,7 @@ def test_a_song_is_not_overwritten(made: Path, capsys: pytest.CaptureFixture[str
         (["--rise", "5/8"], "one tempo"),
         (["--track", "x.wav"], "brings its own"),
         (["--speed", "20%"], "of its own speed"),
+        (["--speed", "0.6"], "beats a minute; expected 20 to 400, such as --speed 60%"),
     ],
 )
 def test_what_a_song_cannot_do_is_refused(

@@ -251,3 +251,9 @@ def test_a_day_from_the_plan_to_the_book(
 def test_what_the_plan_says_cannot_be_said_besides(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["practice", "--today", "--tempo", "90", "--headless", "--virtual-student", "pro"]) == 2
     assert "--today: tempo: the plan says so already" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("days", ["0", "-3"])
+def test_no_days_are_refused(days: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["book", "--days", days]) == 2
+    assert f"--days: {days}: expected 1 or more" in capsys.readouterr().err

@@ -1,7 +1,9 @@
 """Any key of the lesson's tables set or taken away, as forms do it; and another text altogether."""
 
+from station.core.toml.schema import shown
 from station.core.toml.toml_edits import without
 from station.core.toml.toml_places import KeyPath
+from station.core.toml.toml_write import toml_value
 from station.drills.editing.draft import Draft
 from station.drills.editing.lesson_edits import SetKey
 
@@ -11,6 +13,10 @@ def set_key(draft: Draft, edit: SetKey) -> Draft:
     path = _path_in(draft, edit.path)
     if edit.value is None:
         return _without(draft, path)
+    try:
+        toml_value(edit.value)
+    except (TypeError, ValueError, RecursionError):
+        raise draft.refused(f"TOML has no word for {shown(edit.value)}", _spelt(path)) from None
     return draft.with_key(path, edit.value)
 
 

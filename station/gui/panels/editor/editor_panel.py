@@ -17,6 +17,7 @@ from station.gui.panels.editor.grid_part import GridPart
 from station.gui.panels.editor.notation_part import NotationPart
 from station.gui.panels.editor.text_part import TextPart
 from station.gui.panels.editor.words_part import WordsPart
+from station.gui.widgets.page_height import PageHeight
 
 EDITOR = "Editor"
 MUSIC_LEAF, GRID_LEAF, NOTATION_LEAF = "Music##leaf", "Grid##leaf", "Notation##leaf"
@@ -27,9 +28,10 @@ own (our choice: eight lines of the grid, or two of notation)."""
 _GRID_SHARE = 0.5
 """The grid's share of the page beside or above the notation; beside it no more than it fills (our choice)."""
 
-_SHARE, _LEAST_HIGH, _LEAST_PICTURE, _BELOW = 0.62, 400.0, 90.0, 122.0
-"""The page's share of the window without the strip (`_BELOW` design pixels); what it needs at least, and the picture:
-in a low window there is none (our choice)."""
+_LEAST_HIGH = 400.0
+"""Design pixels (our choice: two tabs of controls, and eight lines of the grid)."""
+_BEGIN = "Click a cell to write the first stroke; Space plays, F1 explains the page."
+
 _Leaf = Callable[[EditorView, tuple[float, float]], None]
 
 
@@ -44,7 +46,7 @@ class EditorPanel:
         self.words = WordsPart(dispatch)
         self.text = TextPart(lambda edit: dispatch(Edit(edit, joins=True)))
         self.is_writing = False
-        self._fitted = 0.0
+        self._height = PageHeight(_LEAST_HIGH)
 
     def gui(self, state: State) -> None:
         """Draw it and do what the user does in it."""
@@ -52,7 +54,7 @@ class EditorPanel:
         view = state.editor
         if view is None:
             return
-        self._fit()
+        self._height.fit()
         self.toolbar.gui(view)
         foot = self._foot_height(view)
         if imgui.begin_tab_bar("##editor-leaves"):
@@ -64,16 +66,6 @@ class EditorPanel:
                     imgui.end_tab_item()
             imgui.end_tab_bar()
         self._foot(view)
-
-    def _fit(self) -> None:
-        """Take its share of a window that is new or was made larger or smaller; between, the user drags its edge."""
-        window = imgui.get_main_viewport().size.y
-        if window == self._fitted:
-            return
-        self._fitted = window
-        free = window - theme.points(_BELOW)
-        high = min(max(free * _SHARE, theme.points(_LEAST_HIGH)), free)
-        theme.fit_height(free if free - high < theme.points(_LEAST_PICTURE) else high)
 
     def _music_leaves(self) -> "tuple[tuple[str, _Leaf], ...]":
         """Grid and notation on one leaf where there is room for both."""
@@ -101,8 +93,11 @@ class EditorPanel:
         return lines * float(imgui.get_text_line_height_with_spacing())
 
     def _foot(self, view: EditorView) -> None:
-        """The first fault of the text, and how many more there are."""
+        """The first fault of the text, and how many more there are; where nothing stands yet, how one begins."""
         if view.is_sound:
+            return
+        if view.is_blank:
+            theme.soft(theme.one_line(_BEGIN, imgui.get_content_region_avail().x))
             return
         first, more = view.faults[0], len(view.faults) - 1
         words = f"{first.place}: {first.text}" if first.place else first.text

@@ -144,6 +144,19 @@ def test_what_is_not_saved_is_kept_and_found_again(desk: Desk) -> None:
     assert desk.files.left == ()
 
 
+def test_a_new_lesson_is_blank_until_something_stands_in_it(desk: Desk) -> None:
+    """Then an empty bar is a fault: it was emptied, or other words were written."""
+    desk.editor.act(NewLesson())
+    blank = desk.editor.view()
+    assert blank is not None
+    assert blank.is_blank
+    for edit in (WriteLetter("o"), Edit(SetText(blank.text.replace("New lesson", "Mine")))):
+        desk.editor.act(edit)
+        view = desk.editor.view()
+        assert view is not None
+        assert not view.is_blank
+
+
 def test_a_letter_that_a_line_lacks_is_refused_in_a_sentence(desk: Desk) -> None:
     desk.editor.act(NewLesson())
     before = desk.text

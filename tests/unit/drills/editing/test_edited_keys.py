@@ -75,3 +75,9 @@ def test_entries_of_at_stand_in_rows_where_the_others_do() -> None:
 def test_a_path_through_what_is_no_table_is_refused(path: tuple[str | int, ...]) -> None:
     with pytest.raises(BadInput, match=r"my\.toml"):
         after(LESSON, (path, 3))
+
+
+@pytest.mark.parametrize("value", [{1: 2}, [None], {"a": {4, 5}}, b"bytes", object(), [10**5000]])
+def test_a_value_that_toml_cannot_say_is_refused(value: object) -> None:
+    with pytest.raises(BadInput, match=r"my\.toml: goals\.level: TOML has no word for"):
+        after(LESSON, (("goals", "level"), value))
