@@ -243,7 +243,7 @@ def keep_note(path: Path, settings: Settings) -> tuple[TakenAssignment, Note, bo
 
 
 def _check_sessions(note: Note, sent: list[str], path: Path) -> None:
-    """Raises `BadInput` where a note speaks of a session that is none of what was `sent`; nothing where that was not kept."""
+    """Raises `BadInput` where a note speaks of a session that is none of those `sent`, where they were kept."""
     for one in note.sessions if sent else ():
         if one.number > len(sent) or sent[one.number - 1].partition(" ")[2] != one.lesson:
             raise BadInput(path, "", f"it speaks of session {one.number}, {one.lesson}, which the return has not")
