@@ -92,12 +92,12 @@ def changed(data: bytes, files: Mapping[str, bytes] | None = None, **table: obje
 
 
 def a_return(folder: Path) -> Return:
-    """A return with the session in `folder`, of the shipped lesson rock-1, said to have taken twenty seconds."""
+    """A return with the session in `folder`, of the shipped lesson rock-1, said to have taken ten seconds."""
     report = (folder / "report.json").read_bytes()
     session = ReturnedSession(
         "rock-1",
         datetime(2026, 11, 23, 18, 0, 5),
-        replace(report_figures(report, "report", ""), seconds=20.0),
+        replace(report_figures(report, "report", ""), seconds=10.0),
         lesson_path("rock-1").read_text(encoding="utf-8"),
         (folder / "session.capture").read_bytes(),
         report,

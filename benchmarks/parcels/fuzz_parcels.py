@@ -4,8 +4,8 @@
 
 Each input has its own source of chance, made of the seed and its number: `--first` goes on where a run was ended, and
 throws a single one again with `--inputs 1`. The kinds take turns. An assignment that can be read has its lessons read
-too, and some are taken into a home of their own, where afterwards nothing may lie but what taking leaves; of some
-returns the first session is judged again. Time is the process's own, memory what it takes beyond what it began with.
+too. Some files are kept in a home of their own, where afterwards nothing may lie but what keeping leaves; of some
+returns a session is judged again. Time is the process's own, memory what it takes beyond what it began with.
 Prints a table, and keeps each input that does harm in `--keep`.
 """
 
@@ -16,24 +16,43 @@ import shutil
 import signal
 import tempfile
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, field
-from datetime import datetime
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
 from pathlib import Path
 
 from benchmarks.parcels.hostile_parcels import hostile, seeds
+from station.core.disk.files import write_whole
 from station.core.errors import BadInput
 from station.core.settings import Settings
-from station.practice.exchange.assignment_file import lessons_of, parse_assignment
-from station.practice.exchange.note_file import parse_note
+from station.drills.library import find_lesson
+from station.practice.exchange.assignment_file import (
+    AssignedLesson,
+    Assignment,
+    assignment_bytes,
+    lessons_of,
+    parse_assignment,
+)
+from station.practice.exchange.assignment_file import readme_text as assignment_words
+from station.practice.exchange.note_file import Note, parse_note
 from station.practice.exchange.parcel import KINDS, Kind
 from station.practice.exchange.return_file import parse_return
+from station.practice.exchange.return_file import readme_text as return_words
 from station.practice.exchange.return_judging import judge_returned
-from station.practice.exchange.student_store import take
+from station.practice.exchange.student_store import keep_note, take
+from station.practice.exchange.teacher_store import receive
+from station.practice.records.assigned_lessons import Taken, write_taken
+from station.practice.records.session_files import folder_name, write_document
 
 LIMIT_S, LIMIT_MB = 1.0, 300
-_JUDGED, _TAKEN = 0.1, 0.05
-"""Shares of returns that are judged again and of assignments that are taken (our choice: a million must end)."""
+_JUDGED, _KEPT = 0.1, 0.05
+"""Shares of returns that are judged again, and of all files that are kept (our choice: a million must end)."""
+_KEPT_ENDINGS = (".json", ".toml", *(kind.ending for kind in Kind))
+_NOW = datetime(2026, 11, 23)
+_ASKED = Assignment(
+    "a" * 32, 1, "Week 3", "Ms O", _NOW.astimezone(UTC), (AssignedLesson("rock-1", "Rock", find_lesson("rock-1").text),)
+)
+"""What the teacher gave, by whose words returns are judged."""
 _JUDGING_S = 5.0
 _LONGEST_LINE = 400
 _TOLD_EVERY = 10_000
@@ -56,31 +75,54 @@ class Tally:
 def _use(kind: Kind, data: bytes, rng: random.Random) -> None:
     match kind:
         case Kind.ASSIGNMENT:
-            lessons_of(parse_assignment(data, "input"), "input")
-            if rng.random() < _TAKEN:
-                _take(data)
+            assignment = parse_assignment(data, "input")
+            lessons_of(assignment, "input")
+            _check_shown(assignment_words(assignment).split("\n"))
+            if rng.random() < _KEPT:
+                _keep(kind, data, lambda path, settings: take(path, settings, _NOW))
         case Kind.RETURN:
             returned = parse_return(data, "input")
+            _check_shown(return_words(returned).split("\n"))
+            if rng.random() < _KEPT:
+                _keep(kind, data, receive)
             if rng.random() < _JUDGED:
+                number = rng.randint(1, len(returned.sessions))
                 signal.setitimer(signal.ITIMER_PROF, _JUDGING_S)
-                judge_returned(returned, 1, "input", Settings())
+                _check_shown(judge_returned(returned, number, "input", Settings(), _ASKED).differences)
         case Kind.NOTE:
-            assert all("\n" not in line for line in parse_note(data, "input").lines)
+            note = parse_note(data, "input")
+            _check_shown(note.lines)
+            if rng.random() < _KEPT:
+                _keep(kind, data, lambda path, settings: _answered(path, note, settings))
 
 
-def _take(data: bytes) -> None:
-    """Take it, and see that nothing lies where nothing should."""
-    home = Path(tempfile.mkdtemp(prefix="taken-"))
+def _check_shown(lines: Iterable[str]) -> None:
+    """What people are shown of a file has nothing that a terminal obeys."""
+    assert all(line.isprintable() for line in lines), "what is shown cannot be printed"
+
+
+def _answered(path: Path, note: Note, settings: Settings) -> None:
+    """Keep a note where there is what it answers, as far as its own words can be believed."""
+    folder = settings.sessions_dir / folder_name(settings.student) / "assignments" / "x"
+    asked = replace(_ASKED, id=note.assignment_id)
+    write_whole(folder / "assignment.drum-assignment", assignment_bytes(asked))
+    write_taken(folder, Taken(asked.id, 1, _NOW.isoformat(), (("rock-1", "rock-1"),)))
+    write_document(folder / "returns" / f"{note.return_id}.json", {"played": ["2026-11-23T14:00:00 rock-1"]})
+    keep_note(path, settings)
+
+
+def _keep(kind: Kind, data: bytes, keep: Callable[[Path, Settings], object]) -> None:
+    """Keep it in a home of its own, twice, and see that nothing lies where nothing should."""
+    home = Path(tempfile.mkdtemp(prefix="kept-"))
     try:
         (home / "in").mkdir()
-        (home / "in" / "x.drum-assignment").write_bytes(data)
-        take(
-            home / "in" / "x.drum-assignment", Settings(student="x", sessions=str(home / "out")), datetime(2026, 11, 23)
-        )
-        for path in (home / "out").rglob("*"):
-            depth = len(path.relative_to(home / "out").parts)
-            assert path.is_dir() or (depth == 4 and path.suffix in (".json", ".drum-assignment")) or depth == 3, path
-        assert sorted(path.name for path in home.iterdir()) == ["in", "out"], "it lies beside its home"
+        path = home / "in" / f"x{kind.ending}"
+        path.write_bytes(data)
+        for _ in range(2):
+            keep(path, Settings(student="Zoë", sessions=str(home / "out")))
+        kept = [each for each in (home / "out").rglob("*") if not each.is_dir()]
+        assert all(each.suffix in _KEPT_ENDINGS for each in kept), kept
+        assert sorted(each.name for each in home.iterdir()) == ["in", "out"], "it lies beside its home"
     finally:
         shutil.rmtree(home)
 

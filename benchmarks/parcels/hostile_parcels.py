@@ -21,9 +21,17 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from benchmarks.hostile_bytes import lines_again, number, ways_for
-from benchmarks.parcels.huge_parcels import huge_lessons, huge_reports, huge_values, of_all_lessons, of_all_sessions
+from benchmarks.parcels.huge_parcels import (
+    capture_of,
+    huge_captures,
+    huge_lessons,
+    huge_reports,
+    huge_values,
+    of_all_lessons,
+    of_all_sessions,
+)
 from station.core.settings import Settings
-from station.devices.capture.capture import MAGIC, CaptureRecord, RecordWriter, parse_capture
+from station.devices.capture.capture import CaptureRecord, parse_capture
 from station.drills.lesson import Lesson
 from station.drills.library import find_lesson
 from station.drills.reading.lesson_file import parse_lesson
@@ -327,8 +335,7 @@ def _capture(data: bytes, rng: random.Random) -> bytes:
         records[at] = _record(records[at], rng)
         if rng.random() < 0.1:
             records[at:at] = [records[at]] * rng.choice((1, 10, 1000))
-    writer = RecordWriter()
-    return MAGIC + b"".join(map(writer.encode, records))
+    return capture_of(records)
 
 
 def _record(record: CaptureRecord, rng: random.Random) -> CaptureRecord:
@@ -388,6 +395,9 @@ def as_much_as_goes_in(seed: Seed, rng: random.Random) -> bytes:
         table[rng.choice([*table, "more"])] = rng.choice(huge_values())
     elif seed.kind is Kind.ASSIGNMENT:
         table["lessons"], members = of_all_lessons(rng.choice(huge_lessons()))
+    elif rng.random() < 0.5:
+        name = "sessions/1/session.capture"
+        members[name] = rng.choice(huge_captures(members[name]))
     else:
         members = of_all_sessions(members, rng.choice(huge_reports(members["sessions/1/report.json"])))
         table["sessions"] = [table["sessions"][0]] * (len(members) // 4)

@@ -4,11 +4,13 @@ Each asks a reader for work that grows faster than its bytes, or that is done be
 """
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from functools import lru_cache
 from itertools import product
 from string import ascii_lowercase
 
+from station.devices.capture.capture import MAGIC, CaptureRecord, RecordWriter, parse_capture
 from station.practice.exchange.lesson_member import MOST_LESSON_BYTES
 from station.practice.exchange.parcel_json import MOST_JSON_BYTES
 
@@ -17,6 +19,12 @@ _HEAD = 'title = "Three"\n[grid]\n'
 _MOST = 40
 """Sessions that a return may have; lessons of an assignment here."""
 Members = Mapping[str, bytes]
+
+
+def capture_of(records: Iterable[CaptureRecord]) -> bytes:
+    """The file of these records, with checks that fit."""
+    writer = RecordWriter()
+    return MAGIC + b"".join(map(writer.encode, records))
 
 
 @lru_cache(1)
@@ -64,6 +72,15 @@ def huge_values() -> tuple[object, ...]:
 def huge_reports(report: bytes) -> tuple[bytes, ...]:
     """A report with a key that nobody reads, as long as a report may be: empty tables, lists, numbers, texts."""
     return tuple(_longer(report, each) for each in (b"{},", b"[],", b"1.5,", b'"",', b"1e-9,", b'{"a":0},'))
+
+
+def huge_captures(capture: bytes) -> tuple[bytes, ...]:
+    """A capture with as many records, remarks or begun sessions as a member holds; all checks fit."""
+    records = parse_capture(capture).records
+    begun = next(one for one in records if b'"said":"pass"' in one.payload)
+    said = replace(begun, payload=json.dumps({"said": "x", "words": "x" * 60_000}).encode())
+    empty = replace(records[0], payload=b"")
+    return tuple(capture_of([*records, *more]) for more in ([empty] * 50_000, [begun] * 250, [said] * 80))
 
 
 def of_all_lessons(text: bytes) -> tuple[list[dict[str, str]], Members]:

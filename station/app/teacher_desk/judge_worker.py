@@ -39,9 +39,11 @@ def heard(path: Path, number: int, settings: Settings) -> Heard:
     """Session `number` of the return at `path`, judged in this process; raises `BadInput`."""
     from station.practice.exchange.return_file import read_return
     from station.practice.exchange.return_judging import judge_returned
+    from station.practice.exchange.teacher_store import assignment_of, given
 
     def judged() -> Heard:
-        found = judge_returned(read_return(path), number, str(path), settings)
+        returned = read_return(path)
+        found = judge_returned(returned, number, str(path), settings, assignment_of(returned, given(settings)))
         return Heard(found.figures, found.differences)
 
     return within_limits(judged, path, number)

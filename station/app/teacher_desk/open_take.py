@@ -13,6 +13,7 @@ from station.app.teacher_desk.stroke_lines import StrokeLine, stroke_lines
 from station.core.settings import Settings
 from station.practice.exchange.return_file import read_return
 from station.practice.exchange.return_judging import judge_returned
+from station.practice.exchange.teacher_store import assignment_of, given
 
 _NO_BEFORE = "it is a student's: what they played before lies with them"
 
@@ -33,7 +34,8 @@ def opened_take(path: Path, number: int, settings: Settings) -> OpenedTake:
 
 def _opened(path: Path, number: int, settings: Settings) -> OpenedTake:
     returned = read_return(path)
-    judged = judge_returned(returned, number, str(path), settings)
+    asked = assignment_of(returned, given(settings))
+    judged = judge_returned(returned, number, str(path), settings, asked)
     shown = shown_result(judged.result, judged.document, before=_NO_BEFORE, student=returned.student)
     saved, heard = SavedSession(judged.result, shown), Heard(judged.figures, judged.differences)
     return OpenedTake(saved, heard, stroke_lines(judged.result, shown.hits))

@@ -13,9 +13,10 @@ from station.core.errors import BadInput
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.devices.capture.capture import MAGIC, Capture, RecordKind, parse_capture
+from station.practice.exchange.assignment_file import Assignment
 from station.practice.exchange.lesson_member import parsed
 from station.practice.exchange.return_file import Return, ReturnedSession, session_words
-from station.practice.exchange.session_figures import SessionFigures, report_figures
+from station.practice.exchange.session_figures import SessionFigures, length_s, report_figures
 from station.practice.records.recovery import session_of
 from station.practice.records.session_report import practice_document
 from station.practice.session.plan import MAX_TEMPO_BPM, MIN_TEMPO_BPM
@@ -36,6 +37,8 @@ MOST_A_SECOND, SPARE_RECORDS = 2000, 10_000
 """Records: two sensors send four hundred a second (our choice: five times that, and a start of some thousand)."""
 SAME_SCORE = 1.0
 """Points by which a report may lie from the capture: what a teacher's settings of the kit may change (our choice)."""
+SAME_S = 1.0
+"""Seconds by which a return may lie from the capture: more than its table rounds (our choice)."""
 _HEAD = struct.Struct("<BHIq")
 _CHECK_BYTES = 4
 
@@ -50,23 +53,46 @@ class JudgedSession:
     differences: tuple[str, ...]
 
 
-def judge_returned(returned: Return, number: int, source: str, settings: Settings) -> JudgedSession:
-    """Session `number` (from 1) of a return; raises `BadInput` where it is none, or its capture gives no session."""
+def judge_returned(
+    returned: Return, number: int, source: str, settings: Settings, asked: Assignment | None = None
+) -> JudgedSession:
+    """Session `number` (from 1) of a return to the assignment `asked`, None where nobody has that any more.
+
+    Raises `BadInput` where there is no such session, or its capture gives none.
+    """
     if not 1 <= number <= len(returned.sessions):
         raise BadInput(source, f"session {number}", f"the return has sessions 1 to {len(returned.sessions)}")
     session, place = returned.sessions[number - 1], f"session {number}"
     (lesson,) = parsed([(session.figures.lesson, session.lesson_text)], source)
-    result = session_of(checked_capture(session.capture, source, place), lesson)
+    capture = checked_capture(session.capture, source, place)
+    result = session_of(capture, lesson)
     if result is None:
         raise BadInput(source, place, f"its capture holds no session of {session.figures.lesson} as it was sent")
-    return _judged(session, result, settings)
-
-
-def _judged(session: ReturnedSession, result: SessionResult, settings: Settings) -> JudgedSession:
     document = practice_document(result, settings)
     figures = report_figures(json.dumps(document).encode(), "report", "")
-    figures = replace(figures, seconds=session.seconds)
-    return JudgedSession(result, document, figures, differences(session.figures, figures))
+    figures = replace(figures, seconds=length_s(capture))
+    told = (*differences(session.figures, figures), *_of_another(returned, number), *_not_as_given(session, asked))
+    return JudgedSession(result, document, figures, told)
+
+
+def _of_another(returned: Return, number: int) -> Iterator[str]:
+    """That an earlier session of the return has the same capture."""
+    capture = returned.sessions[number - 1].capture
+    for before, one in enumerate(returned.sessions[: number - 1], 1):
+        if one.capture == capture:
+            yield f"its capture is that of session {before} again"
+            return
+
+
+def _not_as_given(session: ReturnedSession, asked: Assignment | None) -> Iterator[str]:
+    """That the lesson that was sent with a session is another than the one that was given."""
+    if asked is None:
+        return
+    lesson = asked.lesson(session.lesson)
+    if lesson is None:
+        yield f"the assignment has no lesson {session.lesson}"
+    elif lesson.text != session.lesson_text:
+        yield f"the lesson is not as version {asked.revision} of the assignment gives it"
 
 
 def differences(told: SessionFigures, heard: SessionFigures) -> tuple[str, ...]:
@@ -77,12 +103,17 @@ def differences(told: SessionFigures, heard: SessionFigures) -> tuple[str, ...]:
     for what, said, is_so in (
         ("notes", told.notes, heard.notes),
         ("right", told.right, heard.right),
+        ("passes", told.passes, heard.passes),
         ("bpm", round(told.beats_a_minute, 1), round(heard.beats_a_minute, 1)),
     ):
         if said != is_so:
             found.append(f"{what}: the report says {said:g}, the capture gives {is_so:g}")
     if told.level != heard.level:
         found.append(f"the report says judged as {told.level}, the capture {heard.level}")
+    if told.seconds > heard.seconds + SAME_S:
+        found.append(f"seconds: the return says {told.seconds:.0f}, the capture lasts {heard.seconds:.0f}")
+    if told.complete and not heard.complete:
+        found.append("the report says that it was played to its end, the capture does not")
     if told.is_clean and not heard.is_clean:
         found.append("the report says that all goals were reached, the capture does not")
     return tuple(found)

@@ -5,6 +5,8 @@ from typing import Any
 
 from station.core.toml.schema import Field, Fields, Reader, choice, flag, needed, number, text, whole
 from station.core.toml.toml_faults import Faults, wrong
+from station.core.units import NS_PER_S
+from station.devices.capture.capture import Capture
 from station.music.tempo import MAX_BPM, MIN_BPM
 from station.practice.exchange.parcel_json import meaning, read_json
 from station.practice.exchange.plain_words import line, or_none, words
@@ -46,6 +48,13 @@ class SessionFigures:
     def is_clean(self) -> bool:
         """Whether it was played to its end, and every goal of the lesson was reached."""
         return self.complete and not self.missed and self.notes > 0
+
+
+def length_s(capture: Capture) -> float:
+    """From the first to the last record of a capture, at most `LONGEST_S`."""
+    records = capture.records
+    seconds = (records[-1].at_ns - records[0].at_ns) / NS_PER_S if records else 0.0
+    return min(max(seconds, 0.0), LONGEST_S)
 
 
 def report_figures(data: bytes, source: str, place: str) -> SessionFigures:

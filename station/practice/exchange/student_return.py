@@ -7,7 +7,6 @@ from pathlib import Path
 from station.core.disk.files import read_regular
 from station.core.errors import BadInput, StationError
 from station.core.settings import Settings
-from station.core.units import NS_PER_S
 from station.devices.capture.capture import parse_capture
 from station.practice.exchange.note_file import overruled
 from station.practice.exchange.parcel import Kind
@@ -22,7 +21,7 @@ from station.practice.exchange.return_file import (
     ReturnedSession,
     size_of,
 )
-from station.practice.exchange.session_figures import LONGEST_S, SessionFigures, report_figures
+from station.practice.exchange.session_figures import SessionFigures, length_s, report_figures
 from station.practice.exchange.student_store import TakenAssignment, session_key, verdicts_on
 from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, PAIRS_NAME, folder_name
 
@@ -112,15 +111,8 @@ def _packed(each: PractisedSession, one: TakenAssignment) -> ReturnedSession | N
         capture = read_regular(each.folder / CAPTURE_NAME, MOST_CAPTURE_BYTES)
         report = read_regular(each.folder / DOCUMENT_NAME, MOST_JSON_BYTES)
         pairs = read_regular(each.folder / PAIRS_NAME, MOST_PAIRS_BYTES)
-        seconds = _length_s(capture)
+        seconds = length_s(parse_capture(capture))
     except StationError:
         return None
     figures = replace(each.figures, seconds=seconds)
     return ReturnedSession(each.name, each.played, figures, lesson.text, capture, report, pairs)
-
-
-def _length_s(capture: bytes) -> float:
-    """From the first to the last record of a capture."""
-    records = parse_capture(capture).records
-    length = (records[-1].at_ns - records[0].at_ns) / NS_PER_S if records else 0.0
-    return min(max(length, 0.0), LONGEST_S)

@@ -5,7 +5,7 @@
 among the student's own, in a folder of that name; one that ships in the same words is the shipped one.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from datetime import date, datetime
 from pathlib import Path
@@ -20,7 +20,7 @@ from station.practice.exchange.assignment_file import (
     parse_assignment,
     read_assignment,
 )
-from station.practice.exchange.lesson_member import alike
+from station.practice.exchange.lesson_member import MOST_LESSON_BYTES, alike
 from station.practice.exchange.note_file import Note, SessionVerdict, parse_note, read_note
 from station.practice.exchange.parcel import Kind
 from station.practice.exchange.parcel_json import MOST_JSON_BYTES, read_json
@@ -80,7 +80,14 @@ def take(path: Path, settings: Settings, now: datetime) -> tuple[TakenAssignment
         if before.assignment.revision == assignment.revision:
             raise BadInput(path, "", "another file of the same assignment and version was taken before")
     kept = _keep(assignment, data, settings, now, before)
-    return kept, "taken" if before is None else f"version {assignment.revision} takes the place of the one before"
+    return kept, "taken" if before is None else _in_place_of(assignment, before.assignment)
+
+
+def _in_place_of(later: Assignment, before: Assignment) -> str:
+    said = f"version {later.revision} takes the place of the one before"
+    if later.teacher == before.teacher:
+        return said
+    return f"{said}; it is from {later.teacher}, that was from {before.teacher}"
 
 
 def _keep(
@@ -89,7 +96,8 @@ def _keep(
     stem = stem_of(assignment.title, assignment.id) if before is None else before.folder.name
     folder = assignments_folder(settings.sessions_dir, settings.student) / stem
     lessons = settings.own_lessons_dir / stem
-    called = tuple((one.name, _put(one, lessons, settings)) for one in assignment.lessons)
+    put_before = {} if before is None else _texts_here(before)
+    called = tuple((one.name, _put(one, lessons, settings, put_before)) for one in assignment.lessons)
     since = now.isoformat(timespec="seconds") if before is None else before.taken.since
     said = () if before is None else before.taken.said
     taken = Taken(assignment.id, assignment.revision, since, called, said, assignment.due)
@@ -98,11 +106,23 @@ def _keep(
     return TakenAssignment(folder, taken, assignment, () if before is None else before.notes)
 
 
-def _put(lesson: AssignedLesson, folder: Path, settings: Settings) -> str:
-    """What the lesson is called here: its own name, or that with a number where another has it."""
+def _texts_here(one: TakenAssignment) -> dict[str, str]:
+    """What the lessons of an assignment said when it was taken, by what they are called here."""
+    return {here: lesson.text for name, here in one.taken.lessons if (lesson := one.assignment.lesson(name))}
+
+
+def _put(lesson: AssignedLesson, folder: Path, settings: Settings, put_before: Mapping[str, str]) -> str:
+    """What the lesson is called here: its own name, or that with a number where another has it.
+
+    One that an earlier version put there is another as soon as the student has changed it.
+    """
     from station.drills.library import lesson_names, lesson_path  # noqa: PLC0415 - a refusal needs none of it
 
-    others = {alike(path.stem) for path in settings.own_lessons_dir.rglob("*.toml") if path.parent != folder}
+    others = {
+        alike(path.stem)
+        for path in settings.own_lessons_dir.rglob("*.toml")
+        if path.parent != folder or not _says(path, lesson.text, put_before.get(path.stem))
+    }
     shipped = {alike(name): name for name in lesson_names()}
     for number in range(1, _MOST_COPIES):
         name = lesson.name if number == 1 else f"{lesson.name}-{number}"
@@ -112,6 +132,14 @@ def _put(lesson: AssignedLesson, folder: Path, settings: Settings) -> str:
             write_whole(folder / f"{name}.toml", lesson.text.encode())
             return name
     raise BadInput(lesson.name, "", "a thousand lessons have this name already")
+
+
+def _says(path: Path, *texts: str | None) -> bool:
+    """Whether a file holds one of the texts, to the letter."""
+    try:
+        return read_regular(path, MOST_LESSON_BYTES) in [text.encode() for text in texts if text is not None]
+    except BadInput:
+        return False
 
 
 def _same_text(path: Path, text: str) -> bool:
@@ -199,14 +227,26 @@ def keep_note(path: Path, settings: Settings) -> tuple[TakenAssignment, Note, bo
     one = next((each for each in taken_assignments(settings)[0] if each.assignment.id == note.assignment_id), None)
     if one is None:
         raise BadInput(path, "", f"it answers {note.title}, which {settings.student} has not taken")
+    if alike(folder_name(note.student)) != alike(folder_name(settings.student)):
+        raise BadInput(path, "", f"it is a note for {note.student}, not for {settings.student}")
     if note.return_id not in one.returns:
         raise BadInput(path, "", f"it answers a return of {note.title} that {settings.student} has not made")
+    _check_sessions(note, _sent_sessions(one.folder / "returns" / f"{note.return_id}.json"), path)
     kept = one.folder / "notes" / f"{note.id}{Kind.NOTE.ending}"
     is_new = not kept.exists()
+    if not is_new and read_regular(kept, Kind.NOTE.value.most_bytes) != data:
+        raise BadInput(path, "", "another note of the same id came before")
     write_whole(kept, data)
     if is_new and all(note.made >= other.made for other in one.notes):
         write_taken(one.folder, replace(one.taken, said=tuple(_said(note, one.taken))))
     return one, note, is_new
+
+
+def _check_sessions(note: Note, sent: list[str], path: Path) -> None:
+    """Raises `BadInput` where a note speaks of a session that is none of those `sent`, where they were kept."""
+    for one in note.sessions if sent else ():
+        if one.number > len(sent) or sent[one.number - 1].partition(" ")[2] != one.lesson:
+            raise BadInput(path, "", f"it speaks of session {one.number}, {one.lesson}, which the return has not")
 
 
 def _said(note: Note, taken: Taken) -> Iterator[tuple[str, str]]:

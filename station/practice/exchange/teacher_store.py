@@ -113,7 +113,7 @@ def goals_of(one: Received, given_before: list[Assignment]) -> dict[str, list[Go
 
     By the students' word, where the teacher's note does not overrule it; nothing where it was given elsewhere.
     """
-    asked = assignment_of(one, given_before)
+    asked = assignment_of(one.returned, given_before)
     verdicts = {} if one.note is None else {verdict.number: verdict for verdict in one.note.sessions}
     states: dict[str, list[GoalState]] = {}
     for lesson in () if asked is None else asked.lessons:
@@ -126,16 +126,16 @@ def goals_of(one: Received, given_before: list[Assignment]) -> dict[str, list[Go
     return states
 
 
-def assignment_of(one: Received, given_before: list[Assignment]) -> Assignment | None:
+def assignment_of(returned: Return, given_before: list[Assignment]) -> Assignment | None:
     """The assignment that a return answers, in its version or the last one; None where it was given elsewhere."""
-    asked = [each for each in given_before if each.id == one.returned.assignment.id]
-    exact = [each for each in asked if each.revision == one.returned.assignment.revision]
+    asked = [each for each in given_before if each.id == returned.assignment.id]
+    exact = [each for each in asked if each.revision == returned.assignment.revision]
     return next(iter(exact or asked[-1:]), None)
 
 
 def teacher_of(one: Received, settings: Settings) -> str:
     """Who answers a return, where nobody else is named: who gave the assignment, else whose settings these are."""
-    asked = assignment_of(one, given(settings))
+    asked = assignment_of(one.returned, given(settings))
     return settings.student if asked is None else asked.teacher
 
 

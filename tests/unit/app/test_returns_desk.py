@@ -7,6 +7,7 @@ import pytest
 
 from station.app.teacher_desk.returns_desk import ReturnsDesk, looked
 from station.cli.command_line import main
+from station.drills.library import lesson_path
 from station.practice.exchange.note_file import SessionVerdict
 from station.practice.exchange.return_file import return_bytes
 from station.practice.exchange.teacher_store import find_received, keep_given, keep_note_on, receive
@@ -26,7 +27,7 @@ def take(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_return_is_listed_judged_and_answered(take: Path, tmp_path: Path) -> None:
     store = store_with(tmp_path)
-    lesson = replace(ASSIGNMENT.lessons[0], name="rock-1")
+    lesson = replace(ASSIGNMENT.lessons[0], name="rock-1", text=lesson_path("rock-1").read_text(encoding="utf-8"))
     keep_given(replace(ASSIGNMENT, lessons=(lesson,)), store.now)
     sent = a_return(take)
     better = replace(sent.sessions[0], lesson_text=TEXT)
@@ -38,7 +39,7 @@ def test_a_return_is_listed_judged_and_answered(take: Path, tmp_path: Path) -> N
     assert desk.now.faults == ()
     (row,) = desk.rows()
     assert (row.shelf, row.student, row.title, row.lesson) == ("Tuesday group", "Zoë", "Week 3", "rock-1")
-    assert [state.words for state in row.goals][1:3] == ["2 of 4 passes", "0.6 of 12.5 minutes"]
+    assert [state.words for state in row.goals][1:3] == ["2 of 4 passes", "0.3 of 12.5 minutes"]
     assert [each.heard for each in row.sessions] == [None, None]
     desk.judge(each.key for each in row.sessions)
     while desk.advance():

@@ -140,7 +140,7 @@ def test_a_return_comes_back_as_it_was(sent: bytes, practised: Path) -> None:
     (session,) = returned.sessions
     assert session.capture == (practised / "session.capture").read_bytes()
     assert session.report == (practised / "report.json").read_bytes()
-    assert (session.lesson, session.seconds, returned.student) == ("rock-1", 20.0, "Zoë")
+    assert (session.lesson, session.seconds, returned.student) == ("rock-1", 10.0, "Zoë")
 
 
 def test_a_report_that_was_made_better_is_told(sent: bytes, practised: Path) -> None:
