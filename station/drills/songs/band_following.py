@@ -181,7 +181,7 @@ def _on_grid(onsets: SoundOnsets) -> NDArray[np.float32]:
     return np.asarray(np.minimum(windows.max(axis=2), _MOST_STRENGTH))
 
 
-_MOST_STRENGTH = np.float32(1.5)
+_MOST_STRENGTH = np.float32(3.0)
 """One loud crash says no more than one and a half usual attacks."""
 
 
@@ -215,7 +215,7 @@ def _heard_near(
         is_own, own = onsets.band == band, expected.band == band
         if not is_own.any():
             continue
-        times, strong = onsets.at_s[is_own], np.minimum(onsets.weight[is_own], _MOST_STRENGTH)
+        times, strong = onsets.at_s[is_own], np.minimum(onsets.weight[is_own], _MOST_WORTH)
         which = np.searchsorted(times, at_s[own])[:, None] + np.arange(-_AROUND, _AROUND)
         which = np.clip(which, 0, len(times) - 1)
         near = 1.0 - np.square((times[which] - at_s[own, None]) / gate_s)
@@ -224,6 +224,8 @@ def _heard_near(
         seen_s[own], worth[own] = times[best], np.where(score.max(axis=1) > 0.0, strong[best], 0.0)
     return seen_s, worth
 
+
+_MOST_WORTH = 1.5
 
 _AROUND = 3
 """Attacks of a band to both sides that are looked at: they are 40 ms apart, the gate is 45 wide."""
