@@ -18,7 +18,7 @@ from station.drills.songs.coarse_way import ENDING_S, GRID_S, STEP_S, Evidence, 
 from station.drills.songs.expected_onsets import ExpectedOnsets, expected_onsets, leans
 from station.drills.songs.point_curve import point_knots, rival_knots, through
 from station.music.score import Score
-from station.music.sound_onsets import SoundOnsets
+from station.music.sound_onsets import OnsetBand, SoundOnsets
 
 Floats = NDArray[np.float64]
 
@@ -76,8 +76,9 @@ def _heard(score: Score, song: _Song, onsets: SoundOnsets) -> tuple[Floats, Floa
     """Times of the beats and their confidence, from the song's curve on."""
     expected = expected_onsets(score, int(song.beat_ticks[-1]))
     at = score.tempo_map.seconds_at(expected.tick)
-    beat_s, confidence = _fine(song, at, expected, onsets, _coarse(song, at, expected, onsets))
-    return beat_s + _common_s(song, beat_s), confidence
+    beat_s, worth = _fine(song, at, expected, onsets, _coarse(song, at, expected, onsets))
+    lean_sd_s = float(np.interp(_drums_heard(expected, worth), (0.0, 1.0), _LEAN_SD_S))
+    return beat_s + _common_s(song, beat_s, lean_sd_s), _confidence(at, expected, worth > 0.0, onsets, song.written_s)
 
 
 def _found(heard: tuple[Floats, Floats]) -> float:
@@ -128,7 +129,14 @@ _CROWD_S = 4.0
 """Taps one after another lean to the same side, and are no better than one good point (our choice)."""
 
 
-def _common_s(song: _Song, beat_s: Floats) -> float:
+def _drums_heard(expected: ExpectedOnsets, worth: Floats) -> float:
+    """How surely drums play in the sound: the share of what cymbals and wires should start that is found, 0 … 1."""
+    is_high = expected.band == OnsetBand.HIGH
+    possible = float(expected.weight[is_high].sum())
+    return float(np.minimum(worth, 1.0)[is_high] @ expected.weight[is_high]) / possible if possible else 0.0
+
+
+def _common_s(song: _Song, beat_s: Floats, lean_sd_s: float) -> float:
     """By how much all beats move to the points: fully where these agree with one another, hardly where they scatter.
 
     Attacks say where one instrument begins, and a listener where the beat is. Points set by ear that are all late by
@@ -139,14 +147,17 @@ def _common_s(song: _Song, beat_s: Floats) -> float:
     if len(late_s) >= _FEWEST_TAPS or len(right) < _FEWEST_RIGHT:
         return 0.0
     error_s = _FEW_ARE_UNSURE * max(float(right.std(ddof=1)), _LEAST_SCATTER_S) / np.sqrt(len(right))
-    return float(right.mean() * _LEAN_SD_S**2 / (_LEAN_SD_S**2 + error_s**2))
+    return float(right.mean() * lean_sd_s**2 / (lean_sd_s**2 + error_s**2))
 
 
 _WRONG_S, _FEWEST_RIGHT = 0.1, 4
 """A point that is farther off is a wrong one; the rest of so few do not tell how they scatter (our choice)."""
 
-_LEAN_SD_S, _LEAST_SCATTER_S = 0.005, 0.004
-"""What attacks lean from the beat (strums last 10–20 ms), and how well a point is set at best (our choice)."""
+_LEAN_SD_S = (0.010, 0.002)
+"""What attacks lean from the beat without drums (strums last 10–20 ms) and with them (our choice)."""
+
+_LEAST_SCATTER_S = 0.004
+"""How well a point is set at best (our choice)."""
 
 _FEW_ARE_UNSURE = 1.5
 """The scatter of five points is itself known to a third: Student's 68 % of four degrees of freedom is 1.14 SD, his 95 %
@@ -181,31 +192,30 @@ def _on_grid(onsets: SoundOnsets) -> NDArray[np.float32]:
     return np.asarray(np.minimum(windows.max(axis=2), _MOST_STRENGTH))
 
 
-_MOST_STRENGTH = np.float32(1.5)
-"""One loud crash says no more than one and a half usual attacks."""
+_MOST_STRENGTH = np.float32(3.0)
+"""One loud crash says no more than three usual attacks; where chords ring, usual ones are their beating."""
 
 
 def _fine(
     song: _Song, at: Floats, expected: ExpectedOnsets, onsets: SoundOnsets, beat_s: Floats
 ) -> tuple[Floats, Floats]:
-    """Times of the beats by single attacks, and their confidence."""
-    is_near, lean_s = np.zeros(len(at), np.bool_), np.zeros(len(at))
+    """Times of the beats by single attacks, and what the attack of each expected onset is worth: 0 where none is."""
+    worth, lean_s = np.zeros(len(at)), np.zeros(len(at))
     sd_s = _ATTACK_SD_S / np.sqrt(np.maximum(expected.weight, 1e-3))
     point_sd_s = _POINT_SD_S * np.sqrt(_crowd(song))
     for gate_s in _GATES_S:
         seen_s, worth = _heard_near(np.interp(at, song.written_s, beat_s) + lean_s, expected, onsets, gate_s)
         is_near = worth > 0.0
-        own_sd_s = sd_s[is_near] / worth[is_near]
         times = np.concatenate([at[is_near], song.point_score_s])
         seen = np.concatenate([(seen_s - lean_s)[is_near], song.point_s - _point_lean_s(song, beat_s)])
-        beat_s = _rising(smoothed(song.written_s, times, seen, np.concatenate([own_sd_s, point_sd_s]), beat_s))
+        beat_s = _rising(
+            smoothed(song.written_s, times, seen, np.concatenate([sd_s[is_near] / worth[is_near], point_sd_s]), beat_s)
+        )
         lean_s = leans(expected, np.where(is_near, seen_s - np.interp(at, song.written_s, beat_s), np.nan))
-    return beat_s, _confidence(at, expected, is_near, onsets, song.written_s)
+    return beat_s, worth
 
 
-def _heard_near(
-    at_s: Floats, expected: ExpectedOnsets, onsets: SoundOnsets, gate_s: float
-) -> tuple[Floats, Floats]:
+def _heard_near(at_s: Floats, expected: ExpectedOnsets, onsets: SoundOnsets, gate_s: float) -> tuple[Floats, Floats]:
     """The attack of its own band that is likeliest meant at each expected time (n,), and its worth: 0 where none is.
 
     Likeliest is a strong one near by: weak ones stand everywhere, for a chord that rings beats with itself.
@@ -215,7 +225,7 @@ def _heard_near(
         is_own, own = onsets.band == band, expected.band == band
         if not is_own.any():
             continue
-        times, strong = onsets.at_s[is_own], np.minimum(onsets.weight[is_own], _MOST_STRENGTH)
+        times, strong = onsets.at_s[is_own], np.minimum(onsets.weight[is_own], _MOST_WORTH)
         which = np.searchsorted(times, at_s[own])[:, None] + np.arange(-_AROUND, _AROUND)
         which = np.clip(which, 0, len(times) - 1)
         near = 1.0 - np.square((times[which] - at_s[own, None]) / gate_s)
@@ -224,6 +234,9 @@ def _heard_near(
         seen_s[own], worth[own] = times[best], np.where(score.max(axis=1) > 0.0, strong[best], 0.0)
     return seen_s, worth
 
+
+_MOST_WORTH = 1.5
+"""A loud attack is placed no better than that: the player scatters, not the attack (our choice)."""
 
 _AROUND = 3
 """Attacks of a band to both sides that are looked at: they are 40 ms apart, the gate is 45 wide."""

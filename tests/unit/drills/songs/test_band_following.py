@@ -1,5 +1,6 @@
 """A band without a click, followed through its song: the truth is what the virtual band knows."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -44,6 +45,19 @@ def test_five_points_bring_the_beats_within_ten_ms(late_s: tuple[float, ...]) ->
     misses = misses_ms(song, follow_band(song.score, points(song, 5, late_s), onsets))
     assert float(np.mean(misses < 10.0)) > 0.95
     assert misses.max() < 20.0
+
+
+def test_weak_attacks_everywhere_hide_no_stroke() -> None:
+    """A chord that rings beats with itself: an attack of a quarter of the usual strength every 40 ms, in every band."""
+    song, onsets = heard(DRIFTING)
+    ringing_s = np.tile(np.arange(0.0, onsets.length_s, 0.04), 3)
+    at_s = np.concatenate([onsets.at_s, ringing_s])
+    order = np.argsort(at_s)
+    band = np.concatenate([onsets.band, np.repeat(np.arange(3, dtype=np.int8), len(ringing_s) // 3)])
+    weight = np.concatenate([onsets.weight, np.full(len(ringing_s), 0.25, np.float32)])
+    ringing = replace(onsets, at_s=at_s[order], band=band[order], weight=weight[order])
+    misses = misses_ms(song, follow_band(song.score, points(song, 5), ringing))
+    assert float(np.mean(misses < 10.0)) > 0.95
 
 
 def test_the_points_alone_would_be_far_off() -> None:
@@ -142,4 +156,4 @@ def test_points_set_exactly_say_where_a_band_of_late_strums_has_its_beat() -> No
     five, two = (follow_band(song.score, points(song, count), onsets) for count in (5, 2))
     late_ms = [1e3 * float(np.median(tempo.beat_s[: len(song.beat_s)] - song.beat_s)) for tempo in (five, two)]
     assert late_ms[1] > 5.0
-    assert abs(late_ms[0]) < 0.6 * late_ms[1]
+    assert abs(late_ms[0]) < 0.35 * late_ms[1]
