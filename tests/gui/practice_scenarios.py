@@ -89,7 +89,6 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["ended"] = not drive.room.listening
     films = drive.station.parts.export
     ctx.item_click(FILM_LABEL)
-    drive.seen["filming"] = films.process is not None
     if films.process is not None:
         films.process.wait(TIMEOUT_S)
     ctx.yield_(3)

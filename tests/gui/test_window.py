@@ -136,7 +136,7 @@ def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
     assert seen["after"] == "IDLE", "there is no result"
     assert seen["listening"]
     assert set(seen["lit"]) & {"SNARE", "KICK", "HIHAT"}, "what sounds lights the kit"
-    assert [seen["filming"], seen["filmed"]] == [True, True], "as a video beside its capture"
+    assert seen["filmed"], "as a video beside its capture, made of it"
     assert seen["midi"] == ["SNARE", "KICK", "HIHAT"], "as MIDI too"
     assert seen["lesson"][0] == "Just play", "and as a lesson of one's own"
     assert seen["ended"], "it ends by itself"

@@ -35,6 +35,7 @@ from station.app.actions.editor_actions import (
     WriteLetter,
 )
 from station.app.editor.draft_files import DraftFiles
+from station.app.editor.editor_position import EditorPosition
 from station.app.editor.editor_view import EditorView
 from station.app.editor.kit_entry import KitEntry
 from station.app.editor.open_draft import OpenDraft
@@ -45,14 +46,9 @@ from station.core.errors import BadInput
 from station.core.events import Hit
 from station.drills.editing.grid_cursor import (
     BarRange,
-    Cursor,
-    GridStep,
     Place,
-    Way,
     letter_at,
-    moved,
     usual_step,
-    within,
     writing,
 )
 from station.drills.editing.lesson_edits import REST, CopyBars, LessonEdit, RemoveBars
@@ -67,10 +63,9 @@ class LessonEditor:
     def __init__(self, files: DraftFiles, sessions: SessionControl, notify: Callable[[str], None]) -> None:
         self._files, self._sessions, self._notify = files, sessions, notify
         self._draft: OpenDraft | None = None
-        self._cursor = Cursor()
-        self._bars: BarRange | None = None
+        self._position = EditorPosition()
         self._copied: tuple[BarRange, str] | None = None
-        self._step, self._letter, self._step_entry = GridStep.SIXTEENTHS, "", False
+        self._step_entry = False
         self._shown: tuple[Lesson | None, tuple[int, int] | None] = (None, None)
         self._kit = KitEntry(sessions)
 
@@ -94,10 +89,10 @@ class LessonEditor:
             lesson=draft.lesson,
             faults=draft.now.faults,
             fault_cells=draft.now.fault_cells,
-            cursor=self._cursor,
-            bars=self._bars,
-            step=self._step,
-            letter=self._letter,
+            cursor=self._position.cursor,
+            bars=self._position.bars,
+            step=self._position.step,
+            letter=self._position.letter,
             playhead=self._playhead(draft, take) if player.is_shown or take is not None else None,
             plays=player.player.playing or take is not None,
             undo=draft.history.undo_name or "",
@@ -134,9 +129,8 @@ class LessonEditor:
     def _open(self, action: OpenEditor | NewLesson | ResumeDraft) -> None:
         draft = self._opened(action)
         self._leave()
-        self._draft, self._cursor, self._bars = draft, Cursor(), None
-        self._letter, self._step_entry = "", False
-        self._step = usual_step(draft.now.page)
+        self._draft, self._step_entry = draft, False
+        self._position = EditorPosition(step=usual_step(draft.now.page))
         self._shown = (None, None)
         self._settle()
 
@@ -166,12 +160,12 @@ class LessonEditor:
             case WriteLetter(letter):
                 self._type(draft, letter)
             case EraseHere():
-                draft.change(writing(draft.now.page, self._cursor, REST))
+                draft.change(writing(draft.now.page, self._position.cursor, REST))
             case CopySelection():
-                self._copied = self._selected, draft.history.text
-                self._notify(f"{_words(self._selected)} copied")
+                self._copied = self._position.selected, draft.history.text
+                self._notify(f"{_words(self._position.selected)} copied")
             case CutSelection():
-                self._copied = self._selected, draft.history.text
+                self._copied = self._position.selected, draft.history.text
                 self._change_bars(draft, RemoveSelection())
             case PasteBars() | DuplicateBars() | RemoveSelection():
                 self._change_bars(draft, action)
@@ -184,15 +178,15 @@ class LessonEditor:
         """What changes no text."""
         match action:
             case PutCursor(cursor):
-                self._go_to(cursor)
+                self._position = self._position.at(cursor)
             case MoveCursor(way, selects):
-                self._move(draft, way, selects)
+                self._position = self._position.moved(draft.now.page, way, selects)
             case SelectBars(bars):
-                self._bars = bars
+                self._position = replace(self._position, bars=bars)
             case SetGridStep(step):
-                self._step = step
+                self._position = replace(self._position, step=step)
             case ChooseLetter(letter):
-                self._letter = letter
+                self._position = replace(self._position, letter=letter)
             case SetStepEntry(on):
                 self._step_entry = on
                 self._kit.begin_steps()
@@ -201,32 +195,16 @@ class LessonEditor:
             case _:
                 raise AssertionError("every action is done in one of these places")
 
-    def _go_to(self, cursor: Cursor) -> None:
-        """Be there; what a click writes was chosen for one line."""
-        self._letter = self._letter if cursor.line == self._cursor.line else ""
-        self._cursor = cursor
-
-    def _move(self, draft: OpenDraft, way: Way, selects: bool) -> None:
-        before = self._cursor
-        self._go_to(moved(draft.now.page, before, way, self._step))
-        if selects and self._cursor.grid == before.grid:
-            start = self._bars if self._bars is not None and self._bars.holds(before.grid, before.bar) else None
-            first, last = (before.bar, before.bar) if start is None else (start.first, start.last)
-            other = last if before.bar == first else first
-            low, high = sorted((other, self._cursor.bar))
-            self._bars = BarRange(before.grid, low, high)
-
     def _type(self, draft: OpenDraft, typed: str) -> None:
         """Write what was typed, if it is a letter of the cursor's line, and go on."""
-        page = draft.now.page
-        if self._cursor.grid >= len(page.grids):
+        page, cursor = draft.now.page, self._position.cursor
+        if cursor.grid >= len(page.grids):
             return
-        present = letter_at(page.grids[self._cursor.grid], self._cursor)
-        letter = typed_letter(self._cursor.line, typed, present)
+        letter = typed_letter(cursor.line, typed, letter_at(page.grids[cursor.grid], cursor))
         if letter is None:
             raise BadInput(typed, "", "no letter of this line: a right click shows those that are")
-        draft.change(writing(draft.now.page, self._cursor, letter))
-        self._cursor = moved(draft.now.page, self._cursor, Way.RIGHT, self._step)
+        draft.change(writing(page, cursor, letter))
+        self._position = self._position.onward(draft.now.page)
 
     # --- the kit -----------------------------------------------------------------------------------------------------
 
@@ -235,8 +213,8 @@ class LessonEditor:
         if self._kit.records:
             self._kit.handle(event)
         elif isinstance(event, Hit) and self._step_entry and self._draft is not None:
-            if self._kit.write(self._draft, self._cursor, event):
-                self._cursor = moved(self._draft.now.page, self._cursor, Way.RIGHT, self._step)
+            if self._kit.write(self._draft, self._position.cursor, event):
+                self._position = self._position.onward(self._draft.now.page)
             self._settle()
 
     def _record(self, draft: OpenDraft) -> None:
@@ -244,7 +222,7 @@ class LessonEditor:
         if self._kit.records:
             self._kit.end(draft)
         else:
-            self._kit.record(draft, self._cursor, self._bars)
+            self._kit.record(draft, self._position.cursor, self._position.bars)
 
     def advance(self, now_ns: int) -> None:
         """Move on: what was read is taken, passes that were recorded are written.
@@ -266,26 +244,22 @@ class LessonEditor:
 
     # --- bars --------------------------------------------------------------------------------------------------------
 
-    @property
-    def _selected(self) -> BarRange:
-        return self._bars or BarRange(self._cursor.grid, self._cursor.bar, self._cursor.bar)
-
     def _change_bars(self, draft: OpenDraft, action: PasteBars | DuplicateBars | RemoveSelection) -> None:
-        chosen = self._selected
+        chosen = self._position.selected
         match action:
             case PasteBars(inserts):
                 draft.change(self._pasting(inserts))
             case DuplicateBars():
                 draft.change(CopyBars(chosen.grid, chosen.first, chosen.last, chosen.grid, chosen.last + 1))
-                self._cursor = replace(self._cursor, grid=chosen.grid, bar=chosen.last + 1, tick=0)
+                self._position = self._position.at_bar(chosen.grid, chosen.last + 1)
             case RemoveSelection():
                 draft.change(RemoveBars(chosen.grid, chosen.first, chosen.last))
-                self._bars = None
+                self._position = replace(self._position, bars=None)
 
     def _pasting(self, inserts: bool) -> LessonEdit:
         if self._copied is None:
             raise BadInput("paste", "", "nothing is copied: select bars and press Ctrl+C first")
-        (copied, text), cursor = self._copied, self._cursor
+        (copied, text), cursor = self._copied, self._position.cursor
         return CopyBars(copied.grid, copied.first, copied.last, cursor.grid, cursor.bar, not inserts, text)
 
     # --- what follows ------------------------------------------------------------------------------------------------
@@ -295,14 +269,9 @@ class LessonEditor:
         draft = self._draft
         if draft is None:
             return
-        page = draft.now.page
-        self._cursor = within(page, self._cursor)
-        if self._bars is not None:
-            count = page.grids[self._bars.grid].bar_count if self._bars.grid < len(page.grids) else 0
-            kept = BarRange(self._bars.grid, self._bars.first, min(self._bars.last, count - 1))
-            self._bars = kept if kept.first <= kept.last else None
-        lesson = draft.lesson
-        played = None if lesson is None or self._bars is None else played_bars(lesson, self._bars)
+        self._position = self._position.within(draft.now.page)
+        lesson, bars = draft.lesson, self._position.bars
+        played = None if lesson is None or bars is None else played_bars(lesson, bars)
         loop = None if played is None else (played[0] + 1, played[1] + 1)
         if (lesson, loop) != self._shown and not self._kit.records:
             self._shown = lesson, loop
@@ -313,13 +282,9 @@ class LessonEditor:
         draft = self._draft
         if draft is None or draft.lesson is None:
             return
-        ends = () if bars is None else tuple(place_of_played(draft.lesson, draft.now.page, bar, 0) for bar in bars)
-        first, last = ends if len(ends) == 2 else (None, None)
-        if first is None or last is None or first.grid != last.grid:
-            self._bars = None
-        else:
-            self._bars = BarRange(first.grid, *sorted((first.bar, last.bar)))
-            self._cursor = replace(self._cursor, grid=first.grid, bar=self._bars.first, tick=0)
+        lesson, page = draft.lesson, draft.now.page
+        first, last = (None, None) if bars is None else (place_of_played(lesson, page, bar, 0) for bar in bars)
+        self._position = self._position.selecting(first, last)
         self._settle()
 
     def _leave(self) -> None:
