@@ -203,9 +203,7 @@ def _fine(
     return beat_s, _confidence(at, expected, is_near, onsets, song.written_s)
 
 
-def _heard_near(
-    at_s: Floats, expected: ExpectedOnsets, onsets: SoundOnsets, gate_s: float
-) -> tuple[Floats, Floats]:
+def _heard_near(at_s: Floats, expected: ExpectedOnsets, onsets: SoundOnsets, gate_s: float) -> tuple[Floats, Floats]:
     """The attack of its own band that is likeliest meant at each expected time (n,), and its worth: 0 where none is.
 
     Likeliest is a strong one near by: weak ones stand everywhere, for a chord that rings beats with itself.
