@@ -123,7 +123,8 @@ class TeacherPanel:
             self._dispatch(OpenTake(stem, number))
         early = "" if told.complete else ", stopped early"
         theme.tooltip(
-            f"{told.right} of {told.notes} notes right, judged as {told.level}{early}. Press to hear and see it"
+            f"The report: score {_shown(told.score)}, {told.right} of {told.notes} notes right, judged as"
+            f" {told.level}{early}. Press to hear and see it"
         )
         imgui.table_next_column()
         imgui.text(_score(session))
@@ -141,8 +142,11 @@ def take_label(stem: str, number: int) -> str:
 def _score(session: SessionRow) -> str:
     """The teacher's score where they gave one, else the report's."""
     given = None if session.verdict is None else session.verdict.score
-    score = session.told.figures.score if given is None else given
-    return "–" if score is None else f"{score:.0f}{'' if given is None else ' (yours)'}"
+    return _shown(session.told.figures.score) if given is None else f"{_shown(given)} (yours)"
+
+
+def _shown(score: float | None) -> str:
+    return "–" if score is None else f"{score:.0f}"
 
 
 def _checked(session: SessionRow) -> None:

@@ -85,8 +85,8 @@ def test_an_assignment_is_given_practised_returned_judged_and_answered(at_home: 
         (True, 3, None),
         (False, None, 4),
     ]
-    given = f"score 91 (the report says {report['score']:.0f}), strokes: 1 accepted and 1 not accepted"
-    said = f"rock-1, session 1: goals not yet reached, {given}; softer, please"
+    both = f"score 91 (the report says {report['score']:.0f}), strokes: 1 accepted and 1 not accepted"
+    said = f"rock-1, session 1: goals not yet reached, {both}; softer, please"
     told = at_home("Ms Okafor", "assignment", "review")
     assert said in told
     assert "rock-1: clean at 80 bpm: not yet" in told
