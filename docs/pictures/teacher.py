@@ -31,7 +31,7 @@ def draw(folder: Path, size: tuple[int, int]) -> None:
                     ctx.mouse_move_to_pos(imgui.ImVec2(2.0, 2.0))
                     shot(drive, ctx, folder / f"teacher-{KEPT[name]}-{size[0]}.png")
 
-            ThereAndBack(drive, ctx, Path(home), look).all()
+            ThereAndBack(drive, ctx, Path(), look).all()
 
         run(drive, scenario)
 

@@ -37,7 +37,7 @@ def main(script: str, draw: Draw) -> None:
     """`python SCRIPT [FOLDER]` draws all sizes, each in a process of its own; `SCRIPT FOLDER WIDTH HEIGHT` one."""
     words = sys.argv[1:]
     if len(words) > 1:
-        draw(Path(words[0]), (int(words[1]), int(words[2])))
+        draw(Path(words[0]).resolve(), (int(words[1]), int(words[2])))
         return
     folder = str(Path(*words or [HERE]).resolve())
     for width, height in SIZES:
