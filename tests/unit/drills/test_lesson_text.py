@@ -3,10 +3,11 @@
 import pytest
 
 from station.core.toml.toml_source import load
-from station.drills.library import find_lesson, lesson_names
+from station.drills.library import lesson_names
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_text import show
 from tests.same_lesson import first_difference
+from tests.shipped_lesson import shipped_lesson
 from tests.unit.drills.lesson_faults import GOOD
 
 HEAD = 'title = "T"\n'
@@ -135,7 +136,7 @@ def test_blanks_at_the_ends_of_rows_go_but_not_those_of_a_text() -> None:
 @pytest.mark.parametrize("name", lesson_names())
 def test_a_shipped_lesson_stands_as_it_is_shown(name: str) -> None:
     """If not: python -m tools.lesson_reference."""
-    text = find_lesson(name).text
+    text = shipped_lesson(name).text
     assert show(text) == text
 
 

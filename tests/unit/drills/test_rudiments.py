@@ -15,9 +15,9 @@ from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
-from station.drills.library import find_lesson
 from station.drills.rudiments import RUDIMENTS, ChartStroke, find_rudiment
 from station.music.score import Note
+from tests.shipped_lesson import shipped_lesson
 from tools.rudiment_table import PAGE, first_round, page
 
 PAS = {
@@ -114,7 +114,7 @@ def leads(lesson: Lesson, one: str) -> str:
 
 @each_lesson
 def test_hands_graces_and_accents_are_those_of_the_chart(number: int, level: int, name: str) -> None:
-    hands = leads(find_lesson(name), PAS[number][0])
+    hands = leads(shipped_lesson(name), PAS[number][0])
     first = "L" if level == 1 and number not in SAME_LEAD else "R"
     if number in WHOLE:
         assert set(hands) == {first}
@@ -128,8 +128,8 @@ def test_hands_graces_and_accents_are_those_of_the_chart(number: int, level: int
 @each_lesson
 def test_the_rhythm_is_the_charts(number: int, level: int, name: str) -> None:
     strokes, times = PAS[number][0], [int(t) for t in PAS[number][1]]
-    ticks = [n.tick for n in main(find_lesson(name))]
-    ends = [*ticks[1:], find_lesson(name).score.end_tick]
+    ticks = [n.tick for n in main(shipped_lesson(name))]
+    ends = [*ticks[1:], shipped_lesson(name).score.end_tick]
     lasts = [b - a for a, b in zip(ticks, ends, strict=True)]
     assert len(times) == sum(c.isupper() for c in strokes)
     shortest = lasts[times.index(1)]
@@ -164,7 +164,7 @@ def test_names_and_order_are_those_of_the_chart() -> None:
 @pytest.mark.parametrize(("level", "rate_hz"), [(0, 7), (1, 10), (2, 13)])
 def test_open_rolls_go_at_seven_ten_and_thirteen(number: int, level: int, rate_hz: float) -> None:
     """Measured from the moments of the strokes: within the roll the shortest and the median gap."""
-    lesson = find_lesson(RUDIMENTS[number - 1].lessons[level])
+    lesson = shipped_lesson(RUDIMENTS[number - 1].lessons[level])
     gaps_s = np.diff(np.unique([lesson.score.tempo_map.ns_at(n.tick) for n in main(lesson)])) / 1e9
     assert 1 / gaps_s.min() == pytest.approx(rate_hz, rel=0.03)
     assert 1 / np.median(gaps_s) == pytest.approx(rate_hz, rel=0.03)
@@ -173,7 +173,7 @@ def test_open_rolls_go_at_seven_ten_and_thirteen(number: int, level: int, rate_h
 
 @pytest.mark.parametrize("name", find_rudiment("4").lessons)
 def test_the_multiple_bounce_roll_buzzes_at_six_to_nine(name: str) -> None:
-    lesson = find_lesson(name)
+    lesson = shipped_lesson(name)
     notes = main(lesson)
     assert {n.articulation for n in notes} == {Articulation.BUZZ}
     a_second = lesson.tempo_bpm / 60 * PPQ / (notes[1].tick - notes[0].tick)
@@ -189,7 +189,7 @@ def test_the_multiple_bounce_roll_buzzes_at_six_to_nine(name: str) -> None:
 def test_where_the_release_falls(number: int, beats: set[float]) -> None:
     """Beats of the bar, counted from 1; of 2 and 3, which have no accents, the strokes before a rest."""
     for name in RUDIMENTS[number - 1].lessons:
-        lesson = find_lesson(name)
+        lesson = shipped_lesson(name)
         loud = [n.tick for n in main(lesson) if n.dynamic is Dynamic.ACCENT]
         ticks = [n.tick for n in main(lesson)]
         longest = [a for a, b in pairwise([*ticks, lesson.score.end_tick]) if b - a == PPQ]
@@ -198,14 +198,14 @@ def test_where_the_release_falls(number: int, beats: set[float]) -> None:
 
 @each_lesson
 def test_a_level_adds_tempo_and_feet(number: int, level: int, name: str) -> None:
-    lesson, row = find_lesson(name), RUDIMENTS[number - 1]
+    lesson, row = shipped_lesson(name), RUDIMENTS[number - 1]
     assert lesson.title == f"Rudiment {number}: {row.title}" + ("", ", medium", ", fast")[level]
     assert {n.piece for n in by_hand(lesson)} == {Piece.SNARE}
     feet = {n.piece for n in lesson.score} - {Piece.SNARE}
     assert feet == (set(), {Piece.HIHAT_PEDAL}, {Piece.HIHAT_PEDAL, Piece.KICK})[level]
     assert lesson.target_tempo_bpm > lesson.tempo_bpm
     if level:
-        slower = find_lesson(row.lessons[level - 1])
+        slower = shipped_lesson(row.lessons[level - 1])
         assert slower.level <= lesson.level
         assert slower.about != lesson.about
         pace = [x.tempo_bpm / min(np.diff([n.tick for n in main(x)])) for x in (slower, lesson)]
@@ -216,7 +216,7 @@ def test_a_level_adds_tempo_and_feet(number: int, level: int, name: str) -> None
 def test_grace_strokes_are_the_hands_own(number: int) -> None:
     """Flams 15–40 ms before, a drag's strokes 40–70 ms apart (players' practice), at every level."""
     for name in RUDIMENTS[number - 1].lessons:
-        leads_ms = {n.lead_ms for n in by_hand(find_lesson(name)) if n.lead_ms > 0}
+        leads_ms = {n.lead_ms for n in by_hand(shipped_lesson(name)) if n.lead_ms > 0}
         said = PAS[number][0]
         if "ll" in said:
             (near, far) = sorted(leads_ms)
@@ -235,7 +235,7 @@ def test_the_page_is_up_to_date() -> None:
 
 def test_the_page_says_what_a_lesson_plays() -> None:
     """Drag paradiddle #1 by hand: an accented eighth, then four sixteenths in 6/8, the first with a drag."""
-    ours = first_round(find_lesson("drag-paradiddle-1"), 5)
+    ours = first_round(shipped_lesson("drag-paradiddle-1"), 5)
     assert [(s.hand, s.graces, s.accented) for s in ours] == [
         ("R", 0, True),
         ("R", 2, False),
@@ -259,6 +259,6 @@ def test_finding() -> None:
 
 @pytest.mark.parametrize(("word", "title"), [("16", "Single Paradiddle"), ("Flam Tap", "Flam Tap")])
 def test_a_rudiment_is_practised_by_its_number_or_title(word: str, title: str) -> None:
-    assert find_lesson(word).title.endswith(f": {title}")
+    assert shipped_lesson(word).title.endswith(f": {title}")
     with pytest.raises(BadInput, match="no such lesson"):
-        find_lesson("41")
+        shipped_lesson("41")

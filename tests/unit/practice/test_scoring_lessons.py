@@ -4,7 +4,7 @@ from zlib import crc32
 
 import pytest
 
-from station.drills.library import find_lesson, lesson_names
+from station.drills.library import lesson_names
 from station.music.judgement import Label
 from station.practice.records.session_report import feel_of
 from station.practice.session.plan import PlanOptions, plan_practice
@@ -12,6 +12,7 @@ from station.scoring.align import align
 from station.scoring.analysis.summary import SummaryView, summarise
 from station.simulation.student_spec import parse_spec
 from station.simulation.virtual_student import play
+from tests.shipped_lesson import shipped_lesson
 
 SPEC = "seed={seed},sd_ms=12,bias_ms=-8,miss_pct=3,extra_pct=2"
 
@@ -21,7 +22,7 @@ PASSES = 4
 
 @pytest.mark.parametrize("lesson", lesson_names())
 def test_counts_and_timing_are_the_truth(lesson: str) -> None:
-    score = plan_practice(find_lesson(lesson), PlanOptions(loops=PASSES)).score
+    score = plan_practice(shipped_lesson(lesson), PlanOptions(loops=PASSES)).score
     allowed = max(1.0, 0.01 * len(score))
     student = play(score, parse_spec(SPEC.format(seed=crc32(lesson.encode()))))
     alignment = align(score, student.performance, clocked=True)
@@ -35,7 +36,7 @@ def test_counts_and_timing_are_the_truth(lesson: str) -> None:
 @pytest.mark.parametrize("lesson", lesson_names())
 def test_who_plays_exactly_what_is_written_has_100(lesson: str) -> None:
     """Openness, grabbed cymbals and grace strokes among it, as a General MIDI kit tells them."""
-    found = find_lesson(lesson)
+    found = shipped_lesson(lesson)
     score = plan_practice(found, PlanOptions(loops=1)).score
     student = play(score, parse_spec("seed=1,sd_ms=0,velocity_sd=0"))
     alignment = align(score, student.performance, clocked=True)

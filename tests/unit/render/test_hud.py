@@ -3,15 +3,16 @@
 import numpy as np
 import pytest
 
-from station.drills.library import find_lesson, lesson_names
+from station.drills.library import lesson_names
 from station.render.hud import hud_calls, hud_lines
 from station.render.snapshot import Hud, TimingCue
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import ShapeKind
+from tests.shipped_lesson import shipped_lesson
 
 SMALL = (640.0, 252.0)  # the scene of a picture of 640x360, over the score
 SCENE = (1280.0, 504.0)  # that of a picture of 1280x720
-TITLES = sorted((find_lesson(name).title for name in lesson_names()), key=len)
+TITLES = sorted((shipped_lesson(name).title for name in lesson_names()), key=len)
 
 
 @pytest.fixture(scope="module")

@@ -9,12 +9,13 @@ from station.core.pieces import Limb, Piece, word
 from station.core.units import PPQ
 from station.drills.editing.lesson_edits import LineAt
 from station.drills.editing.written_music import WrittenMusic, written_music
-from station.drills.library import find_lesson, lesson_names
+from station.drills.library import lesson_names
 from station.render.notation.page.editable_page import EditablePage
 from station.render.notation.page.page_places import pieces_on
 from station.render.notation.staff import PLACES, step_of
 from station.render.text.paper import OutlineAtlas
 from station.scenes.draft_notation import page_setter
+from tests.shipped_lesson import shipped_lesson
 
 ATLAS = OutlineAtlas()
 ROCK = """
@@ -38,7 +39,7 @@ def page_of(text: str, width: float = 60.0) -> tuple[WrittenMusic, EditablePage]
 @pytest.mark.parametrize("part", range(PARTS))
 def test_every_head_of_the_shipped_lessons_says_its_tick_its_piece_and_its_line(part: int) -> None:
     for name in lesson_names()[part::PARTS]:
-        music, page = page_of(find_lesson(name).text)
+        music, page = page_of(shipped_lesson(name).text)
         starts = [music.score.tempo_map.bar_start(bar) for bar in range(music.score.bar_count)]
         for line in page.places.lines:
             bars = {place.bar: place for place in line.bars}
@@ -56,7 +57,7 @@ def test_every_head_of_the_shipped_lessons_says_its_tick_its_piece_and_its_line(
 @pytest.mark.parametrize("part", range(PARTS))
 def test_no_stroke_of_the_shipped_lessons_is_without_a_head(part: int) -> None:
     for name in lesson_names()[part::PARTS]:
-        music, page = page_of(find_lesson(name).text)
+        music, page = page_of(shipped_lesson(name).text)
         heads = {(head.tick, head.piece) for line in page.places.lines for head in line.heads}
         assert heads == set(music.lines), name
 
@@ -116,7 +117,7 @@ def test_an_empty_bar_has_a_place_for_each_half_beat() -> None:
 
 
 def test_lines_are_no_wider_than_asked_and_lie_below_each_other() -> None:
-    _, page = page_of(find_lesson("bembe-fill-1").text, 40.0)
+    _, page = page_of(shipped_lesson("bembe-fill-1").text, 40.0)
     lines = page.places.lines
     assert len(lines) > 1
     assert all(line.bars[-1].right <= 40.0 + 1e-6 for line in lines)

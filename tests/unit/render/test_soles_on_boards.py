@@ -14,21 +14,26 @@ from station.music.tempo import TempoMap
 from station.render.figure.body import build_body
 from station.render.figure.bones import Bone
 from station.render.figure.skeleton import Skeleton
+from station.render.figure.skin import Skin
 from station.render.geometry.materials import Material
 
 FIGURE = figure_of()
-SKIN = build_body(FIGURE, 0.5)
 SCORE = Score.from_notes([Note(k * PPQ, Piece.KICK) for k in range(4)], TempoMap.constant(120))
+
+
+@pytest.fixture(scope="module")
+def skin() -> Skin:
+    return build_body(FIGURE, 0.5)
 
 
 @pytest.mark.parametrize("heel", ["down", "up"])
 @pytest.mark.parametrize("time_s", [0.5, 0.94, 1.2])
-def test_the_drawn_sole_is_on_the_kicks_board(heel: str, time_s: float) -> None:
+def test_the_drawn_sole_is_on_the_kicks_board(heel: str, time_s: float, skin: Skin) -> None:
     pose = Drummer(SCORE, figure=FIGURE, style=Style(heel=heel)).pose(time_s)
     matrices = Skeleton(FIGURE).matrices(pose)
-    sole = (SKIN.material == Material.SOLE) & (np.isin(SKIN.bones[:, 0], (Bone.RIGHT_FOOT, Bone.RIGHT_TOES)))
-    at = np.hstack([SKIN.position[sole], np.ones((sole.sum(), 1))])
-    carried = np.einsum("nk,nkij,nj->ni", SKIN.weights[sole], matrices[SKIN.bones[sole]], at)[:, :3]
+    sole = (skin.material == Material.SOLE) & (np.isin(skin.bones[:, 0], (Bone.RIGHT_FOOT, Bone.RIGHT_TOES)))
+    at = np.hstack([skin.position[sole], np.ones((sole.sum(), 1))])
+    carried = np.einsum("nk,nkij,nj->ni", skin.weights[sole], matrices[skin.bones[sole]], at)[:, :3]
     board = load_kit().pedals[Piece.KICK]
     raised = pose.footboard_rad[0]
     over = (carried - board.heel_m) @ [0.0, -np.sin(raised), np.cos(raised)]

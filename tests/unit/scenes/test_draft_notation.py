@@ -3,8 +3,9 @@
 import numpy as np
 
 from station.core.units import PPQ
-from station.drills.library import find_lesson, lesson_names
+from station.drills.library import lesson_names
 from station.scenes.draft_notation import DraftNotation, Notation
+from tests.shipped_lesson import shipped_lesson
 
 ROCK = 'title = "R"\n[grid]\nhihat = "| x-x-x-x- | x-x-x-x- |"\nkick = "| o---o--- | o---o-o- |"\n'
 DRAWN = ("centre", "half", "axis", "style", "kind", "colour")
@@ -25,7 +26,7 @@ def assert_alike(one: Notation, other: Notation) -> None:
 
 
 def test_bars_that_were_kept_look_as_they_do_when_all_is_set_anew() -> None:
-    draft, texts = DraftNotation(), [find_lesson(name).text for name in lesson_names()[::25]]
+    draft, texts = DraftNotation(), [shipped_lesson(name).text for name in lesson_names()[::25]]
     for text in [*texts, *texts[:3]]:
         assert_alike(shown(draft, text), shown(DraftNotation(), text))
 

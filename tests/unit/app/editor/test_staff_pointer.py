@@ -8,9 +8,10 @@ from station.core.units import PPQ
 from station.drills.editing.grid_cursor import Cursor, GridStep, Place, letter_at
 from station.drills.editing.lesson_edits import REST, LineAt
 from station.drills.editing.page_reader import page_of
-from station.drills.library import find_lesson, lesson_names
+from station.drills.library import lesson_names
 from station.render.notation.staff import step_of
 from station.scenes.draft_notation import DraftNotation
+from tests.shipped_lesson import shipped_lesson
 
 ROCK = """
 title = "Rock"
@@ -85,7 +86,7 @@ def test_beside_the_bars_is_nothing() -> None:
 def test_every_head_of_shipped_lessons_is_a_letter_of_the_page(part: int) -> None:
     """Two readings of a text agree: what notation draws, and the cells that the grid shows."""
     for name in lesson_names()[part :: 3 * 8]:
-        text = find_lesson(name).text
+        text = shipped_lesson(name).text
         pointer = pointer_of(text)
         for line in pointer.notation.page.places.lines:
             for head in line.heads:

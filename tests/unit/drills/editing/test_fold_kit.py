@@ -8,8 +8,9 @@ from station.core.stand_ins import STAND_INS, stand_in
 from station.drills.editing.edit_lesson import edited
 from station.drills.editing.folded_lesson import folded
 from station.drills.editing.lesson_edits import Fold
-from station.drills.library import find_lesson, lesson_names
+from station.drills.library import lesson_names
 from station.drills.reading.lesson_file import parse_lesson
+from tests.shipped_lesson import shipped_lesson
 
 HEAD = 'title = "T"\n'
 SMALL = frozenset({Piece.KICK, Piece.SNARE, Piece.HIHAT, Piece.HIHAT_PEDAL, Piece.TOM_1, Piece.CRASH_1})
@@ -118,7 +119,7 @@ def test_a_kit_on_which_nothing_is_left_is_told() -> None:
 
 @pytest.mark.parametrize("name", lesson_names()[::9])
 def test_shipped_lessons_can_be_played_on_a_kit_of_four(name: str) -> None:
-    lesson = find_lesson(name)
+    lesson = shipped_lesson(name)
     four = {Piece.KICK, Piece.SNARE, Piece.HIHAT, Piece.HIHAT_PEDAL}
     small = folded(lesson, four)
     assert {note.piece for note in small.score} <= four

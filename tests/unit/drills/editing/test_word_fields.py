@@ -10,9 +10,10 @@ import pytest
 from station.core.errors import BadInput
 from station.drills.editing.words.word_fields import FieldKind, WordField, WordList, WordTable, all_fields, words_form
 from station.drills.editing.words.word_values import shown_value, typed_value
-from station.drills.library import find_lesson, lesson_names
+from station.drills.library import lesson_names
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_schema import lesson_schema
+from tests.shipped_lesson import shipped_lesson
 from tests.unit.drills.editing.toml_leaves import toml_leaves
 
 REFERENCE = Path(__file__).parents[4] / "docs" / "lesson-format.md"
@@ -93,7 +94,7 @@ def test_what_the_text_says_is_filled_in_and_the_rest_is_empty() -> None:
 
 def test_every_value_of_the_shipped_lessons_stands_in_a_field() -> None:
     for name in lesson_names()[::15]:
-        text = find_lesson(name).text
+        text = shipped_lesson(name).text
         fields = {field.path: field.value for field in all_fields(words_form(text)) if field.is_said}
         assert fields == toml_leaves(text), name
 
