@@ -5,7 +5,7 @@
 Each input has its own source of chance, made of the seed and its number: `--first` goes on where a run was ended, and
 throws a single one again with `--inputs 1`. The kinds take turns. An assignment that can be read has its lessons read
 too. Some files are kept in a home of their own, where afterwards nothing may lie but what keeping leaves; of some
-returns a session is judged again. Time is the process's own, memory what it takes beyond what it began with.
+returns a session is judged again. Time is the process's own, memory what reading takes.
 Prints a table, and keeps each input that does harm in `--keep`.
 """
 
@@ -16,7 +16,8 @@ import shutil
 import signal
 import tempfile
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -132,7 +133,8 @@ def _tried(kind: Kind, data: bytes, rng: random.Random, tally: Tally) -> str | N
     began_s = time.process_time()
     signal.setitimer(signal.ITIMER_PROF, LIMIT_S)
     try:
-        _use(kind, data, rng)
+        with _limited_memory():
+            _use(kind, data, rng)
         tally.read += 1
     except BadInput as fault:
         tally.refused += 1
@@ -151,11 +153,16 @@ def _too_slow(*_: object) -> None:
     raise TooSlow
 
 
-def _limit_memory() -> None:
-    """From here on the process may have so much more."""
+@contextmanager
+def _limited_memory() -> Iterator[None]:
+    """Within, the process may have so much more; what is thrown was made before."""
     used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
     _, most = resource.getrlimit(resource.RLIMIT_AS)
     resource.setrlimit(resource.RLIMIT_AS, (used + LIMIT_MB * 2**20, most))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (most, most))
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,7 +180,6 @@ def run(throw: Throw, tell: Callable[[str], None]) -> dict[Kind, Tally]:
     """Throw them; every ten thousand one line is told."""
     of = {kind: [seed for seed in seeds() if seed.kind is kind] for kind in throw.kinds}
     tallies = {kind: Tally() for kind in Kind}
-    _limit_memory()
     for index in range(throw.first, throw.last + 1):
         rng = random.Random(f"{throw.seed}-{index}")
         kind, data = hostile(of[throw.kinds[index % len(throw.kinds)]], rng)

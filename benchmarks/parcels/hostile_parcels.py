@@ -107,6 +107,10 @@ _NON_JSON = (
 )
 
 
+_MOST_COPIED = 1_000_000
+"""Letters that one change adds to a table: twice as many are longer than any that is read (our choice)."""
+
+
 @dataclass(frozen=True, slots=True)
 class Seed:
     """An honest parcel: its kind, its table without sums, its members."""
@@ -377,7 +381,8 @@ def _spoil(value: dict[Any, Any] | list[Any], rng: random.Random) -> None:
         case 1 if isinstance(value, dict):
             value[rng.choice(_HOSTILE_WORDS)] = value[key]
         case 2 if isinstance(value, list):
-            value += [deepcopy(value[key])] * rng.choice((1, 2, 60, 3000))
+            most = 1 + _MOST_COPIED // len(json.dumps(value[key]))
+            value += [deepcopy(value[key]) for _ in range(min(rng.choice((1, 2, 60, 3000)), most))]
         case 3:
             value[key] = deepcopy(rng.choice(_HOSTILE_VALUES))
         case 4:
