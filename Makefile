@@ -28,7 +28,8 @@ setup-test: $(READY)
 
 test: setup-test check  ## the same set-up, then every check and every test
 
-check: format lint types imports unit  ## what must be green before a commit
+check: format lint  ## what must be green before a commit
+	@$(MAKE) --no-print-directory -j 2 types imports unit
 
 format: $(READY)
 	@$(BIN)/ruff format --check --quiet station tests $(EXTRAS)

@@ -121,18 +121,19 @@ FILMS = "import sys; words = sys.argv; open(words[words.index('--out') + 1], 'w'
 
 
 class Measurement:
-    """Stands in for the process that measures: a measurement by strikes whose devices answer at once, in doubt."""
+    """Stands in for the process that measures: a measurement by strikes that finds something in doubt.
+
+    It says a line at once, and what it found when it is asked for the 30th time, as if the pads had been struck by then.
+    """
 
     def __init__(self, request: MeasureRequest) -> None:
         doubtful = LatencyEstimate(4.0, -1.0, 9.0, 8.0, 12, ("the strokes scatter by 8 ms",))
-        self._says: list[Message] = [
-            "strike each pad",
-            CalibrationResults(Devices(kit=KIT), (CalibrationResult("kit", KIT, doubtful),)),
-        ]
+        found = CalibrationResults(Devices(kit=KIT), (CalibrationResult("kit", KIT, doubtful),))
+        self._says: list[list[Message]] = [["strike each pad"], *([] for _ in range(28)), [found]]
         self.by = request.by
 
     def messages(self) -> list[Message]:
-        return [self._says.pop(0)] if self._says else []
+        return self._says.pop(0) if self._says else []
 
     def end(self) -> None:
         pass
