@@ -123,7 +123,7 @@ FILMS = "import sys; words = sys.argv; open(words[words.index('--out') + 1], 'w'
 class Measurement:
     """Stands in for the process that measures: a measurement by strikes that finds something in doubt.
 
-    It says a line at once, and what it found when it is asked for the 30th time, as if the pads had been struck by then.
+    It says a line at once, and what it found when it is asked for the 30th time, as if the pads were struck by then.
     """
 
     def __init__(self, request: MeasureRequest) -> None:
