@@ -1,28 +1,26 @@
 """How processes of ours are started."""
 
 import signal
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
+from multiprocessing import resource_tracker
 
 _FROM_THE_TERMINAL = [getattr(signal, name) for name in ("SIGINT", "SIGHUP") if hasattr(signal, name)]
 
 
 @contextmanager
 def ctrl_c_ignored() -> Iterator[None]:
-    """What is started meanwhile ignores Ctrl-C and a hung-up terminal, which reach all; ours is as before afterwards.
+    """What is started meanwhile ignores Ctrl-C and a hung-up terminal, which reach all; we hear them, soon after.
 
-    Only the main thread may change that (Python's documentation of `signal`); another one starts the child as it is.
+    They are held back rather than ignored: a child has its mask from the thread that starts it, and what reaches us
+    meanwhile waits. Where there are no masks (Windows) a child sees to it by itself.
     """
-    before = {number: signal.getsignal(number) for number in _FROM_THE_TERMINAL}
-    if threading.current_thread() is not threading.main_thread():
+    if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    mine = {number: was for number, was in before.items() if was is not None}  # None: not Python's to restore
-    for number in mine:
-        signal.signal(number, signal.SIG_IGN)
+    resource_tracker.ensure_running()  # before Python 3.13 its start, at the first child's, holds nothing back any more
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _FROM_THE_TERMINAL)
     try:
         yield
     finally:
-        for number, was in mine.items():
-            signal.signal(number, was)
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
