@@ -23,7 +23,6 @@ from real_room import Context, RealRoom  # noqa: E402
 from stops import STOPS  # noqa: E402
 
 from station.bench.rigs.devices.jack_server import JackServer, jackd_is_installed  # noqa: E402
-from station.bench.rigs.devices.serial_kit import SerialKit  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402
 
 _FRAMES_A_SECOND = 10
@@ -47,10 +46,10 @@ def _filmed(size: str, path: Path | None) -> Iterator[None]:
 def walk(size: str, scale: float, folder: Path, film: Path | None, only: int | None) -> None:
     """Walk on this screen, and keep a picture of every stop in `folder`."""
     width, height = map(int, size.split("x"))
-    with tempfile.TemporaryDirectory() as home, SerialKit(Path(home) / "ttyUSB0") as kit, PtyStudent(kit) as student:
+    with tempfile.TemporaryDirectory() as home, PtyStudent(Path(home) / "ttyUSB0") as student:
         sessions = Path(home) / "sessions"
         sessions.mkdir()
-        room = RealRoom(sessions, kit, student, (width, height), scale)
+        room = RealRoom(sessions, student, (width, height), scale)
 
         def whole(room: RealRoom, ctx: Context) -> None:
             for place, stop in enumerate(STOPS[:only], 1):

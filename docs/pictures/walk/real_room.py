@@ -16,7 +16,6 @@ from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
 from station.app.sessions.session_control import Launch
 from station.app.settings.settings_store import SettingsStore
-from station.bench.rigs.devices.serial_kit import SerialKit
 from station.core.clock import Clock, MonotonicClock
 from station.core.measured_latency import load_calibration
 from station.drills.library import FIRST_LESSON, find_lesson
@@ -35,11 +34,8 @@ Context = imgui.test_engine.TestContext
 class RealRoom(Drive):
     """What the walk works with: `student` sits at the kit, and looks at the screen whenever a frame is on it."""
 
-    def __init__(
-        self, sessions: Path, kit: SerialKit, student: PtyStudent, size: tuple[int, int], scale: float
-    ) -> None:
+    def __init__(self, sessions: Path, student: PtyStudent, size: tuple[int, int], scale: float) -> None:
         self._engines = ExitStack()
-        self._kit = kit
         self.student = student
         super().__init__(sessions, NEWCOMER, picture_every=1, size=size)
         self.station.dispatch(SetView(replace(self.state.view_settings, scale=scale)))
@@ -47,7 +43,7 @@ class RealRoom(Drive):
     def made(self, store: SettingsStore, student: StudentSpec | None) -> tuple[Controller, DirectEngine, Clock]:
         """The station as `station` opens it; nothing of its engine is played."""
         del student
-        store = SettingsStore(self.settings, {"kit": self._kit.device})
+        store = SettingsStore(self.settings, {"kit": self.student.device})
         wake = lambda: self._engines.enter_context(EngineSupervisor(EngineConfig.from_settings(store.now)))  # noqa: E731
         launch = Launch(
             plan_practice(find_lesson(FIRST_LESSON), PlanOptions()), True, latency_of(store.now, load_calibration())
