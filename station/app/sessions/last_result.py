@@ -8,12 +8,10 @@ from collections.abc import Mapping
 
 from station.app.room_state import ShownResult
 from station.app.sessions.shown_result import SavedSession
-from station.core.events import Hit
 from station.drills.exam.rubric import Marks
-from station.engine.messages import EngineEvent
 from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, previous_bar, students_bar
 from station.practice.session.cues.listening import Listening
-from station.practice.session.self_estimate import GUESS_OF, QUESTION, SelfEstimate, answered, is_worth_asking
+from station.practice.session.self_estimate import QUESTION, SelfEstimate, answered, is_worth_asking
 from station.render.snapshot import Snapshot
 from station.scenes.comparison import Comparison
 from station.scenes.curves import ScoreCurves
@@ -65,10 +63,6 @@ class LastResult:
             return None
         self.is_asking = False
         return answered(guess, self._saved.report.document)
-
-    def guess_of(self, event: EngineEvent) -> SelfEstimate | None:
-        """What a stroke answers while the question is open."""
-        return GUESS_OF.get(event.piece) if self.is_asking and isinstance(event, Hit) else None
 
     def leave(self) -> None:
         """The student turns to something else: a question stays unanswered."""
