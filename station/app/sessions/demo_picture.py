@@ -75,10 +75,12 @@ def _direction(view: PlayerView) -> Direction:
 
 def _hud(view: PlayerView, counting: Counting, direction: Direction) -> Hud:
     player, place, song = view.player, view.player.place(view.now_ns), view.player.song
-    tempo = demonstration_tempo(view.lesson, player, view.position_ns)
+    tempo = demonstration_tempo(
+        song.tempo_map, song.tick_at(view.position_ns), view.lesson.beat_ticks, player.speed_percent
+    )
     return Hud(
         title=view.lesson.title,
-        phase=demonstration_place(player, view.now_ns, bool(counting.left_ns)).words,
+        phase=demonstration_place(place, player.speed_percent, bool(counting.left_ns)).words,
         count_in=None if counting.count_in is None else counting.count_in.beat(counting.left_ns),
         bar=place.bar + 1,
         beat=place.beat + 1,

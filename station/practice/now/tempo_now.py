@@ -7,10 +7,8 @@ tempo, beginning and target are those of the same place in the music, so that th
 from dataclasses import dataclass
 
 from station.core.units import PPQ
-from station.drills.lesson import Lesson
 from station.music.score import Score
 from station.music.tempo import TempoMap
-from station.practice.demonstration.song_player import SongPlayer
 from station.practice.session.plan import Phase, Plan
 from station.practice.session.session import Session
 
@@ -89,10 +87,10 @@ def _music_now(session: Session) -> tuple[Score, int, int]:
     return music, tick, min(max(within, 0), max(plan.section.end_tick - 1, 0))
 
 
-def demonstration_tempo(lesson: Lesson, player: SongPlayer, at_ns: int) -> TempoNow:
-    """The tempo of a demonstration at song time `at_ns`, slower or faster than written as the player says."""
-    written = tempo_at(player.song.tempo_map, player.song.tick_at(at_ns), lesson.beat_ticks)
-    return TempoNow(written * player.speed_percent / 100, percent=player.speed_percent, of=written)
+def demonstration_tempo(written: TempoMap, tick: int, beat_ticks: int, percent: int) -> TempoNow:
+    """The tempo of a demonstration at `tick`, so many `percent` as fast as `written`."""
+    of = tempo_at(written, tick, beat_ticks)
+    return TempoNow(of * percent / 100, percent=percent, of=of)
 
 
 def replay_tempo(score: Score, bar: int, beat_ticks: int, played: float | None = None) -> TempoNow:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import Enum, auto
 
 from station.core.units import NS_PER_S, PPQ
-from station.practice.demonstration.song_player import SongPlayer
+from station.music.tempo import BarPosition
 from station.practice.session.plan import Phase, Plan
 from station.practice.session.session import Session
 
@@ -127,11 +127,10 @@ def _counted_beat(plan: Plan, end_ns: int, at_ns: int) -> int:
     return (-left - pickup) // meter.beat_ticks % meter.beats + 1
 
 
-def demonstration_place(player: SongPlayer, now_ns: int, is_counted_in: bool) -> Whereabouts:
-    """Where a demonstration is."""
-    place = player.place(now_ns)
+def demonstration_place(at: BarPosition, percent: int, is_counted_in: bool) -> Whereabouts:
+    """Where a demonstration is that goes so many `percent` as fast as written."""
     doing = Doing.COUNT_IN if is_counted_in else Doing.DEMONSTRATION
-    return Whereabouts(doing, bar=place.bar + 1, beat=place.beat + 1, percent=player.speed_percent)
+    return Whereabouts(doing, bar=at.bar + 1, beat=at.beat + 1, percent=percent)
 
 
 def replay_place(whose: str, bar: int | None = None, beat: int | None = None) -> Whereabouts:

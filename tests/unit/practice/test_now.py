@@ -12,7 +12,6 @@ from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson, shipped_lessons
 from station.engine.messages import Started
-from station.practice.demonstration.song_player import Song, SongPlayer
 from station.practice.now.tempo_now import TempoNow, demonstration_tempo, session_tempo
 from station.practice.now.whereabouts import Doing, Whereabouts, place_of, replay_place, whereabouts
 from station.practice.session.adaptation import Adaptation
@@ -87,8 +86,7 @@ def test_beats_are_those_of_the_lesson() -> None:
 
 
 def test_a_slow_demonstration_tells_the_tempo_that_is_heard_and_what_it_is_of() -> None:
-    song = Song.of(LESSON.score)
-    tempo = demonstration_tempo(LESSON, SongPlayer(song, speed_percent=50), 0)
+    tempo = demonstration_tempo(LESSON.score.tempo_map, 0, LESSON.beat_ticks, 50)
     assert tempo.now == pytest.approx(LESSON.tempo_bpm / 2, abs=1e-3)
     assert tempo.words == f"50 % of {LESSON.tempo_bpm:g}"
 
