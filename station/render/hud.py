@@ -1,4 +1,4 @@
-"""What is written over the scene: lesson, phase, tempo, beat, count-in, the one coarse cue, a message.
+"""What is written over the scene: lesson, phase, tempo, beat, count-in, what halts it, the one coarse cue, a message.
 
 Sizes are pixels of a picture 720 high and grow with it, so that everything can be read two metres away.
 """
@@ -61,7 +61,7 @@ def hud_lines(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.v
 
 def corners(hud: Hud) -> Hud:
     """What `hud_lines` shows of `hud`, and nothing else."""
-    return replace(hud, count_in=None, cue=TimingCue.NONE, cue_age_s=0.0, message="", say="")
+    return replace(hud, count_in=None, cue=TimingCue.NONE, cue_age_s=0.0, message="", say="", halt="", way_on="")
 
 
 def hud_calls(hud: Hud, atlas: Atlas, size: tuple[float, float]) -> NDArray[np.void]:
@@ -81,6 +81,9 @@ def scale(height: float) -> float:
 
 _SAID, _SAID_LINES = 36.0, 2
 """A teacher's words are the largest after the count-in's number: they are read over the drums (our choice)."""
+
+_HALT = 76.0
+"""The word that stands while nothing moves: half the count-in's number, read across a room (our choice)."""
 
 _NAMES = ("Demonstrator", "You")
 
@@ -122,7 +125,9 @@ class _HudPage:
         if not self._has_room:
             return self._draw_list.shapes()
         bottom = self._say() if self._hud.say else self._height
-        if self._hud.count_in is not None:
+        if self._hud.halt:
+            self._halt()
+        elif self._hud.count_in is not None:
             self._count_in(self._hud.count_in)
         elif self._hud.cue is not TimingCue.NONE:
             self._cue(_CUES[self._hud.cue], bottom)
@@ -141,6 +146,11 @@ class _HudPage:
                 hud.phase, TypeStyle(20 * k, _LINE, Face.REGULAR, 0.0, _HALO), self._width * 0.56
             )
             self._draw_list.text(text, ((_EDGE + 20) * k, 78 * k), style)
+        if hud.reason:
+            text, style = self._shrunk(
+                hud.reason, TypeStyle(17 * k, _LINE, Face.REGULAR, 0.0, _HALO), self._width * 0.56
+            )
+            self._draw_list.text(text, ((_EDGE + 20) * k, 103 * k), style)
 
     def _shrunk(self, text: str, style: TypeStyle, room: float) -> tuple[str, TypeStyle]:
         """A line that has so much room, in letters as large as fit; cut where even the smallest do not."""
@@ -161,22 +171,42 @@ class _HudPage:
         return right - self._draw_list.text(f"{hud.beats_a_minute:.0f}", (right, 46 * k), tempo)
 
     def _place(self) -> None:
-        """Bar and beat, and how much was right, under the tempo."""
+        """Under the tempo what explains it, then bar and beat, and how much was right."""
         k, hud = self._k, self._hud
-        right = self._width - _EDGE * k
+        right, y = self._width - _EDGE * k, 78.0
+        if hud.tempo_words:
+            text, style = self._shrunk(
+                hud.tempo_words, TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO), self._width * 0.36
+            )
+            self._draw_list.text(text, (right, (y - 4) * k), style)
+            y += 24
         if hud.bar is None or hud.beat is None:
             return
         x = right - 7 * k
         for beat in range(hud.beats, 0, -1):
             now = beat == hud.beat
             size = (7.5 if now else 5.0) * k
-            self._draw_list.ellipse((x, 72 * k), (size, size), (BRAND if now else INK_FAINT))
+            self._draw_list.ellipse((x, (y - 6) * k), (size, size), (BRAND if now else INK_FAINT))
             x -= 21 * k
         where = f"bar {hud.bar}" + (f" of {hud.bar_count}" if hud.bar_count else "")
-        self._draw_list.text(where, (x - 6 * k, 78 * k), TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
+        self._draw_list.text(where, (x - 6 * k, y * k), TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
         if hud.judged:
             text = f"{hud.right} of {hud.judged} right"
-            self._draw_list.text(text, (right, 104 * k), TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
+            self._draw_list.text(text, (right, (y + 26) * k), TypeStyle(18 * k, _LINE, Face.REGULAR, 1.0, _HALO))
+
+    def _halt(self) -> None:
+        """What is to be read from afar while nothing moves, and how to go on."""
+        k, hud, middle = self._k, self._hud, (self._width / 2, self._height * 0.52)
+        room = self._width - 4 * _EDGE * k
+        word, style = self._shrunk(hud.halt, TypeStyle(_HALT * k, INK, Face.BOLD, 0.5), room)
+        way, small = self._shrunk(hud.way_on, TypeStyle(26 * k, INK, Face.REGULAR, 0.5), room)
+        widths = self._draw_list.width(word, style), self._draw_list.width(way, small)
+        width, height = max(widths) + 2 * _EDGE * k, (158 if way else 112) * k
+        top = middle[1] - height / 2
+        self._draw_list.box((middle[0] - width / 2, top), (width, height), PANEL, None, (16 * k, 0.0, 0.0))
+        self._draw_list.text(word, (middle[0], top + 82 * k), style)
+        if way:
+            self._draw_list.text(way, (middle[0], top + 130 * k), small)
 
     def _count_in(self, number: int) -> None:
         k, centre = self._k, (self._width / 2, self._height * 0.52)

@@ -9,11 +9,17 @@ from collections.abc import Mapping
 from station.app.room_state import ShownResult
 from station.app.sessions.shown_result import SavedSession
 from station.drills.exam.rubric import Marks
-from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, previous_bar, students_bar
+from station.practice.demonstration.compare_by_ear import (
+    Whose,
+    bar_by_ear,
+    previous_bar,
+    previous_tempo,
+    students_bar,
+)
 from station.practice.session.cues.listening import Listening
 from station.practice.session.self_estimate import QUESTION, SelfEstimate, answered, is_worth_asking
 from station.render.snapshot import Snapshot
-from station.scenes.comparison import Comparison
+from station.scenes.comparison import Comparison, Replayed
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
 from station.scenes.session_scene import result_curves
@@ -79,14 +85,15 @@ class LastResult:
         if self._saved is None or self.is_asking:
             return None
         result, before = self._saved.result, self._saved.report.before
-        played, words = None, "the teacher"
+        played, shown = None, Replayed("the teacher")
         if whose is Whose.STUDENT:
-            played, words = students_bar(result, bar), self._saved.report.student or "you"
+            played, shown = students_bar(result, bar), Replayed(self._saved.report.student or "you")
         elif whose is Whose.PREVIOUS:
             if isinstance(before, str):
                 return None
-            played, words = previous_bar(result, bar, before), f"you, {before.day}"
-        self._compared = Comparison(result, bar, played, demonstrator, words)
+            played = previous_bar(result, bar, before)
+            shown = Replayed(f"you, {before.day}", previous_tempo(result, bar, before))
+        self._compared = Comparison(result, bar, played, demonstrator, shown)
         listening = bar_by_ear(result, bar, played)
         self._from_ns = listening.from_ns
         return listening
