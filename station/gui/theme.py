@@ -1,7 +1,7 @@
 """The look of the panels: the same night, ink and orange as the pictures, in the same typeface.
 
 A theme dyes them as it dyes the pictures (`render.palette`); sizes are design pixels, grown by the screen's density and
-by the user's own scale.
+by the factor that the window's size and the user ask for (`panel_size`).
 """
 
 from bisect import bisect_left
@@ -22,6 +22,8 @@ _ICONS, _ICON_SIZE = "fonts/fontawesome-webfont.ttf", 15.0
 _TOOLTIP_WIDTH = 420.0
 """Design pixels; our choice: some sixty letters, a good line to read."""
 _ROUND, _LESS_ROUND = 10.0, 7.0
+_WHOLE_TAB = 170.0
+"""Design pixels of the longest tab with its cross: tabs that have no room are scrolled, not shortened."""
 _NARROW = 300.0
 """Design pixels: a slider beside a label and two buttons would have less than a hundred (our choice)."""
 _PANEL = palette.PAPER
@@ -45,11 +47,22 @@ class _Current:
 
     theme = Theme.NIGHT
     scale = 1.0
+    times_docked = 0
 
 
 def choose(theme: Theme, scale: float) -> None:
     """What `apply` shall show: the colours of `theme`, panels `scale` times as large as designed."""
     _Current.theme, _Current.scale = theme, scale
+
+
+def docked_anew() -> None:
+    """The panels get their first places again: what has fitted itself into one does so once more."""
+    _Current.times_docked += 1
+
+
+def times_docked() -> int:
+    """How often the panels got their first places again."""
+    return _Current.times_docked
 
 
 def chosen() -> Theme:
@@ -84,6 +97,7 @@ def apply() -> None:
     style.window_border_size = 0.0
     style.scrollbar_size = points(12)
     style.grab_min_size = points(12)
+    style.tab_min_width_shrink = points(_WHOLE_TAB)
     for slot, colour in _colours().items():
         style.set_color_(slot, _vec(colour))
     _apply_to_plots()
@@ -299,7 +313,7 @@ def fit_height(height: float) -> None:
 
 
 def points(pixels: float) -> float:
-    """Design pixels in the window's own, which grow with the screen's density and the user's scale."""
+    """Design pixels in the window's own, which grow with the screen's density and with the panels (`panel_size`)."""
     return pixels * float(hello_imgui.dpi_window_size_factor()) * _Current.scale
 
 
