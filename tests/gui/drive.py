@@ -15,9 +15,11 @@ from imgui_bundle import hello_imgui, imgui
 from numpy.typing import NDArray
 
 from station.app.actions.practice_actions import Dismiss, EndSession
+from station.app.controller import Controller
 from station.app.room_state import RoomState, Stage
 from station.app.settings.settings_store import SettingsStore
 from station.app.window_state import State
+from station.core.clock import Clock
 from station.core.settings import Settings, save_settings
 from station.core.units import ns_from_ms
 from station.drills.library import find_lesson
@@ -31,9 +33,9 @@ from station.gui.window import Window
 from station.gui.window_frame import WindowOptions
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.render.snapshot import Snapshot
-from station.simulation.student_spec import parse_spec
+from station.simulation.student_spec import StudentSpec, parse_spec
 from tests.gui.legible import present_faults
-from tests.gui.room import station
+from tests.gui.room import DirectEngine, station
 from tests.gui.screen_shot import screen_shot
 
 STEP_NS = ns_from_ms(100)
@@ -84,7 +86,7 @@ class Drive:
         settings = Settings(sessions=str(sessions), welcomed=student != NEWCOMER)
         self.settings = save_settings(settings, sessions / "settings.toml")
         store = SettingsStore(self.settings)
-        self.station, self.engine, self.clock = station("rock-1", PlanOptions(), store, spec, STEP_NS)
+        self.station, self.engine, self.clock = self.made(store, spec)
         options = WindowOptions(size, quality=0, remember_layout=False, tests=self._register)
         options = replace(
             options, picture_every=picture_every, shown=self._frame_is_shown, screen=self._monitors_are_asked_for
@@ -98,6 +100,10 @@ class Drive:
         self.faults: list[str] = []
         """What cannot be read of the panels as they were looked at last."""
         self._scenarios: Sequence[Scenario] = ()
+
+    def made(self, store: SettingsStore, student: StudentSpec | None) -> tuple[Controller, DirectEngine, Clock]:
+        """The station, its engine and its clock: here a played one."""
+        return station("rock-1", PlanOptions(), store, student, STEP_NS)
 
     @property
     def seen(self) -> dict[str, object]:
