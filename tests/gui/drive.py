@@ -25,6 +25,8 @@ from station.core.units import ns_from_ms
 from station.drills.library import find_lesson
 from station.gui.display import Rectangle
 from station.gui.glfw_screen import glfw_screen
+from station.gui.panels.lessons.lesson_list import LIST
+from station.gui.panels.lessons_panel import EDIT_LABEL, OPTIONS, TURN_LABEL
 from station.gui.panels.panel import PANELS_LABEL
 from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.window import Window
@@ -44,6 +46,7 @@ PICTURE_EVERY = 25
 """Without a graphics card the picture takes nine tenths of a frame; a test of the panels sees it now and then."""
 NEWCOMER = "newcomer"
 """Not a student's spec: nobody has answered the questions of the first start yet."""
+OPTIONAL = imgui.test_engine.TestOpFlags_.no_error
 TIMEOUT_S = 600.0  # the parent's own limit is what ends a run that hangs
 
 Scenario = Callable[["Drive", imgui.test_engine.TestContext], None]
@@ -230,11 +233,39 @@ class Drive:
     def choose(self, ctx: imgui.test_engine.TestContext, passes: int) -> None:
         """Take `LESSON` from the list and set its passes."""
         lesson = find_lesson(LESSON)
-        ctx.set_ref("//Lessons")
+        to_list(ctx)
         ctx.item_input_value("##search", lesson.title.split(":")[0])
         ctx.item_click(f"**/###{LESSON}")
+        to_options(ctx)
         ctx.item_input_value("##passes", passes)
+        ctx.set_ref("//Lessons")
         self.engine.plan = plan_practice(lesson, PlanOptions(lesson.tempo_bpm, passes))
+
+
+def to_options(ctx: imgui.test_engine.TestContext) -> None:
+    """Refer to the options of the chosen lesson from now on, which a low panel shows in place of the list."""
+    ctx.set_ref("//Lessons")
+    if ctx.item_exists(TURN_LABEL) and ctx.window_info(f"//Lessons/{OPTIONS}", OPTIONAL).window is None:
+        ctx.item_click(TURN_LABEL)
+        ctx.yield_(2)
+    shown = ctx.window_info(f"//Lessons/{OPTIONS}").window
+    assert shown is not None, "the options are shown"
+    ctx.set_ref(shown)
+
+
+def to_edit(ctx: imgui.test_engine.TestContext) -> None:
+    """Refer to where the editor is opened, which is among the options of a low panel."""
+    ctx.set_ref("//Lessons")
+    if not ctx.item_exists(EDIT_LABEL):
+        to_options(ctx)
+
+
+def to_list(ctx: imgui.test_engine.TestContext) -> None:
+    """Show the list again, which a low panel may have turned over."""
+    ctx.set_ref("//Lessons")
+    if ctx.window_info(f"//Lessons/{LIST}", OPTIONAL).window is None:
+        ctx.item_click(TURN_LABEL)
+        ctx.yield_(2)
 
 
 def press_view(ctx: imgui.test_engine.TestContext, label: str) -> None:
