@@ -4,7 +4,7 @@ The measure is the height of a small letter, as the eye sees it. Speed of readin
 the acuity limit on (Bailey, Clear and Berman, J. Illuminating Engineering Soc. 22(2), 1993); young adults resolve 0.8
 minutes of arc (visual acuity 20/16), which is a letter 4 minutes high. So what is read at the kit, the words in the
 picture, has 8 minutes (`WORDS`). Panels are worked in with the mouse, and shall still show a list of lessons: they
-have `GOAL_ARC_MIN`, 1.6 times the limit, and 8 at 125 % (our choice). On a 24-inch screen that the window fills, seen
+have `GOAL_ARC_MIN`, 1.5 times the limit, and 7.5 at 125 % (our choice). On a 24-inch screen that the window fills, seen
 from two metres, even that is more than proportional growth gives: a window of 1280 × 720 lies on a desk and keeps its
 17 pixels, at 1920 × 1080 and beyond letters are `FULL` times as large. Between them, and a little below, the size is
 a power of the window's. So a larger window has larger letters, and somewhat less beside each other.
@@ -20,15 +20,15 @@ DESIGN = (1280.0, 720.0)
 """The window that the panels were designed for."""
 DESIGN_LETTER_PX, LETTER_SHARE = 17.0, 0.528 / 1.172
 """A line's design pixels; a small letter's share of them in Roboto (its x-height, by ascender and descender)."""
-GOAL_ARC_MIN, AWAY_M, SCREEN_HIGH_M = 6.5, 2.0, 0.299
+GOAL_ARC_MIN, AWAY_M, SCREEN_HIGH_M = 6.0, 2.0, 0.299
 """What a small letter subtends at least in a window that fills a 24-inch screen (16:9), from there (see above)."""
 _SCREEN = 1.5
 """How many times as high as `DESIGN` a window is that fills a screen: 1080 pixels."""
 _LETTER_M = tan(radians(GOAL_ARC_MIN / 60)) * AWAY_M
 FULL = _LETTER_M / SCREEN_HIGH_M * _SCREEN * DESIGN[1] / (DESIGN_LETTER_PX * LETTER_SHARE)
-"""1.78: the factor at 1920 × 1080."""
+"""1.65: the factor at 1920 × 1080."""
 _POWER = log(FULL) / log(_SCREEN)
-WORDS = 0.9
+WORDS = 0.97
 """Pixels a design pixel of the picture's words (`render.hud`), of the panels': their second size, an em of 20, then has
 8 minutes."""
 SMALLEST = 0.85

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 
 from imgui_bundle import hello_imgui, imgui, implot
 
+from station.gui.tooltip_place import tooltip_place
 from station.render import palette
 from station.render.palette import Theme
 from station.render.text.draw_list import Colour
@@ -19,8 +20,9 @@ FONT_SIZE = 17.0
 LARGE_FONT_SIZE = 26.0
 _ICONS, _ICON_SIZE = "fonts/fontawesome-webfont.ttf", 15.0
 """The signs' file among imgui-bundle's, and their size beside letters."""
-_TOOLTIP_WIDTH = 420.0
-"""Design pixels; our choice: some sixty letters, a good line to read."""
+_TOOLTIP_WIDTH, _TOOLTIP_GAP, _TOOLTIP_FAR = 420.0, 6.0, 330.0
+"""Design pixels; our choice: some sixty letters, a good line to read; a finger's breadth from what it explains; and how
+far a panel's edge may be for it to stand outside, the width of the lessons' list."""
 _ROUND, _LESS_ROUND = 10.0, 7.0
 _WHOLE_TAB = 170.0
 """Design pixels of the longest tab with its cross: tabs that have no room are scrolled, not shortened."""
@@ -265,8 +267,25 @@ def one_line(text: str, width: float) -> str:
 def tooltip(text: str) -> None:
     """Explain the control that was drawn last, while it is looked at; one that is typed or dragged in is understood."""
     hovered = imgui.HoveredFlags_.delay_normal | imgui.HoveredFlags_.allow_when_disabled
-    if imgui.is_item_hovered(hovered) and not imgui.is_item_active() and imgui.begin_tooltip():
-        imgui.push_text_wrap_pos(points(_TOOLTIP_WIDTH))
+    if not imgui.is_item_hovered(hovered) or imgui.is_item_active():
+        return
+    low, high, screen = imgui.get_item_rect_min(), imgui.get_item_rect_max(), imgui.get_io().display_size
+    padding = imgui.get_style().window_padding
+    width = min(points(_TOOLTIP_WIDTH), screen.x - 2 * padding.x)
+    words = imgui.calc_text_size(text, False, width)
+    size = words.x + 2 * padding.x, words.y + 2 * padding.y
+    panel = imgui.internal.get_current_window().root_window.rect()
+    place = tooltip_place(
+        (low.x, low.y, high.x, high.y),
+        (panel.min.x, panel.min.y, panel.max.x, panel.max.y),
+        size,
+        (screen.x, screen.y),
+        points(_TOOLTIP_GAP),
+        points(_TOOLTIP_FAR),
+    )
+    imgui.set_next_window_pos(imgui.ImVec2(*place))
+    if imgui.begin_tooltip():
+        imgui.push_text_wrap_pos(padding.x + width)
         imgui.text(text)
         imgui.pop_text_wrap_pos()
         imgui.end_tooltip()

@@ -30,7 +30,7 @@ from station.gui.keyboard_kit import pressed
 from station.gui.panel_layout import Pages
 from station.gui.panel_size import Size, panel_factor, shares
 from station.gui.panels.editor.editor_keys import editor_keys
-from station.gui.panels.help_window import help_window
+from station.gui.panels.help_window import HelpWindow
 from station.gui.panels.welcome_page import WelcomePage
 from station.gui.player_keys import player_keys
 from station.gui.viewport import Viewport
@@ -61,7 +61,7 @@ class Window:
         look, size = self.state.view_settings, (float(options.size[0]), float(options.size[1]))
         self._worn = look.theme, panel_factor(size, look.scale)
         self._docked_for = self._sized_for = size, self._worn[1]
-        self._show_help = False
+        self._show_help, self._help_window = False, HelpWindow()
         self._frame_ms = 0.0
         self._drawn: Snapshot | None = None
         self.frames = 0
@@ -276,7 +276,7 @@ class Window:
     def _help(self) -> None:
         is_open = [page for page in self.pages.tools if self.pages.is_open(page.name)]
         topic = topic_of(self.state.room, self.state.selection.free, self.state.editor is not None)
-        self._show_help = help_window(topic, is_open, self._frame_ms)
+        self._show_help = self._help_window.gui(topic, is_open, self._frame_ms)
 
 
 def run_window(controller: Controller, options: WindowOptions | None = None) -> None:
