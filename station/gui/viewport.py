@@ -138,7 +138,8 @@ class Viewport:
         began = perf_counter()
         target = self._target_for(painter, ctx, whole)
         is_rough = self.camera != self._seen_from
-        arrangement = Arrangement(self._inset, self.view_settings.score, is_rough, self.view_settings.double)
+        chosen = self.view_settings
+        arrangement = Arrangement(self._inset, chosen.score, is_rough, chosen.double, chosen.legend)
         self._seen_from = self.camera
         with self._watched():
             rest = painter.begin(snapshot, target.framebuffer, area, self.camera, with_score, arrangement)

@@ -92,7 +92,7 @@ class LastResult:
             if isinstance(before, str):
                 return None
             played, words = previous_bar(result, bar, before), f"you, {before.day}"
-        self._compared = Comparison(result, bar, played, demonstrator, words)
+        self._compared = Comparison(result, bar, played, demonstrator, words, whose is Whose.STUDENT)
         listening = bar_by_ear(result, bar, played)
         self._from_ns = listening.from_ns
         return listening
