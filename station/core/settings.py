@@ -61,7 +61,8 @@ class Settings:
     file, `figure` who demonstrates, a shipped drummer or a file, empty for the style's own, `stands` which kit stands
     before them, a shipped one or a file, empty for the lesson's, and `hands` whose hand leads: `right`, `left`, `open`,
     empty for as that kit is built (`practice.session.leading_hand`). `view`, `mirrored`, `inset` and `viewpoints`
-    are where the window looks from, `score` how it shows the score, `theme` its colours (`app.settings.view_settings`),
+    are where the window looks from, `score` how it shows the score, `legend` whether a staff says which line is which
+    piece, `theme` its colours (`app.settings.view_settings`),
     `panel_scale` how many times as large as designed its panels are, `double` whether the student is shown as a second
     drummer, `double_beside` whether beside the demonstrator and not over them, `air_drums` whether strokes in the air
     are hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock,
@@ -100,7 +101,8 @@ class Settings:
     view: str = "shoulder"
     mirrored: bool = False
     inset: str = ""
-    score: str = "scrolling"
+    score: str = "paged"
+    legend: bool = True
     viewpoints: str = ""
     course: str = ""
     theme: str = "night"

@@ -93,7 +93,7 @@ class LastResult:
                 return None
             played = previous_bar(result, bar, before)
             shown = Replayed(f"you, {before.day}", previous_tempo(result, bar, before))
-        self._compared = Comparison(result, bar, played, demonstrator, shown)
+        self._compared = Comparison(result, bar, played, demonstrator, shown, whose is Whose.STUDENT)
         listening = bar_by_ear(result, bar, played)
         self._from_ns = listening.from_ns
         return listening

@@ -67,7 +67,7 @@ class LessonSession:
         asked = laid.plan if laid.followed is None else laid.followed.adaptation
         self._runner = SessionRunner(asked, latency) if laid.sitting is None else exam_runner(asked, latency)
         seen = None if before is None else before.view
-        self.view: SessionView = SessionView(self.plan, demonstrator, seen, demonstrates=laid.sitting is None)
+        self.view: SessionView = self._seen_with(seen, demonstrates=laid.sitting is None)
         self._folder: SessionFolder | None = None
         self._following: PhaseFollowing | None = None
         self._way_on = KICKS_ON
@@ -156,8 +156,14 @@ class LessonSession:
             self._see_next_pass()
 
     def _see_next_pass(self) -> None:
-        self.view = SessionView(self.plan, self._demonstrator, self.view)
+        self.view = self._seen_with(self.view)
         self.view.make_ahead()
+
+    def _seen_with(self, before: SessionView | None, demonstrates: bool = True) -> SessionView:
+        """The pictures of the newest pass, after those of `before`."""
+        adaptation = None if self._followed is None else self._followed.adaptation
+        goes_on = adaptation is not None and len(adaptation.rounds) + 1 < adaptation.loops
+        return SessionView(self.plan, self._demonstrator, before, demonstrates, goes_on)
 
     def _send(self, commands: Sequence[Command]) -> None:
         for command in commands:
