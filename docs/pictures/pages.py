@@ -47,7 +47,7 @@ from station.gui.panels.lessons_panel import FREE_LABEL  # noqa: E402
 from station.gui.panels.phase_panel import PHASE  # noqa: E402
 from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
-from station.gui.panels.sound.sound_panel import DRUMS_TAB, LEVELS_TAB, OUTPUT_TAB, SOUND, TABS  # noqa: E402
+from station.gui.panels.sound.sound_panel import CLICK_TAB, DRUMS_TAB, LEVELS_TAB, OUTPUT_TAB, SOUND, TRACK_TAB  # noqa: E402
 from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
 from station.practice.records.memory import Memory  # noqa: E402
 from station.render.files.png_file import write_png  # noqa: E402
@@ -248,11 +248,17 @@ def _sound(tab: str) -> Callable[[Drive, Context], None]:
     def prepare(drive: Drive, ctx: Context) -> None:
         open_panel(ctx, SOUND)
         drive.wait_until(ctx, lambda state: state.sound.shelf is not None)
-        if tab:
-            ctx.item_click(f"//{SOUND}/{TABS}/{tab}")
+        drive.window.pages.sound.leaf = tab
         ctx.yield_(4)
 
     return prepare
+
+
+def _track(drive: Drive, ctx: Context) -> None:
+    """A track whose beat was found."""
+    settings = {"track": "~/Music/slow-blues.ogg", "with_track": True, "track_bpm": 96.0, "track_start_s": 1.437}
+    drive.station.parts.store.update(lambda before: replace(before, **settings))
+    _sound(TRACK_TAB)(drive, ctx)
 
 
 def _tool(name: str) -> Callable[[Drive, Context], None]:
@@ -282,9 +288,10 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "which-pad": _which_pad,
     "sticks": _sticks,
     "gesture": _gesture,
-    "sound": _sound(""),
+    "sound": _sound(CLICK_TAB),
     "sound-levels": _sound(LEVELS_TAB),
     "sound-drums": _sound(DRUMS_TAB),
+    "sound-track": _track,
     "sound-output": _sound(OUTPUT_TAB),
     "phase": _phase,
     "calibration": _calibration,

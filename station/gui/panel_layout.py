@@ -128,6 +128,10 @@ class Pages:
         """Show the panel that pins a part to a band's sound."""
         self._docked(song_panel.SONG).is_visible = True
 
+    def open_track(self) -> None:
+        """Show the track that is played along to."""
+        self.sound.leaf = sound_panel.TRACK_TAB
+
     def open_teacher(self) -> None:
         """Show the panel of what students sent."""
         self._to_front(teacher_panel.TEACHER)

@@ -129,9 +129,7 @@ class HearTrack:
 
 @dataclass(frozen=True, slots=True)
 class StartTrackHere:
-    """What is heard of the track at `at_ns` is where bar 1 begins."""
-
-    at_ns: int
+    """What is heard of the track now is where bar 1 begins."""
 
 
 @dataclass(frozen=True, slots=True)

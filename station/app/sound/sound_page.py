@@ -33,9 +33,10 @@ from station.app.sound.kit_shelf import SoundShelf, sound_shelf
 from station.app.sound.mixing_desk import changed, desk_commands, levels_of, with_level
 from station.app.sound.output_change import OutputChange, choice_of
 from station.app.sound.preview_groove import click_bar, groove
+from station.app.sound.track_desk import TrackDesk, TrackView
 from station.app.sound.tried_sounds import TriedSounds
 from station.app.worker_process import StartWork, Work
-from station.core.errors import BadInput, DeviceError, StationError
+from station.core.errors import BadInput, StationError
 from station.core.settings import Settings, setting_source
 from station.engine.levels_option import USUAL, ChannelLevel
 from station.engine.messages import EngineEvent, SetSounds
@@ -51,7 +52,8 @@ class SoundView:
     `pattern` is what clicks over bars of `beats` beats, `levels` the channels that were set, `solo` those that are
     heard alone, `muted` those whose level comes back; `shelf` what kits and outputs there are, None while it is looked;
     `tried` the kit or click that is heard to try it; `changing` whether another output is being opened; `is_playing`
-    while a session has the sound; `output` what was chosen, and `sounding` where the sound goes.
+    while a session has the sound; `output` what was chosen, and `sounding` where the sound goes; `track` what is played
+    along to.
     """
 
     pattern: ClickPattern = PLAIN
@@ -66,6 +68,7 @@ class SoundView:
     output: OutputChoice = field(default_factory=lambda: choice_of(Settings()))
     sounding: str = ""
     rate_hz: int = 48_000
+    track: TrackView = field(default_factory=TrackView)
 
     def level(self, channel: str) -> ChannelLevel:
         """How loud a channel is set, and on which side."""
@@ -104,6 +107,7 @@ class SoundPage:
         self._chosen_before: SetSounds | None = None  # what to go back to where the chosen cannot be had
         self.tried = TriedSounds(engine, sessions, self._chosen)
         self.output = OutputChange(store, engine, around.rest, around.notify)
+        self.track = TrackDesk(store, engine, sessions, around.start)
 
     def view(self) -> SoundView:
         """What is shown."""
@@ -120,6 +124,7 @@ class SoundPage:
             output=self.output.chosen,
             sounding=self._engine.sound,
             rate_hz=self._engine.rate_hz,
+            track=self.track.view(),
         )
 
     def look(self) -> None:
@@ -130,11 +135,16 @@ class SoundPage:
     def leave(self) -> None:
         """The page is no longer seen: nothing is tried, and no channel is heard alone."""
         self.tried.stop()
+        self.track.stop()
         if self._solo:
             self._tell(lambda: self._set_solo(frozenset()))
 
     def close(self) -> None:
-        """End what is looked for."""
+        """End what is looked for and read."""
+        self.track.close()
+        self._end_look()
+
+    def _end_look(self) -> None:
         if self._looking is not None:
             self._looking.end()
             self._looking = None
@@ -146,9 +156,10 @@ class SoundPage:
         found = None if self._looking is None else self._found(self._looking)
         if found is not None:
             self._shelf = found
-            self.close()
+            self._end_look()
         self.tried.advance()
         self.output.advance(now_ns)
+        self.track.advance(now_ns)
 
     def _found(self, looking: Work[SoundShelf]) -> SoundShelf | None:
         try:
@@ -170,8 +181,8 @@ class SoundPage:
 
     # --- what the user does ------------------------------------------------------------------------------------------
 
-    def act(self, action: SoundAction) -> str | None:
-        """Do what the user asks; returns a line for them. Raises `StationError`."""
+    def act(self, action: SoundAction) -> None:
+        """Do what the user asks; raises `StationError`."""
         match action:
             case SetClickPattern(pattern):
                 self._store.update(lambda settings: replace(settings, click_pattern=click_text(pattern)))
@@ -194,8 +205,7 @@ class SoundPage:
                 self.tried.stop()
                 self.output.ask(choice)
             case _:
-                raise DeviceError("not yet")
-        return None
+                self.track.act(action)
 
     # --- the click and the drums -------------------------------------------------------------------------------------
 

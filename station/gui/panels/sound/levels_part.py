@@ -65,14 +65,15 @@ class LevelsPart:
         spacing = imgui.get_style().item_spacing.x
         room = imgui.get_content_region_avail().x - buttons * (theme.points(_SMALL) + spacing)
         pan_width = theme.points(_PAN) + spacing if has_pan else 0.0
-        imgui.set_next_item_width(room - pan_width)
+        imgui.set_next_item_width(-1 if is_narrow and has_pan else room - pan_width)
         percent, most = round(100 * level.level), round(100 * most_of(channel))
         moved, percent = theme.slider_int(f"##level-{channel}", percent, 0, most, "%d %%")
         chosen = self._moved(f"level {channel}", level, replace(level, level=min(max(percent, 0), most) / 100), moved)
         theme.tooltip(f"{tip}: how loud")
         if has_pan:
-            imgui.same_line()
-            imgui.set_next_item_width(theme.points(_PAN))
+            if not is_narrow:
+                imgui.same_line()
+            imgui.set_next_item_width(room if is_narrow else theme.points(_PAN))
             moved, pan = theme.slider_float(f"##pan-{channel}", level.pan, -1.0, 1.0, _pan_words(level.pan))
             pan = 0.0 if abs(pan) < _MIDDLE else round(min(max(pan, -1.0), 1.0), 2)
             chosen = self._moved(f"pan {channel}", chosen, replace(chosen, pan=pan), moved)

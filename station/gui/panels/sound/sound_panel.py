@@ -14,6 +14,7 @@ from station.gui.panels.sound.drums_part import DrumsPart
 from station.gui.panels.sound.hover_trial import HoverTrial
 from station.gui.panels.sound.levels_part import LevelsPart
 from station.gui.panels.sound.output_part import OutputPart
+from station.gui.panels.sound.track_part import TrackPart
 from station.gui.widgets.flow_row import FlowRow
 
 SOUND = "Sound"
@@ -27,7 +28,8 @@ HELP = (
     " back to where it was."
 )
 TABS, IMPORT_LABEL = "##sound", "Import a score…##sound"
-CLICK_TAB, LEVELS_TAB, DRUMS_TAB, OUTPUT_TAB = "Click", "Levels", "Drums", "Output"
+CLICK_TAB, LEVELS_TAB, DRUMS_TAB, TRACK_TAB, OUTPUT_TAB = "Click", "Levels", "Drums", "Track", "Output"
+_IMPORT_TIP = "A music file, a song's folder or a link becomes a lesson: the page Import"
 _HEARD = {
     EVERYTHING: ("everything", "All that has a level"),
     CLICK_ALONE: ("click alone", "Neither your strokes nor the drummer nor a track; for headphones at night"),
@@ -43,32 +45,66 @@ class SoundPanel:
         self._trial = HoverTrial(dispatch)
         self._click, self._levels = ClickPart(dispatch, self._trial), LevelsPart(dispatch)
         self._drums, self._output = DrumsPart(dispatch, self._trial), OutputPart(dispatch)
+        self._track = TrackPart(dispatch)
+        self.leaf = CLICK_TAB
+        """Which is in front."""
+        self._front = ""
+        self._seen_in = -1
         self._leaves: Mapping[str, Callable[[State], None]] = {
             CLICK_TAB: lambda state: self._click.gui(state.sound, state.settings.click, state.selection),
             LEVELS_TAB: lambda state: self._levels.gui(state.sound, state.settings),
             DRUMS_TAB: lambda state: self._drums.gui(state.sound, state.settings.drums),
+            TRACK_TAB: lambda state: self._track.gui(state.sound, state.settings),
             OUTPUT_TAB: lambda state: self._output.gui(state.sound),
         }
 
     def poll(self) -> None:
         """Take what the system's dialogs have brought."""
         self._drums.poll()
+        self._track.poll()
+
+    @property
+    def is_seen(self) -> bool:
+        """Whether it was drawn in this frame or the one before: a sound that is dropped then is the track."""
+        return 0 <= imgui.get_frame_count() - self._seen_in <= 1
 
     def gui(self, state: State) -> None:
         """Draw the panel and do what the user does in it."""
+        self._seen_in = imgui.get_frame_count()
         self._trial.begin()
         self._heard(state.settings.heard)
-        if imgui.begin_tab_bar(TABS, imgui.TabBarFlags_.fitting_policy_scroll):
-            for name, draw in self._leaves.items():
-                if imgui.begin_tab_item(name)[0]:
-                    draw(state)
-                    imgui.end_tab_item()
-            imgui.end_tab_bar()
+        if theme.is_narrow():
+            self._one_of(state)
+        else:
+            self._tabs(state)
         self._trial.end()
+
+    def _one_of(self, state: State) -> None:
+        """The leaves in a panel that has no room for tabs."""
+        names = list(self._leaves)
+        imgui.set_next_item_width(-1)
+        _, index = imgui.combo(TABS, names.index(self.leaf), names)
+        self.leaf = names[index]
+        self._leaves[self.leaf](state)
+
+    def _tabs(self, state: State) -> None:
+        if not imgui.begin_tab_bar(TABS, imgui.TabBarFlags_.fitting_policy_shrink):
+            return
+        opens = self.leaf if self.leaf != self._front else ""
+        for name, draw in self._leaves.items():
+            if imgui.begin_tab_item(name, None, imgui.TabItemFlags_.set_selected if name == opens else 0)[0]:
+                if not opens or name == opens:
+                    self.leaf = self._front = name
+                draw(state)
+                imgui.end_tab_item()
+        imgui.end_tab_bar()
 
     def _heard(self, heard: str) -> None:
         """How much is heard at all, and where scores come in."""
         theme.part("What is heard")
+        if theme.is_narrow():
+            self._heard_of_list(heard)
+            return
         row = FlowRow()
         for word, (name, tip) in _HEARD.items():
             row.place(imgui.get_frame_height() + imgui.get_style().item_inner_spacing.x + imgui.calc_text_size(name).x)
@@ -77,4 +113,16 @@ class SoundPanel:
             theme.tooltip(tip)
         if row.button(IMPORT_LABEL, 140.0):
             self._open_import()
-        theme.tooltip("A music file, a song's folder or a link becomes a lesson: the page Import")
+        theme.tooltip(_IMPORT_TIP)
+
+    def _heard_of_list(self, heard: str) -> None:
+        """The same in a panel that has no room for it."""
+        words = list(_HEARD)
+        imgui.set_next_item_width(-1)
+        changed, index = imgui.combo("##heard", words.index(heard), [name for name, _ in _HEARD.values()])
+        if changed:
+            self._dispatch(SetHeard(words[index]))
+        theme.tooltip(_HEARD[heard][1])
+        if imgui.button(IMPORT_LABEL):
+            self._open_import()
+        theme.tooltip(_IMPORT_TIP)
