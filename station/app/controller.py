@@ -52,7 +52,7 @@ class Controller:
         events = self._heard()
         asked = [action for event in events if (action := self._handle(event)) is not None]
         parts.mapping.advance(now_ns)
-        for part in (parts.sticks, parts.sessions, parts.exam, parts.editor, parts.phase, parts.song):
+        for part in (parts.sticks, parts.sessions, parts.exam, parts.editor, parts.phase, parts.song, parts.sound):
             attempt(partial(part.advance, now_ns))
         attempt(lambda: parts.toasts.notify(parts.export.news() or parts.export.written() or ""))
         attempt(lambda: take_imported(parts))
@@ -91,6 +91,7 @@ class Controller:
         parts, attempt = self.parts, self.parts.toasts.attempt
         parts.mapping.handle(event)
         parts.sticks.handle(event)
+        parts.sound.handle(event)
         attempt(lambda: parts.song.handle(event))
         parts.sessions.handle(event, self._now_ns)
         if parts.editor.is_open and not (parts.mapping.learns or parts.sticks.learns):

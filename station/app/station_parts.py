@@ -23,6 +23,7 @@ from station.app.settings.preferences import Preferences
 from station.app.settings.settings_store import SettingsStore
 from station.app.settings.view_settings import view_settings_of
 from station.app.songs.song_page import Ear, SongPage
+from station.app.sound.sound_page import SoundPage, SoundSurroundings
 from station.app.style_editor import StyleEditor
 from station.app.teacher_desk.assigned_page import AssignedPage
 from station.app.teacher_desk.teacher_page import TeacherPage
@@ -74,6 +75,8 @@ class StationParts:
         self.teacher = TeacherPage(
             store, self.sessions.look_at, self.sessions.catalog.lesson, processes.work, ThreadPoolExecutor(1, "returns")
         )
+        rooms = SoundSurroundings(lambda: self.chooser.selection.tempo_bpm, self._rest, notify, processes.work)
+        self.sound = SoundPage(store, self.engine, self.sessions, rooms)
         self.assigned = AssignedPage(store, ThreadPoolExecutor(1, "assignments"))
 
     def make_ready(self) -> None:
@@ -116,6 +119,7 @@ class StationParts:
             self.teacher,
             self.assigned,
             self.song,
+            self.sound,
             self.chooser,
         ):
             part.close()
