@@ -162,6 +162,7 @@ class CurrentPractice:
             free=self.is_free,
             question=self.last_result.question,
             student=self._sender,
+            lag_ms=self.last_result.lag_ms if self.stage is Stage.RESULT and not self._sender else None,
         )
         return state if self.is_free else self.session.state_in(state)
 

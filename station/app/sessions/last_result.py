@@ -12,6 +12,7 @@ from station.core.events import Hit
 from station.drills.exam.rubric import Marks
 from station.engine.messages import EngineEvent
 from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, previous_bar, students_bar
+from station.practice.lag.session_lag import LagAnswer
 from station.practice.session.cues.listening import Listening
 from station.practice.session.self_estimate import GUESS_OF, QUESTION, SelfEstimate, answered, is_worth_asking
 from station.render.snapshot import Snapshot
@@ -34,7 +35,7 @@ class LastResult:
 
     def keep(self, saved: SavedSession, may_ask: bool) -> None:
         """From now on this is the last one; a question is opened where the student `may` be asked one."""
-        self._saved, self._curves, self._compared = saved, None, None
+        self.put(saved)
         self.is_asking = may_ask and self._is_new(saved.result.plan.lesson.name, saved.report.document)
 
     def _is_new(self, lesson: str, document: Mapping[str, object]) -> bool:
@@ -53,6 +54,22 @@ class LastResult:
     def report(self) -> ShownResult | None:
         """What may be shown of it now."""
         return None if self.is_asking or self._saved is None else self._saved.report
+
+    @property
+    def saved(self) -> SavedSession | None:
+        """The session that ended last."""
+        return self._saved
+
+    @property
+    def lag_ms(self) -> float | None:
+        """The lag that it leaves out until somebody has said whose it is."""
+        fair = None if self._saved is None or self.is_asking else self._saved.fair
+        lag = None if fair is None else fair.lag
+        return lag.found.lag_ms if lag is not None and lag.answer is LagAnswer.OPEN else None
+
+    def put(self, saved: SavedSession) -> None:
+        """The same session, judged again."""
+        self._saved, self._curves, self._compared = saved, None, None
 
     @property
     def marks(self) -> Marks | None:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
+from station.app.actions.equipment_actions import AnswerLag
 from station.app.actions.practice_actions import Answer, Begin, Dismiss, EndSession, Pause, Veto
 from station.app.actions.settings_actions import SetView
 from station.app.room_state import RoomState, Stage
@@ -31,6 +32,7 @@ VETO_LABEL = "As it was##veto"
 STOP_LABEL = "Stop##stop"
 AGAIN_LABEL = "Once more##again"
 BACK_LABEL = "Back to the lessons##back"
+TAKE_OUT_LABEL, LEAVE_LABEL = "Take out {:.0f} ms###take-out", "Leave it in##leave-in"
 
 _PAUSE = "The score waits (Backspace; both crashes at once or a foot switch, as the Practice panel says)"
 _GO_ON = "A bar of count-in, then on from the bar of your last stroke (Backspace, or two kicks)"
@@ -125,7 +127,18 @@ class TransportBar:
         if row.button(BACK_LABEL, 190):
             self._dispatch(Dismiss())
         theme.tooltip("Choose another lesson (Esc)")
+        if room.lag_ms is not None:
+            self._lag(room.lag_ms, row)
         _lines((f"played by {room.student}",) if room.student else found(room), row)
+
+    def _lag(self, lag_ms: float, row: FlowRow) -> None:
+        """Whose a lag of all strokes is, as the student says."""
+        if row.button(TAKE_OUT_LABEL.format(lag_ms), 150):
+            self._dispatch(AnswerLag(take_out=True))
+        theme.tooltip("Your equipment's: leave it out of this score, and of all that you play on it")
+        if row.button(LEAVE_LABEL, 110):
+            self._dispatch(AnswerLag(take_out=False))
+        theme.tooltip("Your own: judge this again with it, and ask no more")
 
     def _session(self, room: RoomState, row: FlowRow) -> None:
         """How to end the session, its time, how far it is."""
