@@ -27,6 +27,7 @@ from station.gui.panels.panel import PANELS_LABEL
 from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.window import Window
 from station.gui.window_frame import WindowOptions
+from station.practice.lag.first_groove import FIRST_GROOVE, FIRST_TIME
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.render.snapshot import Snapshot
 from station.simulation.student_spec import parse_spec
@@ -76,12 +77,15 @@ class Drive:
     def __init__(
         self, sessions: Path, student: str | None, picture_every: int = PICTURE_EVERY, size: tuple[int, int] = SIZE
     ) -> None:
-        spec = None if student in (None, NEWCOMER) else parse_spec(str(student))
+        is_new = student is not None and student.startswith(NEWCOMER)
+        said = (student or "").removeprefix(NEWCOMER).removeprefix(",")
+        spec = parse_spec(said) if said else None
         self.picture_every = picture_every
-        settings = Settings(sessions=str(sessions), welcomed=student != NEWCOMER)
+        settings = Settings(sessions=str(sessions), welcomed=not is_new)
         self.settings = save_settings(settings, sessions / "settings.toml")
         store = SettingsStore(self.settings)
-        self.station, self.engine, self.clock = station("rock-1", PlanOptions(), store, spec, STEP_NS)
+        first = (FIRST_GROOVE, FIRST_TIME) if is_new else ("rock-1", PlanOptions())
+        self.station, self.engine, self.clock = station(*first, store, spec, STEP_NS)
         options = WindowOptions(size, quality=0, remember_layout=False, tests=self._register)
         options = replace(
             options, picture_every=picture_every, shown=self._frame_is_shown, screen=self._monitors_are_asked_for

@@ -118,7 +118,8 @@ class CurrentPractice:
         self.fault = saved.fault
         if saved.fault is not None:
             self._notify(str(saved.fault))
-        self.last_result.keep(saved, settings.ask_first and saved.marks is None)
+        is_open = saved.fair is not None and saved.fair.is_open  # one question at a time
+        self.last_result.keep(saved, settings.ask_first and saved.marks is None and not is_open)
         self.stage = Stage.RESULT
 
     def veto(self) -> None:

@@ -12,7 +12,6 @@ from station.core.events import Hit
 from station.drills.exam.rubric import Marks
 from station.engine.messages import EngineEvent
 from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, previous_bar, students_bar
-from station.practice.lag.session_lag import LagAnswer
 from station.practice.session.cues.listening import Listening
 from station.practice.session.self_estimate import GUESS_OF, QUESTION, SelfEstimate, answered, is_worth_asking
 from station.render.snapshot import Snapshot
@@ -63,9 +62,8 @@ class LastResult:
     @property
     def lag_ms(self) -> float | None:
         """The lag that it leaves out until somebody has said whose it is."""
-        fair = None if self._saved is None or self.is_asking else self._saved.fair
-        lag = None if fair is None else fair.lag
-        return lag.found.lag_ms if lag is not None and lag.answer is LagAnswer.OPEN else None
+        fair = None if self._saved is None else self._saved.fair
+        return fair.lag.found.lag_ms if fair is not None and fair.is_open and fair.lag is not None else None
 
     def put(self, saved: SavedSession) -> None:
         """The same session, judged again."""

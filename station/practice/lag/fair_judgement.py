@@ -26,6 +26,11 @@ class FairResult:
     result: SessionResult
     lag: SessionLag | None = None
 
+    @property
+    def is_open(self) -> bool:
+        """Whether a lag is left out, and nobody has said whose it is."""
+        return self.lag is not None and self.lag.answer is LagAnswer.OPEN
+
 
 def judged_fairly(result: SessionResult, known: StoredCalibration, earlier: Iterable[LagRun] = ()) -> FairResult:
     """The session as it came, or with a lag left out that may be the equipment's.

@@ -4,7 +4,7 @@ from station.core.labels import piece_name
 from station.practice.lag.session_lag import LagAnswer, SessionLag
 from station.scoring.analysis.device_lag import LagCause, SharedLag
 
-_TELL = "To know, measure without playing along: Loopback and Strike on the Devices page."
+_TELL = "Loopback and Strike (Devices) tell."
 
 
 def lag_text(lag: SessionLag | None) -> str:
@@ -24,15 +24,15 @@ def _upshot(found: SharedLag, answer: LagAnswer) -> str:
     if answer is not LagAnswer.OPEN:
         return _ANSWERED[answer]
     if found.cause is LagCause.EQUIPMENT:
-        alike = f"It is the same on all pads, at {_tempi(found)} bpm: most likely your equipment, or an even habit."
-        return f"{alike} This score leaves it out. {_TELL}"
+        whose = f"On all pads and at {_tempi(found)} bpm alike: most likely your equipment."
+        return f"{whose} This score leaves it out; take it out for good? An even habit looks the same: {_TELL}"
     return f"Your equipment or you? This score leaves it out. {_more(found)}"
 
 
 _ANSWERED = {
     LagAnswer.TAKEN_OUT: "It is taken out, of this score and from now on.",
-    LagAnswer.LEFT: f"You have left it in: it counts as yours. {_TELL}",
-    LagAnswer.NONE: f"Your devices are measured, or left as they are: it counts as yours. {_TELL}",
+    LagAnswer.LEFT: f"You have left it in: it counts as yours. To be sure: {_TELL}",
+    LagAnswer.NONE: f"Your devices are measured, or left as they are: it counts as yours. To be sure: {_TELL}",
 }
 
 
