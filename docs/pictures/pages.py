@@ -57,6 +57,7 @@ from station.sync.air.air_zones import AirKit, AirZone  # noqa: E402
 from tests.fakes.stick_physics import Sensor, Stroke, measured, strokes_by_angle  # noqa: E402
 from tests.fakes.walker_files import write_walker  # noqa: E402
 from tests.gui.drive import NEWCOMER, Drive, Scenario, open_panel, press_view  # noqa: E402
+from tests.gui.newcomer_scenario import begin  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402
 
 Context = imgui.test_engine.TestContext
@@ -110,6 +111,17 @@ def _playing(drive: Drive, ctx: Context) -> None:
         ctx.yield_()
         if drive.picture.hud.judged > ENOUGH_JUDGED:
             break
+
+
+def _first_groove(drive: Drive, ctx: Context) -> None:
+    begin(ctx)
+    ctx.yield_(60)  # 6 s: in the demonstration
+
+
+def _first_result(drive: Drive, ctx: Context) -> None:
+    begin(ctx)
+    drive.wait_for(ctx, Stage.RESULT)
+    ctx.yield_(3)
 
 
 def _result(drive: Drive, ctx: Context) -> None:
@@ -275,6 +287,8 @@ def _beside_a_result(name: str) -> Callable[[Drive, Context], None]:
 
 PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "welcome": _lessons,
+    "first-groove": _first_groove,
+    "first-result": _first_result,
     "lessons": _lessons,
     "look": _look,
     "help": _help,
@@ -307,6 +321,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
 """What is done before each picture is taken."""
 _STUDENTS = {
     "welcome": NEWCOMER,
+    **dict.fromkeys(("first-groove", "first-result"), f"{NEWCOMER},seed=2,sd_ms=30,bias_ms=95"),
     "courses": None,
     **dict.fromkeys(("playing", "result", "hits", "compared", "double"), STUDENT),
 }

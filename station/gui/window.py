@@ -37,6 +37,7 @@ from station.gui.player_keys import player_keys
 from station.gui.viewport import Viewport
 from station.gui.window_frame import Calls, WindowOptions, central_area, logical_size, runner, splits
 from station.practice.exchange.parcel import Kind, kind_by_name
+from station.practice.lag.first_groove import FIRST_GROOVE
 from station.render.snapshot import Snapshot
 
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
@@ -233,7 +234,8 @@ class Window:
 
     def _ask(self, page: WelcomePage) -> None:
         """The questions of the first start, until they are answered or put aside."""
-        begun = page.gui()
+        plays_at_once = self.state.selection.card is not None and self.state.selection.card.name == FIRST_GROOVE
+        begun = page.gui(self.state.room, plays_at_once)
         if begun is not None:
             self._controller.dispatch(FinishFirstStart(page.answers if begun else None))
             self.welcome = None

@@ -106,6 +106,18 @@ def test_a_newcomer_answers_three_questions_by_keyboard_and_plays(environment: d
     assert seen["left-handed"], "the drummer leads with the student's hand"
     assert seen["stage"] == "PLAYING"
     assert [seen["helped"], seen["helped playing"]] == ["Lessons", "Playing"]
+    assert "Listen first" in seen["told"]
+
+
+def test_the_first_minute_on_late_equipment_is_judged_fairly(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("first_minute", environment, tmp_path)
+    assert seen["stage"] == "PLAYING", "one button, and the groove is heard"
+    assert seen["seconds"] < 70
+    assert abs(seen["lag"] - 95) <= 10
+    assert seen["asked"] == "", "one question at a time"
+    assert seen["fair"] > 50
+    assert [seen["answered"], seen["after"]] == [None, seen["fair"]]
+    assert "taken out" in seen["toast"]
 
 
 def test_views_and_score_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:

@@ -38,7 +38,7 @@ class LastResult:
 
     def keep(self, saved: SavedSession, may_ask: bool) -> None:
         """From now on this is the last one; a question is opened where the student `may` be asked one."""
-        self._saved, self._curves, self._compared = saved, None, None
+        self.put(saved)
         self.is_asking = may_ask and self._is_new(saved.result.plan.lesson.name, saved.report.document)
 
     def _is_new(self, lesson: str, document: Mapping[str, object]) -> bool:
@@ -57,6 +57,21 @@ class LastResult:
     def report(self) -> ShownResult | None:
         """What may be shown of it now."""
         return None if self.is_asking or self._saved is None else self._saved.report
+
+    @property
+    def saved(self) -> SavedSession | None:
+        """The session that ended last."""
+        return self._saved
+
+    @property
+    def lag_ms(self) -> float | None:
+        """The lag that it leaves out until somebody has said whose it is."""
+        fair = None if self._saved is None else self._saved.fair
+        return fair.lag.found.lag_ms if fair is not None and fair.is_open and fair.lag is not None else None
+
+    def put(self, saved: SavedSession) -> None:
+        """The same session, judged again."""
+        self._saved, self._curves, self._compared = saved, None, None
 
     @property
     def marks(self) -> Marks | None:

@@ -23,6 +23,8 @@ from station.engine.messages import Command, EngineEvent
 from station.practice.exam.exam_take import exam_runner
 from station.practice.headless.live import begin, end
 from station.practice.now.whereabouts import place_of
+from station.practice.lag.fair_judgement import FairResult
+from station.practice.records.earlier_lags import fair_session
 from station.practice.records.previous_session import find_previous
 from station.practice.records.save_session import SessionFolder, SessionRecord, save
 from station.practice.records.session_report import practice_document
@@ -231,9 +233,11 @@ class LessonSession:
             self._following.end()
         assert self._folder is not None, "it was begun"
         result = self._runner.finish()
-        saved = save(self._folder, result, practice_document(result, settings), self._followed)
+        fair = fair_session(result, settings) if self.sitting is None else FairResult(result)
+        saved = save(self._folder, fair.result, practice_document(fair.result, settings, fair.lag), self._followed)
         marks, refused = self._marked(result)
-        return SavedSession(result, self._report(saved, self._folder), saved.fault or refused or fault, marks)
+        report = self._report(saved, self._folder)
+        return SavedSession(fair.result, report, saved.fault or refused or fault, marks, fair)
 
     def _marked(self, result: SessionResult) -> tuple[Marks | None, StationError | None]:
         """The marks of an exam, kept, and what the disk refused; nothing of practice."""
