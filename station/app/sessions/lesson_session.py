@@ -22,8 +22,8 @@ from station.drills.exam.rubric import Marks
 from station.engine.messages import Command, EngineEvent
 from station.practice.exam.exam_take import exam_runner
 from station.practice.headless.live import begin, end
-from station.practice.now.whereabouts import place_of
 from station.practice.lag.fair_judgement import FairResult
+from station.practice.now.whereabouts import place_of
 from station.practice.records.earlier_lags import fair_session
 from station.practice.records.previous_session import find_previous
 from station.practice.records.save_session import SessionFolder, SessionRecord, save

@@ -120,7 +120,7 @@ def test_misses_wrong_pads_and_strokes_too_many_stand_there_too() -> None:
     ]
     extra = replace(hits[0], piece=Piece.CRASH_1, at_ns=KICK_NS + beat_ns + beat_ns // 4)
     performance = Performance.from_hits(sorted([*wrong, extra], key=lambda hit: hit.at_ns))
-    seen = Comparison(result(), BAR, performance, Demonstrator(), "you").snapshot(KICK_NS)
+    seen = Comparison(result(), BAR, performance, Demonstrator(), Replayed("you")).snapshot(KICK_NS)
     assert seen.marks is not None
     notes = seen.score.notes
     labels = {
@@ -136,13 +136,13 @@ def test_misses_wrong_pads_and_strokes_too_many_stand_there_too() -> None:
 
 
 def test_the_teacher_s_bar_bears_no_marks() -> None:
-    seen = Comparison(result(), BAR, None, Demonstrator(), "the teacher").snapshot(KICK_NS)
+    seen = Comparison(result(), BAR, None, Demonstrator(), Replayed("the teacher")).snapshot(KICK_NS)
     assert seen.marks is None
     assert not seen.extras
 
 
 def test_one_s_own_bar_is_judged_as_the_report_has_it() -> None:
     """Nobody has played in this session: all its notes were missed, whatever is laid over the bar."""
-    seen = Comparison(result(), BAR, played(0.0), Demonstrator(), "you", is_own=True).snapshot(KICK_NS)
+    seen = Comparison(result(), BAR, played(0.0), Demonstrator(), Replayed("you"), is_own=True).snapshot(KICK_NS)
     assert seen.marks is not None
     assert (seen.marks["label"] == Label.MISS).all()
