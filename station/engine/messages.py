@@ -45,6 +45,7 @@ __all__ = [
     "Status",
     "Stop",
     "TrackPhase",
+    "Unheard",
     "Watch",
     "WatchRawBytes",
     "WatchSensors",
@@ -257,6 +258,14 @@ class Notice:
 
 
 @dataclass(frozen=True, slots=True)
+class Unheard:
+    """No stroke could be heard between these session times: the engine had ended, and another took its place."""
+
+    from_ns: int
+    until_ns: int
+
+
+@dataclass(frozen=True, slots=True)
 class Status:
     """How the engine is doing; sent once a second while it runs.
 
@@ -281,4 +290,4 @@ class RawBytes:
 
 
 Heard = DeviceEvent | StickEvent | SensorSamples | RawBytes
-EngineEvent = Heard | Ready | Sounding | CaptureSaved | Started | Notice | Status
+EngineEvent = Heard | Ready | Sounding | CaptureSaved | Started | Notice | Status | Unheard

@@ -107,6 +107,10 @@ class Highway:
             draw_list.box((-half[0], y - half[1]), (2 * half[0], 2 * half[1]), MISSED, None, (0.08, 0.06, 0.0))
             draw_list.line((-half[0], y + half[1]), (half[0], y - half[1]), 0.06, MISSED)
             return
+        if label is Label.UNKNOWN:
+            draw_list.box((-half[0], y - half[1]), (2 * half[0], 2 * half[1]), INK_SOFT, None, (0.08, 0.06, 0.0))
+            draw_list.text("?", (0.0, y + 0.11), TypeStyle(0.32, INK_SOFT, Face.BOLD, 0.5))
+            return
         draw_list.box((-half[0], y - half[1]), (2 * half[0], 2 * half[1]), _colour(row, label), None, (0.08, 0.0, 0.0))
         if label is Label.MATCH and row is not None:
             self._judged(draw_list, row, y, off_db(int(score.notes["velocity"][i]), float(row["velocity_error"])))
