@@ -8,6 +8,7 @@ from station.core.pieces import Limb
 from station.core.units import NS_PER_MS
 from station.music.judgement import Judgement, Label
 from station.practice.now.directions_now import direction_of
+from station.practice.now.entry_now import entry_words
 from station.practice.now.whereabouts import Doing, whereabouts
 from station.practice.session.session import Session
 from station.scoring.matching.hit_windows import Level, Windows
@@ -58,7 +59,7 @@ class LiveText:
         self._where = ""
         self._shown = 0
         self._sensors: set[str] = set()
-        self._said = ""
+        self._said = self._entry = ""
 
     def show(self, session: Session, judged: tuple[Judgement, ...]) -> None:
         """Show what is new in `session`."""
@@ -71,6 +72,7 @@ class LiveText:
         self._show_sensors(session.heard.sensors)
         self._show_segment(session)
         self._show_words(session)
+        self._show_entry(session)
         marks = "".join(mark_of(verdict, session.plan.level.windows) for verdict in session.shown(judged))
         if marks:
             self._write(marks)
@@ -93,6 +95,13 @@ class LiveText:
             self._write(f"\n{session.message}")
         self._where = where.words
         self._write(f"\n{where.words:14}")
+
+    def _show_entry(self, session: Session) -> None:
+        """That the student came in beside the click, once as it is found."""
+        words = entry_words(session)
+        if words and words != self._entry:
+            self._write(f"\n{words}\n{'':14}")
+        self._entry = words
 
     def _show_words(self, session: Session) -> None:
         """The teacher's words, once as they come."""

@@ -63,6 +63,11 @@ class Judging:
         return self._follower.is_waiting(score_ns)
 
     @property
+    def beats_behind(self) -> float:
+        """Quarters by which the student is behind the click and plays on, as far as the hits show; negative ahead."""
+        return self._follower.beats_behind
+
+    @property
     def pace(self) -> float:
         """How many times as fast as written the student plays, as far as the hits show."""
         return self._follower.pace

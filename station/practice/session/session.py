@@ -273,6 +273,11 @@ class Session:
         return at_ns >= 0 and self._judging.is_waiting(at_ns)
 
     @property
+    def beats_behind(self) -> float:
+        """Quarters by which the student came in behind the click and plays on; negative ahead of it."""
+        return self._judging.beats_behind
+
+    @property
     def pace(self) -> float:
         """How many times as fast as written the student plays; 1 by the click."""
         return self._judging.pace
