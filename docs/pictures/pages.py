@@ -43,7 +43,7 @@ from station.gui.panels.export_panel import EXPORT  # noqa: E402
 from station.gui.panels.figure.style_panel import FIGURE  # noqa: E402
 from station.gui.panels.hits_panel import HITS  # noqa: E402
 from station.gui.panels.import_panel import IMPORT  # noqa: E402
-from station.gui.panels.lessons_panel import FREE_LABEL  # noqa: E402
+from station.gui.panels.lessons.lesson_list import FREE_LABEL  # noqa: E402
 from station.gui.panels.phase_panel import PHASE  # noqa: E402
 from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402

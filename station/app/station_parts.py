@@ -17,6 +17,7 @@ from station.app.export import Exporter
 from station.app.importer import Importer
 from station.app.phase_page import PhasePage
 from station.app.sessions.pad_control import PadControl
+from station.app.sessions.screen_choice import ScreenChoice, choice_beside
 from station.app.sessions.session_control import Launch, SessionControl
 from station.app.settings.preferences import Preferences
 from station.app.settings.settings_store import SettingsStore
@@ -83,6 +84,16 @@ class StationParts:
         self.calibration.refuse()
         self.sticks.give_up()
         self.preferences.learn(on=False)  # what is played from now on is no gesture to be learnt
+
+    @property
+    def kit_commands(self) -> bool:
+        """Whether strokes may ask for something: not where they teach, write, or are of an exam."""
+        is_for_else = self.mapping.learns or self.sticks.learns or self.editor.is_open or self.exam.is_on
+        return not is_for_else
+
+    def choice(self) -> ScreenChoice | None:
+        """What is to be chosen on the screen now."""
+        return choice_beside(self.sessions.practice)
 
     def _rest(self) -> Callable[[], bool]:
         """Let the engine's devices go; returns what says whether it has. Raises `DeviceError` while somebody plays."""

@@ -22,7 +22,9 @@ def state_of(parts: StationParts, now_ns: int) -> State:
     """The parts as they are at `now_ns`, as far as they are `shown`."""
     sessions, shown = parts.sessions, parts.shown
     snapshot = sessions.snapshot(now_ns) if shown.picture else None
+    choice = parts.choice()
     return State(
+        choice=None if choice is None else parts.pads.heard(choice, now_ns),
         room=replace(sessions.room(), exam=parts.exam.is_on),
         selection=parts.chooser.selection,
         player=sessions.player.view(),

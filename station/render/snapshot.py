@@ -84,6 +84,8 @@ class Hud:
     `phase` in words such as "Demonstration" or "Pass 2 of 4"; `bar` and `beat` from 1, None while nothing runs; `beats`
     a bar; `count_in` the number to show large, None outside a count-in; `right`, `judged` this pass's counts; `message`
     a sentence for the user; `cue` with `cue_age_s` since it came; `say` the words of the lesson's teacher.
+    `tempo_words` explain the tempo, `reason` why the pass is as it is. While nothing moves `halt` is the word to show
+    large, such as "Paused", and `way_on` how to go on.
     """
 
     title: str = ""
@@ -100,6 +102,10 @@ class Hud:
     cue: TimingCue = TimingCue.NONE
     cue_age_s: float = 0.0
     say: str = ""
+    tempo_words: str = ""
+    reason: str = ""
+    halt: str = ""
+    way_on: str = ""
 
 
 def no_marks(score: Score) -> NDArray[np.void]:

@@ -4,7 +4,7 @@ The student's sticks are those of their double (`student_figure`): a limb shows 
 student struck, and glows where that was early or late. Times are those of the result's score.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.motion.drummer import Drummer
 from station.motion.style.automation_lanes import in_passes
 from station.music.performance import Performance
+from station.practice.now.tempo_now import replay_tempo
+from station.practice.now.whereabouts import replay_place
 from station.practice.session.session import SessionResult
 from station.render.snapshot import BarNumbers, Hud, Snapshot, StudentShown, TimingCue
 from station.scenes.demonstrator import Demonstrator
@@ -24,11 +26,19 @@ FAR_NS = 150 * NS_PER_MS
 """A stroke so far from every note of its piece was meant for another (our choice: a sixteenth at 100 a minute)."""
 
 
+@dataclass(frozen=True, slots=True)
+class Replayed:
+    """Who is heard, in `words`; at how many beats a minute they played, None for the tempo at which it is heard."""
+
+    words: str
+    beats_a_minute: float | None = None
+
+
 class Comparison:
-    """One bar, from 0, of `result`, demonstrated by `demonstrator`; `played` is laid over it, None for nothing."""
+    """One bar, from 0, of `result`, demonstrated by `demonstrator`; `played` by `whose` lies over it, None: nothing."""
 
     def __init__(
-        self, result: SessionResult, bar: int, played: Performance | None, demonstrator: Demonstrator, words: str
+        self, result: SessionResult, bar: int, played: Performance | None, demonstrator: Demonstrator, whose: Replayed
     ) -> None:
         plan, tempo_map = result.plan, result.score.tempo_map
         self._lesson_bar, self._beat_ticks = plan.bar_names[bar], plan.lesson.beat_ticks
@@ -38,13 +48,15 @@ class Comparison:
         hits = () if played is None else tuple(played)
         self._hits = [replace(hit, at_ns=hit.at_ns - self._start_ns) for hit in hits]
         self._is_alone, self._windows = played is None, plan.level.windows
+        tempo = replay_tempo(result.score, bar, self._beat_ticks, whose.beats_a_minute)
         self._hud = Hud(
             plan.lesson.title,
-            f"Bar {self._lesson_bar + 1}: {words}",
+            replay_place(whose.words, self._lesson_bar + 1).words,
             bar=self._lesson_bar + 1,
             bar_count=plan.lesson.score.bar_count,
             beats=tempo_map.meter_at(tempo_map.bar_start(bar)).beats,
-            beats_a_minute=plan.beats_a_minute,
+            beats_a_minute=tempo.now,
+            tempo_words=tempo.words,
         )
 
     def snapshot(self, at_ns: int) -> Snapshot:

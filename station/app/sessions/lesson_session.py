@@ -22,6 +22,7 @@ from station.drills.exam.rubric import Marks
 from station.engine.messages import Command, EngineEvent
 from station.practice.exam.exam_take import exam_runner
 from station.practice.headless.live import begin, end
+from station.practice.now.whereabouts import place_of
 from station.practice.records.previous_session import find_previous
 from station.practice.records.save_session import SessionFolder, SessionRecord, save
 from station.practice.records.session_report import practice_document
@@ -29,7 +30,6 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Phase, Plan
 from station.practice.session.runner import SessionRunner, Update
 from station.practice.session.session import Session, SessionResult
-from station.practice.session.session_place import place_of
 from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
@@ -37,7 +37,8 @@ from station.scenes.session_scene import SessionView
 from station.sound.track import PreparedTrack
 from station.sync.drill.drummed_model import is_soon_made
 
-PAUSED = "Paused: two kicks, or Go on"
+KICKS_ON, GO_ON = "two kicks, Backspace or Go on", "Backspace or Go on"
+"""How a paused session goes on; kicks ask for nothing where the settings say so."""
 
 
 def _say_nothing(_: str) -> None:
@@ -69,6 +70,7 @@ class LessonSession:
         self.view: SessionView = SessionView(self.plan, demonstrator, seen, demonstrates=laid.sitting is None)
         self._folder: SessionFolder | None = None
         self._following: PhaseFollowing | None = None
+        self._way_on = KICKS_ON
         self._leads = False  # whether the drummer goes by the student's phase
 
     @property
@@ -96,7 +98,7 @@ class LessonSession:
         except StationError:
             folder.discard()
             raise
-        self._folder = folder
+        self._folder, self._way_on = folder, KICKS_ON if settings.kicks_start else GO_ON
         self.view.make_ahead()
         self._leads = settings.follow_phase and sitting is None
         if self._leads:
@@ -181,7 +183,7 @@ class LessonSession:
 
     def snapshot(self, now_ns: int) -> Snapshot:
         """The picture at `now_ns`."""
-        return self.view.snapshot(self.session, now_ns, PAUSED if self.paused else "")
+        return self.view.snapshot(self.session, now_ns, self._way_on)
 
     def curves(self) -> ScoreCurves | None:
         """What the graph shows of it, nothing of an exam."""

@@ -59,7 +59,7 @@ def view_settings_popup(view_settings: ViewSettings, actions: ViewActions) -> Vi
     if not imgui.begin_popup(POPUP):
         return view_settings
     if not _is_low():
-        theme.heading("ViewSettings", 20)
+        theme.heading("Look", 20)
     view_settings = replace(view_settings, inset=_one_of("Second picture", _INSETS, view_settings.inset))
     view_settings = replace(view_settings, score=_one_of("Score", _FORMS, view_settings.score))
     view_settings = replace(view_settings, double=_one_of("Your double", _DOUBLES, view_settings.double))
@@ -80,7 +80,7 @@ def _colours_and_size(view_settings: ViewSettings) -> ViewSettings:
         if imgui.button(label, imgui.ImVec2(theme.points(96), 0)):
             view_settings = view_settings.scaled(steps)
         imgui.end_disabled()
-        theme.tooltip(f"Letters, buttons and lists ({tip}); the picture keeps its size")
+        theme.tooltip(f"Letters, buttons and lists ({tip}); they also grow with the window")
         imgui.same_line()
     imgui.align_text_to_frame_padding()
     imgui.text(f"{view_settings.scale:.0%}")

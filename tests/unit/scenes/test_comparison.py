@@ -18,7 +18,7 @@ from station.music.performance import Performance
 from station.practice.session.plan import TAIL_NS, PlanOptions, plan_practice
 from station.practice.session.session import Session, SessionResult
 from station.render.snapshot import TimingCue
-from station.scenes.comparison import Comparison
+from station.scenes.comparison import Comparison, Replayed
 from station.scenes.demonstrator import Demonstrator
 from station.simulation.student_spec import parse_spec
 from station.simulation.virtual_student import play
@@ -48,7 +48,7 @@ def played(late_ms: float) -> Performance:
 
 @pytest.fixture(scope="module")
 def late() -> Comparison:
-    return Comparison(result(), BAR, played(40.0), Demonstrator(), "you")
+    return Comparison(result(), BAR, played(40.0), Demonstrator(), Replayed("you"))
 
 
 def test_the_student_s_sticks_are_on_the_drum_when_he_struck(late: Comparison) -> None:
@@ -72,7 +72,7 @@ def test_a_limb_that_was_late_glows_and_one_in_time_does_not(late: Comparison) -
         Limb.RIGHT_HAND: TimingCue.LATE,
         Limb.RIGHT_FOOT: TimingCue.LATE,
     }
-    in_time = Comparison(result(), BAR, played(0.0), Demonstrator(), "you").snapshot(at_ns).double
+    in_time = Comparison(result(), BAR, played(0.0), Demonstrator(), Replayed("you")).snapshot(at_ns).double
     assert in_time is not None
     assert not in_time.partings
 
@@ -83,15 +83,15 @@ def test_only_what_was_struck_by_then_is_seen_and_lights_its_drum(late: Comparis
 
 
 def test_the_teacher_is_seen_alone_with_the_lesson_s_own_bar() -> None:
-    seen = Comparison(result(), BAR, None, Demonstrator(), "the teacher").snapshot(KICK_NS)
+    seen = Comparison(result(), BAR, None, Demonstrator(), Replayed("the teacher")).snapshot(KICK_NS)
     assert seen.double is None
-    assert (seen.hud.phase, seen.hud.bar, seen.position_s) == ("Bar 2: the teacher", 2, 0.0)
+    assert (seen.hud.phase, seen.hud.bar, seen.position_s) == ("Replay of bar 2: the teacher", 2, 0.0)
 
 
 def test_the_arm_that_struck_a_wrong_pad_glows() -> None:
     """The floor tom for the snare on the second beat; the snare is the left hand's."""
     hits = [replace(hit, piece=Piece.FLOOR_TOM_1) if hit.piece is Piece.SNARE else hit for hit in played(0.0)]
-    seen = Comparison(result(), BAR, Performance.from_hits(hits), Demonstrator(), "you")
+    seen = Comparison(result(), BAR, Performance.from_hits(hits), Demonstrator(), Replayed("you"))
     double = seen.snapshot(KICK_NS + 800 * NS_PER_MS).double
     assert double is not None
     assert double.partings[Limb.LEFT_HAND].cue is TimingCue.WRONG_PIECE
