@@ -10,6 +10,7 @@ from functools import partial
 
 from station.app.actions.action import Action
 from station.app.actions.practice_actions import Begin
+from station.app.actions.settings_actions import PlayAs
 from station.app.child_programs import ChildPrograms
 from station.app.handlers.file_handler import take_imported
 from station.app.handlers.handler_table import handlers_of
@@ -52,6 +53,7 @@ class Controller:
         events = self._heard()
         asked = [action for event in events if (action := self._handle(event)) is not None]
         parts.mapping.advance(now_ns)
+        attempt(lambda: self._chosen(parts.who.advance(now_ns)))
         for part in (parts.sticks, parts.sessions, parts.exam, parts.editor, parts.phase, parts.song):
             attempt(partial(part.advance, now_ns))
         attempt(lambda: parts.toasts.notify(parts.export.news() or parts.export.written() or ""))
@@ -97,6 +99,11 @@ class Controller:
             return asked
         self.dispatch(asked)
         return None
+
+    def _chosen(self, student: str | None) -> None:
+        """A pad has chosen who plays."""
+        if student is not None:
+            self.dispatch(PlayAs(student))
 
     def _keep(self) -> None:
         """Write what was set; never while somebody plays."""

@@ -31,6 +31,7 @@ def state_of(parts: StationParts, now_ns: int) -> State:
         hands=sessions.hands,
         score=sessions.practice.session.plan.lesson.score,
         preferences=parts.preferences.now,
+        students=parts.who.view(),
         mapping=parts.mapping.view() if shown.devices else MappingView(),
         calibration=parts.calibration.view() if shown.devices else _NO_CALIBRATION,
         sticks=parts.sticks.view() if shown.sticks else SticksView(),

@@ -15,6 +15,7 @@ from station.app.phase_page import PhaseView
 from station.app.room_state import RoomState, ShownResult, Stage
 from station.app.selection import Selection
 from station.app.sessions.demo_picture import PlayerView
+from station.app.sessions.who_plays import StudentsView
 from station.app.settings.preferences import PracticePreferences
 from station.app.settings.view_settings import ViewSettings
 from station.app.songs.song_page import SongView
@@ -40,8 +41,9 @@ class State:
     files are made of, `export` what was made, `played` the capture of the last take or session, `imports` what comes
     in, `editor` the lesson that is edited, None for none, `drafts` those that were left unsaved, `today` the day's
     plan and the lesson book, `song` the one that is pinned to its sound, `exam` how far an exam is, `teacher` what
-    students sent and `assigned` what a teacher gave, each empty while nobody looks at it. `toast` is shown
-    in passing; `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
+    students sent and `assigned` what a teacher gave, each empty while nobody looks at it. `students` says who plays and
+    who else may; `toast` is shown in passing; `is_lively` whether something moves or may at any moment, so that no
+    frame is to be spared.
     """
 
     room: RoomState
@@ -73,6 +75,7 @@ class State:
     teacher: TeacherView = field(default_factory=TeacherView)
     assigned: AssignedView = field(default_factory=AssignedView)
     toast: str = ""
+    students: StudentsView = field(default_factory=StudentsView)
     is_lively: bool = True
 
     @property

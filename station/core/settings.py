@@ -20,7 +20,9 @@ from station.core.toml.schema import (
     Reader,
     checked_values,
     flag,
+    list_of,
     members_by_label,
+    needed,
     number,
     record,
     shown,
@@ -38,6 +40,15 @@ SMALLEST_PANELS, LARGEST_PANELS = 0.75, 2.5
 """How small and how large the window's panels may be (our choice: read at arm's length, and from across the room)."""
 LEAST_BLOCK_FRAMES = 16
 """Less is beyond any driver here (our choice); 0 leaves the size to it."""
+
+
+@dataclass(frozen=True, slots=True)
+class StudentSettings:
+    """What is a student's own while another one plays: who leads, and the course that is listed."""
+
+    name: str
+    hands: str = ""
+    course: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +78,8 @@ class Settings:
     are hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock,
     `sound_phase` whether that phase sounds the drill's strokes as it passes them, `course` names the course whose
     lessons are listed, empty for all; `welcomed` whether the questions of the first start were asked
-    (`app.settings.first_start`).
+    (`app.settings.first_start`), `students` who has played here, the last one first, with what is their own
+    (`app.settings.students`), `pads_switch` whether the kit may ask who plays.
     """
 
     student: str = "student"
@@ -111,6 +123,8 @@ class Settings:
     air_drums: bool = False
     follow_phase: bool = False
     sound_phase: bool = False
+    pads_switch: bool = True
+    students: tuple[StudentSettings, ...] = ()
 
     @property
     def threshold_of(self) -> dict[Piece, int]:
@@ -188,6 +202,9 @@ def _block(value: object) -> int:
     return frames
 
 
+_STUDENT: Fields = MappingProxyType(
+    {"name": needed(text, 'a name such as "Ann"'), "hands": Field(text, ""), "course": Field(text, "")}
+)
 _SPECIAL: Mapping[str, Reader[object]] = MappingProxyType(
     {
         "panel_scale": number(SMALLEST_PANELS, LARGEST_PANELS),
@@ -197,6 +214,7 @@ _SPECIAL: Mapping[str, Reader[object]] = MappingProxyType(
         "output_latency_ms": number(-1000, 1000),
         "mask_ms": number(0, 100),
         "thresholds": _threshold_text,
+        "students": list_of(record(StudentSettings, _STUDENT), '[{name = "Ann", hands = "left"}]'),
     }
 )
 """What a sound card or a person could mean; our choice, wide enough for every device on sale. The others are texts and
