@@ -29,7 +29,7 @@ from tests.gui.editor_scenarios import (
 from tests.gui.exam_scenario import exam
 from tests.gui.figure import figure
 from tests.gui.interruption_scenarios import closes, lost, unplugged
-from tests.gui.lesson_list_scenarios import imports, search
+from tests.gui.lesson_list_scenarios import imports, search, whose
 from tests.gui.newcomer_scenario import first_minute, newcomer
 from tests.gui.planned_day import planned_day
 from tests.gui.player_scenarios import graph, phase, player
@@ -52,6 +52,8 @@ SCENARIOS: dict[str, Scenario] = {
     "newcomer": newcomer,
     "first_minute": first_minute,
     "search": search,
+    "whose": whose,
+    "whose_in_a_large_window": whose,
     "imports": imports,
     "look": look,
     "viewpoints": viewpoints,
@@ -84,6 +86,7 @@ SCENARIOS: dict[str, Scenario] = {
 }
 SIZES = {
     "planned_day": (1280, 900),
+    "whose_in_a_large_window": (1280, 720),
     "exam": (1280, 720),
     "player": (1280, 560),
     "phase": (1280, 720),

@@ -78,6 +78,18 @@ def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_p
     assert list((tmp_path / "sessions").rglob("*.json")), "the session is kept"
 
 
+@pytest.mark.parametrize("scenario", ["whose", "whose_in_a_large_window"])
+def test_students_take_turns_and_start_stays_where_it_is(
+    environment: dict[str, str], tmp_path: Path, scenario: str
+) -> None:
+    seen = run(scenario, environment, tmp_path)
+    assert seen["plays"] == ["Bea Bell", "student"]
+    assert seen["levels"] == ["studio", "beginner", "studio"], "each has their own"
+    assert seen["listed"] == [["Bea Bell", "snare"], ["student", "high tom"], ["Cem", "floor tom"]]
+    assert seen["start"] == [seen["start"][0]] * len(seen["start"])
+    assert seen["unread"] == []
+
+
 def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run_in_turn(
         ["devices", "calibration", "sticks", "habits", "imports", "search", "fault", "keys", "just_play"],
