@@ -10,7 +10,7 @@ from typing import Protocol
 
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost, Hit
-from station.engine.messages import Command, EngineEvent, Ready, SetAirDrums, SetLevel, Sounding, Watch
+from station.engine.messages import Command, EngineEvent, Ready, SetAirDrums, SetLevel, SetPiece, Sounding, Watch
 from station.practice.headless.live import EngineLink
 
 
@@ -23,7 +23,8 @@ class RoomEngine(EngineLink, Protocol):
 
 
 WakeEngine = Callable[[], RoomEngine]
-_WAKING = "the engine is waking"
+_WAKING, SILENT, DEAD = "the engine is waking", "silent", "the engine has ended"
+"""What is said of the sound where there is no card."""
 
 
 class EngineClient:
@@ -73,7 +74,13 @@ class EngineClient:
 
     def stand(self, command: Command) -> None:
         """Send what holds for this engine and every later one; a dead engine gets it when it has been woken."""
-        self._standing[command.bus if isinstance(command, SetLevel) else type(command)] = command
+        match command:
+            case SetLevel(bus):
+                self._standing[bus] = command
+            case SetPiece(piece):
+                self._standing[SetPiece, piece] = command
+            case _:
+                self._standing[type(command)] = command
         if self.alive:
             self.send(command)
 
@@ -94,7 +101,7 @@ class EngineClient:
         try:
             events = self._engine.events(wait_s)
         except DeviceError:
-            self.alive, self.sound, self._kits = False, "the engine has ended", []
+            self.alive, self.sound, self._kits = False, DEAD, []
             raise
         for event in events:
             self._handle(event)
@@ -109,7 +116,7 @@ class EngineClient:
             case Hit(at_ns):
                 self.struck_ns = at_ns
             case Ready(output, rate_hz) | Sounding(output, rate_hz):
-                self.sound = output or "silent"
+                self.sound = output or SILENT
                 self.rate_hz = rate_hz or self.rate_hz
             case _:
                 pass

@@ -237,6 +237,17 @@ def checkbox(label: str, value: bool) -> tuple[bool, bool]:
     return bool(changed), bool(value)
 
 
+def radio_button(label: str, is_on: bool) -> bool:
+    """One choice of several; its words are broken where the panel ends, and choose it too. Returns whether it was."""
+    inner, words = imgui.get_style().item_inner_spacing.x, label.partition("##")[0]
+    if imgui.get_frame_height() + inner + imgui.calc_text_size(words).x <= imgui.get_content_region_avail().x:
+        return bool(imgui.radio_button(label, is_on))
+    pressed = bool(imgui.radio_button(f"##{label}", is_on))
+    imgui.same_line(0.0, inner)
+    imgui.text_wrapped(words)
+    return pressed or bool(imgui.is_item_clicked())
+
+
 def first_lines(text: str, lines: int) -> str:
     """As much of `text` as so many lines of the panel's width hold, with dots where it goes on."""
     wrap = imgui.get_content_region_avail().x

@@ -29,7 +29,8 @@ from station.render.camera import Camera
 from station.render.framing import Stage, named, stage_of
 from station.render.gpu.gl import GL_VERSION, RenderTarget
 from station.render.hud import FreeLine, band_height, corners, free_line
-from station.render.painter import SCORE_SHARE, Area, Arrangement, Painter
+from station.render.notation.screen.score_place import halves
+from station.render.painter import Area, Arrangement, Painter, form_of
 from station.render.palette import NIGHT, themed
 from station.render.quality import QUALITIES
 from station.render.quality_choice import QualityChoice, first_choice
@@ -140,9 +141,9 @@ class Viewport:
         target = self._target_for(painter, ctx, whole)
         is_rough = self.camera != self._seen_from
         look, letters = self.view_settings, _letters()
-        arrangement = Arrangement(self._inset, look.score, is_rough, look.double, letters)
-        above = area[3] - (round(area[3] * SCORE_SHARE) if with_score else 0)
-        self._words = corners(snapshot.hud), (area[2], above), letters
+        arrangement = Arrangement(self._inset, look.score, is_rough, look.double, look.legend, letters)
+        form = form_of(snapshot, look.score) if with_score else None
+        self._words = corners(snapshot.hud), halves(area[2:], form).scene[2:], letters
         self._seen_from = self.camera
         with self._watched():
             rest = painter.begin(snapshot, target.framebuffer, area, self.camera, with_score, arrangement)

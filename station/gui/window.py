@@ -14,6 +14,7 @@ from station.app.actions.action import Notify, Show
 from station.app.actions.file_actions import Import
 from station.app.actions.practice_actions import Begin, Leave, Pause, StrikeKey
 from station.app.actions.settings_actions import FinishFirstStart
+from station.app.actions.sound_actions import BringTrack
 from station.app.controller import Controller
 from station.app.help_topics import topic_of
 from station.app.room_state import RoomState, Stage
@@ -36,6 +37,7 @@ from station.gui.player_keys import player_keys
 from station.gui.viewport import Viewport
 from station.gui.window_frame import Calls, WindowOptions, central_area, logical_size, runner, splits
 from station.practice.exchange.parcel import Kind, kind_by_name
+from station.practice.lag.first_groove import FIRST_GROOVE
 from station.render.snapshot import Snapshot
 
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
@@ -125,12 +127,21 @@ class Window:
             return
         dropped, self._to_open = self._to_open, []
         for path in dropped:
-            self._controller.dispatch(Import(path))
+            if self._is_track(path):
+                self._controller.dispatch(BringTrack(path))
+            else:
+                self._controller.dispatch(Import(path))
         for path in dropped:
             self._page_of(path)()
 
+    def _is_track(self, path: str) -> bool:
+        """A sound becomes the track where it is dropped on the page of sounds, a song's sound anywhere else."""
+        return Path(path).suffix.lower() in SOUND_ENDINGS and self.pages.sound.is_seen
+
     def _page_of(self, path: str) -> Callable[[], None]:
         """What shows the page where a file that was dropped is found again."""
+        if self._is_track(path):
+            return self.pages.open_track
         if Path(path).suffix.lower() in SOUND_ENDINGS:
             return self.pages.open_song
         match kind_by_name(path):
@@ -224,7 +235,8 @@ class Window:
 
     def _ask(self, page: WelcomePage) -> None:
         """The questions of the first start, until they are answered or put aside."""
-        begun = page.gui()
+        plays_at_once = self.state.selection.card is not None and self.state.selection.card.name == FIRST_GROOVE
+        begun = page.gui(self.state.room, plays_at_once)
         if begun is not None:
             self._controller.dispatch(FinishFirstStart(page.answers if begun else None))
             self.welcome = None

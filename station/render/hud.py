@@ -1,4 +1,4 @@
-"""What is written over the scene: lesson, phase, tempo, beat, count-in, the one coarse cue, a message.
+"""What is written over the scene: lesson, phase, tempo, beat, count-in, what halts it, the one coarse cue, a message.
 
 Sizes are design pixels. They grow with the picture, which is 720 of them high, so that everything can be read two
 metres away; or with the panels' letters beside it, as far as the picture is large enough (`scale`). Title, phase, tempo
@@ -63,7 +63,7 @@ def hud_lines(hud: Hud, atlas: Atlas, size: tuple[float, float], letters: float 
 
 def corners(hud: Hud) -> Hud:
     """What `hud_lines` shows of `hud`, and nothing else."""
-    return replace(hud, count_in=None, cue=TimingCue.NONE, cue_age_s=0.0, message="", say="")
+    return replace(hud, count_in=None, cue=TimingCue.NONE, cue_age_s=0.0, message="", say="", halt="", way_on="")
 
 
 def hud_calls(hud: Hud, atlas: Atlas, size: tuple[float, float], letters: float | None = None) -> NDArray[np.void]:
@@ -108,6 +108,9 @@ def free_line(hud: Hud, atlas: Atlas, size: tuple[float, float], letters: float 
 _SAID, _SAID_LINES = 36.0, 2
 """A teacher's words are the largest after the count-in's number: they are read over the drums (our choice)."""
 
+_HALT = 76.0
+"""The word that stands while nothing moves: half the count-in's number, read across a room (our choice)."""
+
 _NAMES = ("Demonstrator", "You")
 
 
@@ -132,6 +135,8 @@ def _has_room(size: tuple[float, float]) -> bool:
     return size[0] >= _LEAST[0] and size[1] >= _LEAST[1]
 
 
+_TEMPO_SHARE = 0.34
+"""The most of the band's width that the words about the tempo take (our choice: the title has the rest)."""
 _PLACE_SHARE = 0.62
 """The most of the band's width that bar, beat and what was right take (our choice: the phase has the rest)."""
 
@@ -167,7 +172,9 @@ class _HudPage:
         if not _has_room(self._size):
             return self._draw_list.shapes()
         bottom = self._say() if self._hud.say else self._height
-        if self._hud.count_in is not None:
+        if self._hud.halt:
+            self._halt()
+        elif self._hud.count_in is not None:
             self._count_in(self._hud.count_in)
         elif self._hud.cue is not TimingCue.NONE:
             self._cue(_CUES[self._hud.cue], bottom)
@@ -189,7 +196,8 @@ class _HudPage:
             return _EDGE * k
         self._draw_list.ellipse(((_EDGE + 6) * k, (_SECOND - 7) * k), (6 * k, 6 * k), BRAND)
         phase = TypeStyle(_SECOND_SIZE * k, _LINE)
-        text, style = self._shrunk(self._hud.phase, phase, right - left - 12 * k)
+        words = " · ".join(filter(None, (self._hud.phase, self._hud.reason)))
+        text, style = self._shrunk(words, phase, right - left - 12 * k)
         return left + self._draw_list.text(text, (left, _SECOND * k), style) + 12 * k
 
     def _shrunk(self, text: str, style: TypeStyle, room: float) -> tuple[str, TypeStyle]:
@@ -199,14 +207,19 @@ class _HudPage:
         return self._draw_list.fitted(text, smaller, room), smaller
 
     def _tempo(self) -> float:
-        """The tempo in the corner; returns where it begins."""
+        """The tempo in the corner, what explains it before it; returns where it begins."""
         k, hud = self._k, self._hud
         right = self._width - _EDGE * k
         if hud.beats_a_minute is None:
             return right
         right -= self._draw_list.text("bpm", (right, _FIRST * k), TypeStyle(17 * k, _LINE, align=1.0)) + 6 * k
         tempo = TypeStyle(34 * k, INK, Face.BOLD, 1.0)
-        return right - self._draw_list.text(f"{hud.beats_a_minute:.0f}", (right, _FIRST * k), tempo)
+        right -= self._draw_list.text(f"{hud.beats_a_minute:.0f}", (right, _FIRST * k), tempo)
+        if not hud.tempo_words:
+            return right
+        right -= 14 * k
+        words, style = self._shrunk(hud.tempo_words, TypeStyle(18 * k, _LINE, align=1.0), self._width * _TEMPO_SHARE)
+        return right - self._draw_list.text(words, (right, _FIRST * k), style)
 
     def _place(self) -> float:
         """Beat, bar and how much was right, under the tempo; returns where they begin."""
@@ -223,6 +236,20 @@ class _HudPage:
         style, room = TypeStyle(_SECOND_SIZE * k, _LINE, align=1.0), x - self._width * (1 - _PLACE_SHARE)
         words = next((words for words in _places(hud) if self._draw_list.width(words, style) <= room), "")
         return x - 6 * k - self._draw_list.text(words, (x - 6 * k, _SECOND * k), style) - 12 * k
+
+    def _halt(self) -> None:
+        """What is to be read from afar while nothing moves, and how to go on."""
+        k, hud, middle = self._k, self._hud, (self._width / 2, self._height * 0.52)
+        room = self._width - 4 * _EDGE * k
+        word, style = self._shrunk(hud.halt, TypeStyle(_HALT * k, INK, Face.BOLD, 0.5), room)
+        way, small = self._shrunk(hud.way_on, TypeStyle(26 * k, INK, Face.REGULAR, 0.5), room)
+        widths = self._draw_list.width(word, style), self._draw_list.width(way, small)
+        width, height = max(widths) + 2 * _EDGE * k, (158 if way else 112) * k
+        top = middle[1] - height / 2
+        self._draw_list.box((middle[0] - width / 2, top), (width, height), PANEL, None, (16 * k, 0.0, 0.0))
+        self._draw_list.text(word, (middle[0], top + 82 * k), style)
+        if way:
+            self._draw_list.text(way, (middle[0], top + 130 * k), small)
 
     def _count_in(self, number: int) -> None:
         k, centre = self._k, (self._width / 2, self._height * 0.52)
