@@ -16,7 +16,7 @@ from station.render.palette import THEME_NAMES, Theme
 
 T = TypeVar("T")
 
-_HIGH, _TITLE_WIDTH = 500, 150
+_HIGH, _TITLE_WIDTH = 600, 150
 """Design pixels that the popup is high, and that its titles take beside its rows."""
 LOOK_LABEL = "Look##look"
 LEGEND_LABEL = "Name the lines of the staff##legend"
