@@ -25,6 +25,7 @@ from station.core.errors import DeviceError
 from station.drills.songs.song_folder import SOUND_ENDINGS
 from station.gui import theme
 from station.gui.display import MonitorWatch
+from station.gui.draw_flash import draw_flash
 from station.gui.draw_toasts import ABOVE_RESULT, draw_toast
 from station.gui.file_drop import FileDrop, file_drop
 from station.gui.keyboard_kit import pressed
@@ -228,6 +229,7 @@ class Window:
         self._keys()
         if not io.want_capture_mouse:
             self.viewport.steer(io)
+        draw_flash(self.state.flash, central_area(self.params.docking_params))
         if self._show_help:
             self._help()
         else:

@@ -1,9 +1,10 @@
 """The signs of judgements on notes: on time, early, late, missed, another piece, too loud, too soft.
 
 A judged note bears a shape as well as a colour: a ring on time, an arrow that points left when early and right when
-late, a barred ring when missed, a square when the wrong piece was struck. The tick or arrow stands where the hit fell,
-drawn out by `TICK_ZOOM` so that a few milliseconds can be seen across a room. A wedge above the head that points up
-says too loud, one below that points down too soft. Units are staff spaces unless a size is given, y down.
+late, a barred ring when missed, a square when the wrong piece was struck, a grey ring with a question mark when nothing
+could be heard. The tick or arrow stands where the hit fell, drawn out by `TICK_ZOOM` so that a few milliseconds can be
+seen across a room. A wedge above the head that points up says too loud, one below that points down too soft. Units are
+staff spaces unless a size is given, y down.
 """
 
 from dataclasses import replace
@@ -11,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from station.music.judgement import Label
-from station.render.palette import EARLY, GOOD, INK, LATE, MISSED, WRONG, with_opacity
+from station.render.palette import EARLY, GOOD, INK, INK_SOFT, LATE, MISSED, WRONG, with_opacity
 from station.render.text.draw_list import Colour, DrawList, TypeStyle
 from station.render.text.fonts import Face
 
@@ -45,6 +46,9 @@ def draw_mark(
     if label is Label.MISS:
         draw_list.ellipse(at, (1.05, 1.05), MISSED, 0.0, (0.0, 0.2, 0.0))
         draw_list.line((x - 0.75, y + 0.75), (x + 0.75, y - 0.75), 0.2, MISSED)
+    elif label is Label.UNKNOWN:
+        draw_list.ellipse(at, (1.05, 1.05), INK_SOFT, 0.0, (0.0, 0.2, 0.0))
+        draw_list.text("?", (x, y + 0.62), TypeStyle(1.7, INK_SOFT, Face.BOLD, 0.5))
     elif label is Label.WRONG_PIECE:
         draw_list.box((x - 1.0, y - 1.0), (2.0, 2.0), WRONG, None, (0.3, 0.2, 0.0))
     else:
