@@ -2,8 +2,9 @@
 
 Run from the project's root; it needs Xvfb and takes some ten seconds a page without a graphics card. Pages share a
 window where they can, driven by imgui's test engine as in `tests/gui`. What imgui has cut off or written over itself is
-told; look at each picture all the same. 1280x720 at scale 1 is what `docs/window.md` shows; look at 1920x1080 and at
-scale 2 too.
+told; look at each picture all the same. 1280x720 at scale 1 is what `docs/window.md` shows; look at 760x480, 1920x1080
+and 3840x2160 too. `--scale` is the user's own, beyond what the window's size gives (`station.gui.panel_size`): a dense
+screen needs none.
 """
 
 import argparse

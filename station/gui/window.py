@@ -111,6 +111,7 @@ class Window:
         self.state = self._controller.view()
         snapshot = self.state.snapshot
         self.viewport.follow(self.state.view_settings, None if snapshot is None else snapshot.view)
+        self.viewport.may_rebuild = self.state.room.stage is not Stage.PLAYING
         self._wear()
         self.pages.show(self.state, self.welcome is None)
         self.params.fps_idling.enable_idling = not self.state.is_lively

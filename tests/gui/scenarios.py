@@ -37,7 +37,7 @@ from tests.gui.practice_scenarios import drill, fault, highway, just_play, keys,
 from tests.gui.song_scenario import song
 from tests.gui.staff_scenarios import clicks, words
 from tests.gui.teacher_scenario import there_and_back
-from tests.gui.view_scenarios import legible, look, score, viewpoints, worn
+from tests.gui.view_scenarios import legible, look, resized, score, viewpoints, worn
 
 SCENARIOS: dict[str, Scenario] = {
     "practise": practise,
@@ -59,6 +59,7 @@ SCENARIOS: dict[str, Scenario] = {
     "viewpoints": viewpoints,
     "score": score,
     "worn": worn,
+    "resized": resized,
     "legible": legible,
     "devices": devices,
     "calibration": calibration,
