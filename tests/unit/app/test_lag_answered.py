@@ -39,7 +39,8 @@ def played(sessions: Path, late_ms: float, seed: int = 4) -> Controller:
         Hit(passes_ns + int(row["at_ns"]), Piece(row["piece"]), Zone(row["zone"]), int(row["velocity"]), device=KIT)
         for row in rows
     ]
-    line.says += sorted(hits, key=lambda hit: hit.at_ns)
+    hits.sort(key=lambda hit: hit.at_ns)
+    line.says += hits
     station.update(NS_PER_S + PLAN.end_ns + 2 * NS_PER_S)
     assert room(station).stage is Stage.RESULT
     return station
