@@ -43,10 +43,11 @@ from station.gui.panels.export_panel import EXPORT  # noqa: E402
 from station.gui.panels.figure.style_panel import FIGURE  # noqa: E402
 from station.gui.panels.hits_panel import HITS  # noqa: E402
 from station.gui.panels.import_panel import IMPORT  # noqa: E402
-from station.gui.panels.lessons_panel import FREE_LABEL  # noqa: E402
+from station.gui.panels.lessons.lesson_list import FREE_LABEL  # noqa: E402
 from station.gui.panels.phase_panel import PHASE  # noqa: E402
 from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
+from station.gui.panels.sound.sound_panel import CLICK_TAB, DRUMS_TAB, LEVELS_TAB, OUTPUT_TAB, SOUND, TRACK_TAB  # noqa: E402
 from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
 from station.practice.records.memory import Memory  # noqa: E402
 from station.render.files.png_file import write_png  # noqa: E402
@@ -255,6 +256,23 @@ def _exported(drive: Drive, ctx: Context) -> None:
     ctx.yield_(8)
 
 
+def _sound(tab: str) -> Callable[[Drive, Context], None]:
+    def prepare(drive: Drive, ctx: Context) -> None:
+        open_panel(ctx, SOUND)
+        drive.wait_until(ctx, lambda state: state.sound.shelf is not None)
+        drive.window.pages.sound.leaf = tab
+        ctx.yield_(4)
+
+    return prepare
+
+
+def _track(drive: Drive, ctx: Context) -> None:
+    """A track whose beat was found."""
+    settings = {"track": "~/Music/slow-blues.ogg", "with_track": True, "track_bpm": 96.0, "track_start_s": 1.437}
+    drive.station.parts.store.update(lambda before: replace(before, **settings))
+    _sound(TRACK_TAB)(drive, ctx)
+
+
 def _tool(name: str) -> Callable[[Drive, Context], None]:
     return lambda drive, ctx: open_panel(ctx, name)
 
@@ -284,6 +302,11 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "which-pad": _which_pad,
     "sticks": _sticks,
     "gesture": _gesture,
+    "sound": _sound(CLICK_TAB),
+    "sound-levels": _sound(LEVELS_TAB),
+    "sound-drums": _sound(DRUMS_TAB),
+    "sound-track": _track,
+    "sound-output": _sound(OUTPUT_TAB),
     "phase": _phase,
     "calibration": _calibration,
     "figure-bars": _lanes,

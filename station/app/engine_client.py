@@ -10,7 +10,7 @@ from typing import Protocol
 
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost, Hit
-from station.engine.messages import Command, EngineEvent, Ready, SetAirDrums, SetLevel, Sounding, Watch
+from station.engine.messages import Command, EngineEvent, Ready, SetAirDrums, SetLevel, SetPiece, Sounding, Watch
 from station.practice.headless.live import EngineLink
 
 
@@ -74,7 +74,13 @@ class EngineClient:
 
     def stand(self, command: Command) -> None:
         """Send what holds for this engine and every later one; a dead engine gets it when it has been woken."""
-        self._standing[command.bus if isinstance(command, SetLevel) else type(command)] = command
+        match command:
+            case SetLevel(bus):
+                self._standing[bus] = command
+            case SetPiece(piece):
+                self._standing[SetPiece, piece] = command
+            case _:
+                self._standing[type(command)] = command
         if self.alive:
             self.send(command)
 

@@ -7,6 +7,7 @@ from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_view import SticksView
 from station.app.exam_page import ExamView
 from station.app.phase_page import PhaseView
+from station.app.sound.sound_page import SoundView
 from station.app.station_parts import StationParts
 from station.app.teacher_desk.assigned_page import AssignedView
 from station.app.teacher_desk.teacher_page import TeacherView
@@ -21,7 +22,9 @@ def state_of(parts: StationParts, now_ns: int) -> State:
     """The parts as they are at `now_ns`, as far as they are `shown`."""
     sessions, shown = parts.sessions, parts.shown
     snapshot = sessions.snapshot(now_ns) if shown.picture else None
+    choice = parts.choice()
     return State(
+        choice=None if choice is None else parts.pads.heard(choice, now_ns),
         room=replace(sessions.room(), exam=parts.exam.is_on),
         selection=parts.chooser.selection,
         player=sessions.player.view(),
@@ -50,6 +53,7 @@ def state_of(parts: StationParts, now_ns: int) -> State:
         exam=parts.exam.view() if shown.exam or parts.exam.is_on else ExamView(),
         teacher=parts.teacher.view() if shown.teacher else TeacherView(),
         assigned=parts.assigned.view() if shown.assigned else AssignedView(),
+        sound=parts.sound.view() if shown.sound else SoundView(),
         toast=parts.toasts.text,
         is_lively=sessions.is_lively(now_ns) or (shown.sticks and parts.sticks.is_lively),
     )

@@ -65,5 +65,9 @@ def show(parts: StationParts, action: Show) -> None:
         parts.preferences.learn(on=False)
     if action.catalog or action.today or action.teacher or action.assigned:
         parts.chooser.offer_all()
+    if action.sound and not before.sound:
+        parts.sound.look()
+    if before.sound and not action.sound:
+        parts.sound.leave()
     if action.devices and not before.devices:
         parts.calibration.look_up()

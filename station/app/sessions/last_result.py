@@ -8,14 +8,18 @@ from collections.abc import Mapping
 
 from station.app.room_state import ShownResult
 from station.app.sessions.shown_result import SavedSession
-from station.core.events import Hit
 from station.drills.exam.rubric import Marks
-from station.engine.messages import EngineEvent
-from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, previous_bar, students_bar
+from station.practice.demonstration.compare_by_ear import (
+    Whose,
+    bar_by_ear,
+    previous_bar,
+    previous_tempo,
+    students_bar,
+)
 from station.practice.session.cues.listening import Listening
-from station.practice.session.self_estimate import GUESS_OF, QUESTION, SelfEstimate, answered, is_worth_asking
+from station.practice.session.self_estimate import QUESTION, SelfEstimate, answered, is_worth_asking
 from station.render.snapshot import Snapshot
-from station.scenes.comparison import Comparison
+from station.scenes.comparison import Comparison, Replayed
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
 from station.scenes.session_scene import result_curves
@@ -81,10 +85,6 @@ class LastResult:
         self.is_asking = False
         return answered(guess, self._saved.report.document)
 
-    def guess_of(self, event: EngineEvent) -> SelfEstimate | None:
-        """What a stroke answers while the question is open."""
-        return GUESS_OF.get(event.piece) if self.is_asking and isinstance(event, Hit) else None
-
     def leave(self) -> None:
         """The student turns to something else: a question stays unanswered."""
         self.is_asking = False
@@ -100,14 +100,15 @@ class LastResult:
         if self._saved is None or self.is_asking:
             return None
         result, before = self._saved.result, self._saved.report.before
-        played, words = None, "the teacher"
+        played, shown = None, Replayed("the teacher")
         if whose is Whose.STUDENT:
-            played, words = students_bar(result, bar), self._saved.report.student or "you"
+            played, shown = students_bar(result, bar), Replayed(self._saved.report.student or "you")
         elif whose is Whose.PREVIOUS:
             if isinstance(before, str):
                 return None
-            played, words = previous_bar(result, bar, before), f"you, {before.day}"
-        self._compared = Comparison(result, bar, played, demonstrator, words)
+            played = previous_bar(result, bar, before)
+            shown = Replayed(f"you, {before.day}", previous_tempo(result, bar, before))
+        self._compared = Comparison(result, bar, played, demonstrator, shown, whose is Whose.STUDENT)
         listening = bar_by_ear(result, bar, played)
         self._from_ns = listening.from_ns
         return listening

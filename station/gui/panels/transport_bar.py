@@ -86,6 +86,8 @@ class TransportBar:
             imgui.set_cursor_pos_y(below)
             self._second_line(room, player)
             below = imgui.get_cursor_pos_y()
+        elif room.stage is Stage.IDLE:  # what stands above the strip stays where it is
+            below += theme.points(LINE_HEIGHT) + spacing.y
         self.height = below - spacing.y + imgui.get_style().window_padding.y
 
     @staticmethod

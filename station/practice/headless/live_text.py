@@ -7,9 +7,9 @@ from station.core.labels import limb_name
 from station.core.pieces import Limb
 from station.core.units import NS_PER_MS
 from station.music.judgement import Judgement, Label
-from station.practice.session.plan import Segment
+from station.practice.now.directions_now import direction_of
+from station.practice.now.whereabouts import Doing, whereabouts
 from station.practice.session.session import Session
-from station.practice.session.session_place import direction_of
 from station.scoring.matching.hit_windows import Level, Windows
 
 _EARLY, _ON_TIME, _LATE = "<", "|", ">"
@@ -54,7 +54,7 @@ class LiveText:
         self._paused_words = f"paused: {' or '.join(ways_on)} to go on, Ctrl-C to end"
         self._paused = False
         self._session: Session | None = None
-        self._segment: Segment | None = None
+        self._where = ""
         self._shown = 0
         self._sensors: set[str] = set()
         self._said = ""
@@ -62,7 +62,7 @@ class LiveText:
     def show(self, session: Session, judged: tuple[Judgement, ...]) -> None:
         """Show what is new in `session`."""
         if session is not self._session:
-            self._session, self._segment, self._shown = session, None, 0
+            self._session, self._where, self._shown = session, "", 0
         notices = session.heard.notices[self._shown :]
         self._shown += len(notices)
         for notice in notices:
@@ -85,13 +85,13 @@ class LiveText:
         self._sensors = set(sensors)
 
     def _show_segment(self, session: Session) -> None:
-        state = session.state()
-        if state.transport_ns is None or state.segment == self._segment:
+        where = whereabouts(session)
+        if where.words == self._where or where.doing in (Doing.READY, Doing.PAUSED, Doing.WAITING):
             return
-        if self._segment is None and session.message:
+        if not self._where and session.message:
             self._write(f"\n{session.message}")
-        self._segment = state.segment
-        self._write(f"\n{session.plan.words(state.segment):14}")
+        self._where = where.words
+        self._write(f"\n{where.words:14}")
 
     def _show_words(self, session: Session) -> None:
         """The teacher's words, once as they come."""
