@@ -15,7 +15,7 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.library import find_lesson
 from station.music.performance import Performance
-from station.practice.lag.fair_judgement import FairResult, as_it_came, judged_fairly
+from station.practice.lag.fair_judgement import FairResult, as_it_came, judged_as_told, judged_fairly
 from station.practice.lag.lag_document import lag_document, runs_in
 from station.practice.lag.lag_words import lag_text
 from station.practice.lag.session_lag import LagAnswer, LagTarget
@@ -168,6 +168,17 @@ def test_the_report_says_it_and_which_command_takes_it_out() -> None:
     text = report_text(document)
     assert "most likely your equipment" in text
     assert "station devices calibrate --by groove" in text
+
+
+def test_a_teacher_leaves_out_what_the_students_report_left_out_and_no_more() -> None:
+    came = played(first_groove(), equipment(100.0))
+    fair = judged_fairly(came, NOBODY)
+    assert fair.lag is not None
+    assert document_of(judged_as_told(came, fair.lag.own_ms))["score"] == document_of(fair)["score"]
+    for claimed_ms in (0.0, 40.0, -100.0):
+        assert judged_as_told(came, claimed_ms).result is came, "the strokes do not show it"
+    on_time = played(first_groove(), equipment(0.0))
+    assert judged_as_told(on_time, 90.0).result is on_time
 
 
 def test_without_a_click_nothing_is_asked() -> None:
