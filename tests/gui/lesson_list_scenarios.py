@@ -6,6 +6,7 @@ from imgui_bundle import imgui
 
 from station.core.settings import load_settings
 from station.gui.panels.import_panel import IMPORT, IMPORT_LABEL, PASTE_LABEL, SOURCE_LABEL
+from station.gui.panels.lessons_panel import ADD_LABEL
 from station.gui.panels.lessons_panel import IMPORT_LABEL as OPEN_IMPORT_LABEL
 from tests.gui.drive import Drive, open_panel
 from tests.gui.dropped_files import drop_files
@@ -35,7 +36,8 @@ def imports(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     for name in ("typed", "dropped", "copied"):
         (folder / f"{name}.tab").write_text(tab.format(name.title()))
     ctx.set_ref("//Lessons")
-    ctx.item_click(OPEN_IMPORT_LABEL)
+    ctx.item_click(ADD_LABEL)
+    ctx.item_click(f"//$FOCUSED/{OPEN_IMPORT_LABEL}")
     ctx.yield_(3)
     ctx.set_ref(f"//{IMPORT}")
     ctx.item_input_value(SOURCE_LABEL, str(folder / "typed.tab"))

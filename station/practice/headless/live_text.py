@@ -15,10 +15,17 @@ from station.scoring.matching.hit_windows import Level, Windows
 
 _EARLY, _ON_TIME, _LATE = "<", "|", ">"
 _OF_LEAN = {-1: _EARLY, 0: _ON_TIME, 1: _LATE}
-_UNTIMED, _MISS, _WRONG_PIECE, _EXTRA, _TAKEN_BACK, _IGNORED = "·", "o", "x", "+", "~", ""
+_UNTIMED, _MISS, _WRONG_PIECE, _EXTRA, _TAKEN_BACK, _IGNORED, _UNKNOWN = "·", "o", "x", "+", "~", "", "?"
+_UNPLAYED = {
+    Label.MISS: _MISS,
+    Label.EXTRA: _EXTRA,
+    Label.WRONG_PIECE: _WRONG_PIECE,
+    Label.PENDING: _TAKEN_BACK,
+    Label.UNKNOWN: _UNKNOWN,
+}
 LEGEND = (
     f"{_ON_TIME} on time  {_EARLY} early  {_LATE} late  {_MISS} missed  {_WRONG_PIECE} wrong piece  {_EXTRA} extra  "
-    f"{_TAKEN_BACK} taken back  {_UNTIMED} hit, its time not shown"
+    f"{_TAKEN_BACK} taken back  {_UNTIMED} hit, its time not shown  {_UNKNOWN} not heard"
 )
 
 
@@ -33,16 +40,10 @@ def mark_of(verdict: Judgement, windows: Windows) -> str:
         case Label.MATCH:
             asynchrony_ns = verdict.asynchrony_ns
             return _UNTIMED if asynchrony_ns is None else _OF_LEAN[windows.lean(asynchrony_ns / NS_PER_MS)]
-        case Label.MISS:
-            return _MISS
-        case Label.EXTRA:
-            return _EXTRA
-        case Label.WRONG_PIECE:
-            return _WRONG_PIECE
         case Label.IGNORED | Label.PLAYED_AGAIN:
             return _IGNORED
-        case Label.PENDING:
-            return _TAKEN_BACK
+        case Label.MISS | Label.EXTRA | Label.WRONG_PIECE | Label.PENDING | Label.UNKNOWN as label:
+            return _UNPLAYED[label]
         case _:
             assert_never(verdict.label)
 
