@@ -35,6 +35,7 @@ from tests.gui.planned_day import planned_day
 from tests.gui.player_scenarios import graph, phase, player
 from tests.gui.practice_scenarios import drill, fault, highway, just_play, keys, practise
 from tests.gui.song_scenario import song
+from tests.gui.sound_scenario import sound
 from tests.gui.staff_scenarios import clicks, words
 from tests.gui.teacher_scenario import there_and_back
 from tests.gui.view_scenarios import legible, look, resized, score, viewpoints, worn
@@ -70,6 +71,7 @@ SCENARIOS: dict[str, Scenario] = {
     "phase": phase,
     "figure": figure,
     "song": song,
+    "sound": sound,
     "planned_day": planned_day,
     "exam": exam,
     "exam_in_a_small_window": exam,
@@ -92,6 +94,7 @@ SIZES = {
     "player": (1280, 560),
     "phase": (1280, 720),
     "song": (1280, 800),
+    "sound": (1280, 1100),
     "there_and_back": (1280, 900),
     "legible": (1280, 720),
     "by_mouse": (1280, 720),

@@ -177,6 +177,24 @@ def a_free_take_is_recorded_and_heard_again(seen: dict[str, Any]) -> None:
     assert seen["ended"], "it ends by itself"
 
 
+def test_what_is_set_on_the_page_of_sounds_is_heard_and_kept(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("sound", environment, tmp_path)
+    assert seen["heard"], "a bar of what clicks"
+    assert seen["levels"] == [["SetLevel", 0.5], ["SetLevel", 0.0]]
+    assert seen["alone"] == 19, "every piece but the kick is silent"
+    assert seen["tried"] == [True, "acoustic"], "to look at a kit chooses none"
+    assert seen["sounds"] == ["brushes", "acoustic", "electronic", "electronic"][: len(seen["sounds"])]
+    assert seen["sounds"][-1] == "electronic"
+    assert seen["track"][0], "a sound that is dropped on this page is the track"
+    assert seen["track"][1:] == [pytest.approx(100.0, abs=0.2), pytest.approx(1.0, abs=0.01)]
+    assert seen["nudged"] == pytest.approx(0.01)
+    assert seen["silent"] == [0.0]
+    assert seen["flashes"], "what is not heard is seen"
+    assert seen["import"]
+    assert seen["kept"] == ["parts=2,accents=1+3,off=2,count", "click=0.5 student=0", "electronic", "nothing", True]
+    assert seen["unread"] == []
+
+
 def test_a_part_is_pinned_to_a_band_and_kept(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run("song", environment, tmp_path)
     assert seen["pins"] == [1, 4, 6, 8]
