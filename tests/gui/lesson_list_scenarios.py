@@ -47,15 +47,17 @@ def whose(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["unread"] = drive.unread(ctx)
     ctx.set_ref(f"//{WHO_PLAYS}")
     ctx.item_input_value(NEW_NAME, "  Bea   Bell ")
-    ctx.yield_(3)
+    drive.wait_until(ctx, lambda state: not state.students.asks)
+    ctx.yield_(2)
     drive.seen["plays"] = [drive.state.settings.student]
     drive.seen["levels"].append(str(drive.state.selection.level))  # type: ignore[attr-defined] # a list
     places.append(place_of_start(ctx))
     drive.engine.play_bytes("b0 40 7f")  # a foot switch: the kit asks
-    ctx.yield_(13)
+    drive.wait_until(ctx, lambda state: state.students.hears)
     drive.seen["listed"] = [[line.student.name, line.pad] for line in drive.state.students.lines]
     drive.engine.play_bytes("99 32 50")  # the high tom is the second student's
-    ctx.yield_(8)
+    drive.wait_until(ctx, lambda state: not state.students.asks)
+    ctx.yield_(2)
     drive.seen["plays"].append(drive.state.settings.student)  # type: ignore[attr-defined] # a list
     drive.seen["levels"].append(str(drive.state.selection.level))  # type: ignore[attr-defined] # a list
     to_list(ctx)
