@@ -20,7 +20,9 @@ from station.core.toml.schema import (
     Reader,
     checked_values,
     flag,
+    list_of,
     members_by_label,
+    needed,
     number,
     one_of,
     record,
@@ -43,6 +45,15 @@ LEAST_BLOCK_FRAMES = 16
 
 EVERYTHING, CLICK_ALONE, NOTHING = HEARD = ("everything", "click", "nothing")
 """How much is heard: for a night beside others the click alone, or nothing, and the picture clicks."""
+
+
+@dataclass(frozen=True, slots=True)
+class StudentSettings:
+    """What is a student's own while another one plays: who leads, and the course that is listed."""
+
+    name: str
+    hands: str = ""
+    course: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +89,8 @@ class Settings:
     are hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock,
     `sound_phase` whether that phase sounds the drill's strokes as it passes them, `course` names the course whose
     lessons are listed, empty for all; `welcomed` whether the questions of the first start were asked
-    (`app.settings.first_start`).
+    (`app.settings.first_start`), `students` who has played here, the last one first, with what is their own
+    (`app.settings.students`), `pads_switch` whether the kit may ask who plays.
     """
 
     student: str = "student"
@@ -130,6 +142,8 @@ class Settings:
     air_drums: bool = False
     follow_phase: bool = False
     sound_phase: bool = False
+    pads_switch: bool = True
+    students: tuple[StudentSettings, ...] = ()
 
     @property
     def threshold_of(self) -> dict[Piece, int]:
@@ -207,6 +221,9 @@ def _block(value: object) -> int:
     return frames
 
 
+_STUDENT: Fields = MappingProxyType(
+    {"name": needed(text, 'a name such as "Ann"'), "hands": Field(text, ""), "course": Field(text, "")}
+)
 _SPECIAL: Mapping[str, Reader[object]] = MappingProxyType(
     {
         "panel_scale": number(SMALLEST_PANELS, LARGEST_PANELS),
@@ -219,6 +236,7 @@ _SPECIAL: Mapping[str, Reader[object]] = MappingProxyType(
         "track_bpm": number(0, 400),
         "track_start_s": number(0, 600),
         "thresholds": _threshold_text,
+        "students": list_of(record(StudentSettings, _STUDENT), '[{name = "Ann", hands = "left"}]'),
     }
 )
 """What a sound card or a person could mean; our choice, wide enough for every device on sale. The others are texts and
