@@ -8,6 +8,7 @@ from collections.abc import Callable
 from threading import Thread
 from typing import Protocol
 
+from station.app.sound.click_flash import ClickFlash
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.engine.messages import Command, EngineEvent, Ready, SetAirDrums, SetLevel, SetPiece, Sounding, Watch
@@ -37,6 +38,8 @@ class EngineClient:
         self.rate_hz = rate_hz
         self.alive = True
         self.sound = _WAKING
+        self.flash = ClickFlash()
+        """What is clicked, as light."""
         self.struck_ns: int | None = None
         """When the last stroke was played that was heard of."""
         self._kits: list[str] = []
@@ -93,6 +96,7 @@ class EngineClient:
         if not self.alive:
             raise DeviceError(self.sound)
         self._engine.send(command)
+        self.flash.sent(command)
 
     def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
         """What has happened since the last call, nothing from a dead engine; its death is raised once."""
@@ -108,6 +112,7 @@ class EngineClient:
         return events
 
     def _handle(self, event: EngineEvent) -> None:
+        self.flash.handle(event)
         match event:
             case DeviceFound(_, device):
                 self._kits = [*(kit for kit in self._kits if kit != device), device]

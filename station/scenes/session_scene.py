@@ -19,6 +19,7 @@ from station.motion.style.style import Style
 from station.music.judgement import Judgement, Label
 from station.music.score import Score
 from station.practice.now.directions_now import direction_of
+from station.practice.now.entry_now import entry_words
 from station.practice.now.tempo_now import session_tempo
 from station.practice.now.whereabouts import Doing, whereabouts
 from station.practice.session.plan import Phase, Plan
@@ -238,7 +239,7 @@ class SessionView:
             count_in=where.beat if is_counted_in else None,
             right=right,
             judged=judged,
-            message=session.message if is_counted_in else "",
+            message=session.message if is_counted_in else entry_words(session) if where.doing is Doing.PASS else "",
             cue=self._cue if age_ns < CUE_SHOWN_NS else TimingCue.NONE,
             cue_age_s=age_ns / NS_PER_S,
             say=direction_of(session).say,

@@ -78,6 +78,18 @@ def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_p
     assert list((tmp_path / "sessions").rglob("*.json")), "the session is kept"
 
 
+@pytest.mark.parametrize("scenario", ["whose", "whose_in_a_large_window"])
+def test_students_take_turns_and_start_stays_where_it_is(
+    environment: dict[str, str], tmp_path: Path, scenario: str
+) -> None:
+    seen = run(scenario, environment, tmp_path)
+    assert seen["plays"] == ["Bea Bell", "student"]
+    assert seen["levels"] == ["studio", "beginner", "studio"], "each has their own"
+    assert seen["listed"] == [["Bea Bell", "snare"], ["student", "high tom"], ["Cem", "floor tom"]]
+    assert seen["start"] == [seen["start"][0]] * len(seen["start"])
+    assert seen["unread"] == []
+
+
 def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run_in_turn(
         ["devices", "calibration", "sticks", "habits", "imports", "search", "fault", "keys", "just_play"],
@@ -126,6 +138,17 @@ def test_views_and_score_in_one_window(environment: dict[str, str], tmp_path: Pa
     every_viewpoint_can_be_chosen_and_turned(seen["look"])
     the_score_s_four_forms(seen["score"])
     colours_and_sizes_are_worn_and_kept(seen["worn"])
+
+
+def test_panels_follow_the_window_s_size(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("resized", environment, tmp_path)
+    large, small = seen["1280"], seen["760"]
+    assert (large["letters"], small["letters"]) == (1.0, 0.84375), "17 and 14 pixels"
+    assert large["lessons"] == pytest.approx(0.26, abs=0.01)
+    assert small["lessons"] == pytest.approx(0.37, abs=0.01), "as many letters, so a larger share"
+    for size in (large, small):
+        assert size["unread"] == []
+        assert [size[f"help {scale}"] for scale in ("1", "2.5", "0.75")] == [True] * 3
 
 
 def a_stick_is_seen_and_put_in_a_hand(seen: dict[str, Any]) -> None:
@@ -319,11 +342,11 @@ def viewpoints_are_kept_by_keys_and_in_the_popup(seen: dict[str, Any]) -> None:
 
 def colours_and_sizes_are_worn_and_kept(seen: dict[str, Any]) -> None:
     assert seen["light"]
-    assert seen["letters"] == 1.25, "two steps of a quarter up, and one down"
+    assert seen["letters"] == 1.0625, "two steps of a quarter up, and one down; 85 % of it in so small a window"
     assert seen["kept"] == ["day", 1.25]
     assert seen["strip"] <= 2 * 38 + 9 + 2 * 14 + 1, "two lines, however large"
     assert (seen["mirrored"], seen["speed"]) == (True, 70), "what has no room in them is behind two buttons"
-    assert 0.3 < seen["panels"] < 0.36, "1.25 times 26 percent of the window"
+    assert 0.42 < seen["panels"] < 0.48, "as much of the window as the lessons may have"
 
 
 def the_score_s_four_forms(seen: dict[str, Any]) -> None:

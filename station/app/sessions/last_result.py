@@ -4,6 +4,7 @@ A student who first judges their own error learns more (`practice.session.self_e
 nothing of the result is shown.
 """
 
+from bisect import bisect_right
 from collections.abc import Mapping
 
 from station.app.room_state import ShownResult
@@ -102,7 +103,10 @@ class LastResult:
         result, before = self._saved.result, self._saved.report.before
         played, shown = None, Replayed("the teacher")
         if whose is Whose.STUDENT:
-            played, shown = students_bar(result, bar), Replayed(self._saved.report.student or "you")
+            played = students_bar(result, bar)
+            number = bisect_right(result.plan.pass_starts, bar)
+            which = f", pass {number} of {result.plan.passes}" if result.plan.passes > 1 else ""
+            shown = Replayed(f"{self._saved.report.student or 'you'}{which}")
         elif whose is Whose.PREVIOUS:
             if isinstance(before, str):
                 return None

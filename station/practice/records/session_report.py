@@ -26,6 +26,7 @@ from station.practice.records.mastery_report import passes_text
 from station.practice.records.phase_words import phase_document, phase_lines
 from station.practice.records.stick_words import sticking_lines, sticks_document, sticks_text
 from station.practice.records.tempo_report import clean_up_to, tempo_rows, tempo_text
+from station.practice.records.unheard_words import unheard_rows, unheard_text
 from station.practice.records.what_next import advice_of, measured_session, missed_document, table_in, what_next
 from station.practice.session.cues.quiet_bars import gap_of, gap_words
 from station.practice.session.lesson_places import written_hands
@@ -85,6 +86,7 @@ def practice_document(result: SessionResult, settings: Settings, lag: SessionLag
             {"bar": plan.bar_names[pause.bar] + 1, "asked": pause.asked, "strokes_again": pause.strokes}
             for pause in result.pauses
         ],
+        "unheard": unheard_rows(result),
         "goals_missed": missed_document(plan, measured),
         "next": [*what_next(document, plan, measured)],
         "assignments": [taken.id for taken in given],
@@ -170,7 +172,8 @@ def report_text(document: dict[str, Json]) -> str:
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
         f"{_gap_text(session)}{_figures_text(document)}{_praise_text(document)}{_passes(document)}{_tempi(session)}"
-        f"{_lag(document)}{_steps_text(map(str, steps))}{_teacher(session)}{sticks_text(document)}{_paused(session)}"
+        f"{_lag(document)}{_steps_text(map(str, steps))}{_teacher(session)}{sticks_text(document)}"
+        f"{unheard_text(session['unheard'])}{_paused(session)}"
         f"\nLatency taken out: {session['latency']}.\n"
     )
 
@@ -248,12 +251,17 @@ def _again(counts: dict[str, Json]) -> str:
     return f"; played again: {counts['played_again']}" if counts["played_again"] else ""
 
 
+def _unknown(counts: dict[str, Json]) -> str:
+    """What is said of notes that nobody could hear, where there are some."""
+    return f"; unknown, for they could not be heard: {counts['unknown']}" if counts["unknown"] else ""
+
+
 def _figures_text(document: dict[str, Json]) -> str:
     counts, timing = table_in(document, "counts"), table_in(document, "timing")
     lines = [
         f"Score {_figure(document['score'], '.0f')} of 100",
         f"Notes {counts['notes']}: {counts['matched']} hit, {counts['misses']} missed,"
-        f" {counts['wrong_piece']} on a wrong piece; extra hits: {counts['extras']}{_again(counts)}",
+        f" {counts['wrong_piece']} on a wrong piece; extra hits: {counts['extras']}{_again(counts)}{_unknown(counts)}",
         _timing_words(timing, document["reference"] == Reference.PLAYER.value),
     ]
     rows = [

@@ -275,5 +275,5 @@ def test_after_the_demonstration_come_its_bars_again_and_the_page_goes_on_where_
 def test_a_pass_without_marks_says_that_this_is_meant(feedback: Feedback, words: str) -> None:
     session, view = Session(PLAN, feedback=feedback), SessionView(PLAN)
     session.handle(Started(0, None))
-    assert seen_at(view, session, PLAN.passes_start_ns - NS_PER_S).hud.phase == "Count-in"
+    assert seen_at(view, session, PLAN.passes_start_ns - NS_PER_S).hud.phase == "Count-in to pass 1 of 2"
     assert seen_at(view, session, PLAN.passes_start_ns + NS_PER_S).hud.phase == words

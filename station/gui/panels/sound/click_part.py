@@ -114,7 +114,7 @@ def _cell(pattern: ClickPattern, beat: int) -> ClickPattern:
     imgui.push_style_color(imgui.Col_.button, imgui.ImVec4(*colour))
     sign = {_STRONG: ">", _WEAK: " ", _OFF: "–"}[now]
     pressed = imgui.button(
-        f"{sign}\n{beat + 1}##beat{beat + 1}", imgui.ImVec2(theme.points(_CELL), theme.points(_CELL))
+        f"{sign}\n{beat + 1}###beat{beat + 1}", imgui.ImVec2(theme.points(_CELL), theme.points(_CELL))
     )
     imgui.pop_style_color()
     theme.tooltip(f"Beat {beat + 1} is {now}")

@@ -99,7 +99,7 @@ class TrackPart:
         imgui.set_next_item_width(theme.points(_NUMBER))
         changed, bpm = imgui.input_float(BPM_LABEL, chosen.bpm, 0.0, 0.0, "%.2f bpm")
         theme.tooltip("The track's own tempo, in the beat that your lesson counts; 0: the lesson's own tempo")
-        if changed and not imgui.is_item_active():
+        if changed:
             chosen = replace(chosen, bpm=min(max(bpm, 0.0), _MOST_BPM))
         if row.button(TAP_LABEL, _SMALL):
             self._dispatch(TapTrack(monotonic_ns()))
@@ -120,7 +120,7 @@ class TrackPart:
         imgui.set_next_item_width(theme.points(_NUMBER))
         changed, start_s = imgui.input_float(START_LABEL, chosen.start_s, 0.0, 0.0, "%.3f s")
         theme.tooltip("The place in the track at which the first pass begins")
-        if changed and not imgui.is_item_active():
+        if changed:
             chosen = replace(chosen, start_s=_start(start_s))
         imgui.begin_disabled(view.is_playing)
         if track.at_s is None:

@@ -27,10 +27,11 @@ and beyond a professional's own scatter of about 4 dB (HUMANS: SD 15-21 of 127).
 _WEDGE_AWAY = 1.6
 """Spaces from the head's middle to the wedge's; our choice, clear of the ring."""
 _WEDGE = 0.42
-_FIGURES = TypeStyle(1.25, INK, Face.BOLD)
-"""As large as bar numbers."""
-_FIGURES_AWAY, _FIGURES_DROP = 2.75, 0.42
-"""Spaces from the head's middle to the figures beyond the arrow, and down to their baseline."""
+_FIGURES = TypeStyle(1.15, INK, Face.BOLD, 0.5)
+_FIGURES_DROP = 1.7
+"""Spaces from the head's middle down to the figures' baseline: between the arrow and the ring of a head two spaces
+lower (our choice)."""
+_MINUS = "\N{MINUS SIGN}"
 
 
 def draw_mark(
@@ -75,13 +76,12 @@ def _draw_timing(
 
 
 def draw_asynchrony(draw_list: DrawList, asynchrony_ms: float, at: tuple[float, float]) -> None:
-    """How many milliseconds off the note at `at` was, in figures beyond its mark; nothing where that is not told."""
-    if np.isnan(asynchrony_ms):
+    """How many milliseconds early or late the note at `at` was, in figures under its arrow; nothing where on time."""
+    if not abs(asynchrony_ms) > ON_TIME_MS:
         return
-    is_late = asynchrony_ms > 0
-    x = at[0] + (_FIGURES_AWAY if is_late else -_FIGURES_AWAY)
-    style = replace(_FIGURES, colour=timing_colour(asynchrony_ms), align=0.0 if is_late else 1.0)
-    draw_list.text(f"{asynchrony_ms:+.0f}".replace("-", "\N{MINUS SIGN}"), (x, at[1] + _FIGURES_DROP), style)
+    x = at[0] + np.copysign(_FARTHEST_ARROW, asynchrony_ms)
+    style = replace(_FIGURES, colour=timing_colour(asynchrony_ms))
+    draw_list.text(f"{asynchrony_ms:+.0f}".replace("-", _MINUS), (x, at[1] + _FIGURES_DROP), style)
 
 
 def timing_colour(asynchrony_ms: float) -> Colour:
