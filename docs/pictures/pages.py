@@ -48,6 +48,7 @@ from station.gui.panels.lessons.who_plays import WHO_LABEL  # noqa: E402
 from station.gui.panels.phase_panel import PHASE  # noqa: E402
 from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
+from station.gui.panels.sound.sound_panel import CLICK_TAB, DRUMS_TAB, LEVELS_TAB, OUTPUT_TAB, SOUND, TRACK_TAB  # noqa: E402
 from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
 from station.practice.records.memory import Memory  # noqa: E402
 from station.practice.records.session_files import session_folder  # noqa: E402
@@ -58,6 +59,7 @@ from station.sync.air.air_zones import AirKit, AirZone  # noqa: E402
 from tests.fakes.stick_physics import Sensor, Stroke, measured, strokes_by_angle  # noqa: E402
 from tests.fakes.walker_files import write_walker  # noqa: E402
 from tests.gui.drive import NEWCOMER, Drive, Scenario, open_panel, press_view  # noqa: E402
+from tests.gui.newcomer_scenario import begin  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402
 
 Context = imgui.test_engine.TestContext
@@ -121,6 +123,17 @@ def _playing(drive: Drive, ctx: Context) -> None:
         ctx.yield_()
         if drive.picture.hud.judged > ENOUGH_JUDGED:
             break
+
+
+def _first_groove(drive: Drive, ctx: Context) -> None:
+    begin(ctx)
+    ctx.yield_(60)  # 6 s: in the demonstration
+
+
+def _first_result(drive: Drive, ctx: Context) -> None:
+    begin(ctx)
+    drive.wait_for(ctx, Stage.RESULT)
+    ctx.yield_(3)
 
 
 def _result(drive: Drive, ctx: Context) -> None:
@@ -255,6 +268,23 @@ def _exported(drive: Drive, ctx: Context) -> None:
     ctx.yield_(8)
 
 
+def _sound(tab: str) -> Callable[[Drive, Context], None]:
+    def prepare(drive: Drive, ctx: Context) -> None:
+        open_panel(ctx, SOUND)
+        drive.wait_until(ctx, lambda state: state.sound.shelf is not None)
+        drive.window.pages.sound.leaf = tab
+        ctx.yield_(4)
+
+    return prepare
+
+
+def _track(drive: Drive, ctx: Context) -> None:
+    """A track whose beat was found."""
+    settings = {"track": "~/Music/slow-blues.ogg", "with_track": True, "track_bpm": 96.0, "track_start_s": 1.437}
+    drive.station.parts.store.update(lambda before: replace(before, **settings))
+    _sound(TRACK_TAB)(drive, ctx)
+
+
 def _tool(name: str) -> Callable[[Drive, Context], None]:
     return lambda drive, ctx: open_panel(ctx, name)
 
@@ -269,6 +299,8 @@ def _beside_a_result(name: str) -> Callable[[Drive, Context], None]:
 
 PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "welcome": _lessons,
+    "first-groove": _first_groove,
+    "first-result": _first_result,
     "lessons": _lessons,
     "who": _who,
     "look": _look,
@@ -283,6 +315,11 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "which-pad": _which_pad,
     "sticks": _sticks,
     "gesture": _gesture,
+    "sound": _sound(CLICK_TAB),
+    "sound-levels": _sound(LEVELS_TAB),
+    "sound-drums": _sound(DRUMS_TAB),
+    "sound-track": _track,
+    "sound-output": _sound(OUTPUT_TAB),
     "phase": _phase,
     "calibration": _calibration,
     "figure-bars": _lanes,
@@ -297,6 +334,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
 """What is done before each picture is taken."""
 _STUDENTS = {
     "welcome": NEWCOMER,
+    **dict.fromkeys(("first-groove", "first-result"), f"{NEWCOMER},seed=2,sd_ms=30,bias_ms=95"),
     "courses": None,
     **dict.fromkeys(("playing", "result", "hits", "compared", "double"), STUDENT),
 }

@@ -17,6 +17,7 @@ from station.app.export import Exporter
 from station.app.importer import Importer
 from station.app.phase_page import PhasePage
 from station.app.sessions.pad_control import PadControl
+from station.app.sessions.screen_choice import ScreenChoice, choice_beside
 from station.app.sessions.session_control import Launch, SessionControl
 from station.app.sessions.who_plays import WhoPlays
 from station.app.settings.preferences import Preferences
@@ -24,6 +25,7 @@ from station.app.settings.settings_store import SettingsStore
 from station.app.settings.students import Students
 from station.app.settings.view_settings import view_settings_of
 from station.app.songs.song_page import Ear, SongPage
+from station.app.sound.sound_page import SoundPage, SoundSurroundings
 from station.app.style_editor import StyleEditor
 from station.app.teacher_desk.assigned_page import AssignedPage
 from station.app.teacher_desk.teacher_page import TeacherPage
@@ -77,6 +79,8 @@ class StationParts:
         self.teacher = TeacherPage(
             store, self.sessions.look_at, self.sessions.catalog.lesson, processes.work, ThreadPoolExecutor(1, "returns")
         )
+        rooms = SoundSurroundings(lambda: self.chooser.selection.tempo_bpm, self._rest, notify, processes.work)
+        self.sound = SoundPage(store, self.engine, self.sessions, rooms)
         self.assigned = AssignedPage(store, ThreadPoolExecutor(1, "assignments"))
 
     def make_ready(self) -> None:
@@ -85,6 +89,16 @@ class StationParts:
         self.sticks.give_up()
         self.who.ask(on=False)
         self.preferences.learn(on=False)  # what is played from now on is no gesture to be learnt
+
+    @property
+    def kit_commands(self) -> bool:
+        """Whether strokes may ask for something: not where they teach, write, or are of an exam."""
+        is_for_else = self.mapping.learns or self.sticks.learns or self.editor.is_open or self.exam.is_on
+        return not is_for_else
+
+    def choice(self) -> ScreenChoice | None:
+        """What is to be chosen on the screen now."""
+        return self.who.choice() or choice_beside(self.sessions.practice)
 
     def _rest(self) -> Callable[[], bool]:
         """Let the engine's devices go; returns what says whether it has. Raises `DeviceError` while somebody plays."""
@@ -110,6 +124,7 @@ class StationParts:
             self.teacher,
             self.assigned,
             self.song,
+            self.sound,
             self.chooser,
         ):
             part.close()

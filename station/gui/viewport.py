@@ -25,15 +25,18 @@ from station.core.errors import DeviceError
 from station.core.named_view import NamedView
 from station.gui import theme
 from station.gui.flat_canvas import FlatCanvas
+from station.gui.panel_size import WORDS
 from station.render.camera import Camera
 from station.render.framing import Stage, named, stage_of
 from station.render.gpu.gl import GL_VERSION, RenderTarget
-from station.render.painter import Area, Arrangement, Painter
+from station.render.hud import FreeLine, band_height, corners, free_line
+from station.render.notation.screen.score_place import halves
+from station.render.painter import Area, Arrangement, Painter, form_of
 from station.render.palette import NIGHT, themed
 from station.render.quality import QUALITIES
 from station.render.report.report_layout import ReportPage, page_for
 from station.render.report.report_picture import report_shapes, report_sheet
-from station.render.snapshot import Snapshot
+from station.render.snapshot import Hud, Snapshot
 
 _GONE = "GL_UNKNOWN_ERROR"
 """What moderngl calls GL_CONTEXT_LOST (KHR_robustness), which OpenGL 3.3 has no number for yet."""
@@ -64,6 +67,7 @@ class Viewport:
         self.canvas = FlatCanvas(self._ready)
         """What panels draw notation with."""
         self._samples = 0
+        self._words: tuple[Hud, tuple[int, int], float] | None = None
         self._times_ms: list[float] = []
         self._page: tuple[ShownResult, ReportPage, NDArray[np.void]] | None = None
         self.view_settings = view_settings
@@ -133,12 +137,16 @@ class Viewport:
         screen, whole = self.clear()
         painter.theme = self.view_settings.theme
         if min(area[2:]) < _LEAST_AREA:
+            self._words = None
             return lambda _: None
         self._follow_stage(stage_of(snapshot))
         began = perf_counter()
         target = self._target_for(painter, ctx, whole)
         is_rough = self.camera != self._seen_from
-        arrangement = Arrangement(self._inset, self.view_settings.score, is_rough, self.view_settings.double)
+        look, letters = self.view_settings, _letters()
+        arrangement = Arrangement(self._inset, look.score, is_rough, look.double, look.legend, letters)
+        form = form_of(snapshot, look.score) if with_score else None
+        self._words = corners(snapshot.hud), halves(area[2:], form).scene[2:], letters
         self._seen_from = self.camera
         with self._watched():
             rest = painter.begin(snapshot, target.framebuffer, area, self.camera, with_score, arrangement)
@@ -155,6 +163,13 @@ class Viewport:
 
         return finish
 
+    def free_line(self) -> FreeLine | None:
+        """Where the band above the room has no words, in pixels of the picture; None where there is no band."""
+        if self._painter is None or self._words is None or not band_height(*self._words):
+            return None
+        hud, size, letters = self._words
+        return free_line(hud, self._painter.atlas, size, letters)
+
     def _follow_stage(self, stage: Stage) -> None:
         """Frame another kit or player; where the user has turned the picture only another side turns it back."""
         before, self._stage = self._stage, stage
@@ -165,6 +180,7 @@ class Viewport:
     def draw_report(self, report: ShownResult, area: Area) -> None:
         """Draw a result in place of the room; raises `DeviceError` if OpenGL fails."""
         ctx, painter = self._ready()
+        self._words = None
         _, whole = self.clear()
         painter.theme = self.view_settings.theme
         if min(area[2:]) < _LEAST_AREA:
@@ -241,6 +257,11 @@ class Viewport:
         ctx.viewport = area
         painter.printer.theme = painter.theme
         painter.printer.draw(self._page[2], report_sheet(area[2:], page))
+
+
+def _letters() -> float:
+    """How large the picture's words are beside the panels', in pixels a design pixel (`hud.scale`)."""
+    return theme.points(WORDS) * float(imgui.get_io().display_framebuffer_scale.y)
 
 
 def quality_for(lowest_ms: float) -> int:

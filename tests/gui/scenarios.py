@@ -30,7 +30,7 @@ from tests.gui.exam_scenario import exam
 from tests.gui.figure import figure
 from tests.gui.interruption_scenarios import closes, lost, unplugged
 from tests.gui.lesson_list_scenarios import imports, search, whose
-from tests.gui.newcomer_scenario import newcomer
+from tests.gui.newcomer_scenario import first_minute, newcomer
 from tests.gui.planned_day import planned_day
 from tests.gui.player_scenarios import graph, phase, player
 from tests.gui.practice_scenarios import drill, fault, highway, just_play, keys, practise
@@ -50,6 +50,7 @@ SCENARIOS: dict[str, Scenario] = {
     "unplugged": unplugged,
     "lost": lost,
     "newcomer": newcomer,
+    "first_minute": first_minute,
     "search": search,
     "whose": whose,
     "whose_in_a_large_window": whose,
@@ -101,6 +102,7 @@ SIZES = {
 """Of windows, in pixels; the words' is so high that two dozen fields are seen: the test engine finds no others."""
 STUDENTS = {
     "newcomer": NEWCOMER,
+    "first_minute": f"{NEWCOMER},seed=2,sd_ms=30,bias_ms=95",
     "drill": "beginner,seed=3",
     "practise": "pro,seed=4",
     "exam": "seed=1,sd_ms=4",

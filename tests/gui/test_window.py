@@ -118,13 +118,25 @@ def test_a_newcomer_answers_three_questions_by_keyboard_and_plays(environment: d
     assert seen["left-handed"], "the drummer leads with the student's hand"
     assert seen["stage"] == "PLAYING"
     assert [seen["helped"], seen["helped playing"]] == ["Lessons", "Playing"]
+    assert "Listen first" in seen["told"]
+
+
+def test_the_first_minute_on_late_equipment_is_judged_fairly(environment: dict[str, str], tmp_path: Path) -> None:
+    seen = run("first_minute", environment, tmp_path)
+    assert seen["stage"] == "PLAYING", "one button, and the groove is heard"
+    assert seen["seconds"] < 70
+    assert abs(seen["lag"] - 95) <= 10
+    assert seen["asked"] == "", "one question at a time"
+    assert seen["fair"] > 50
+    assert [seen["answered"], seen["after"]] == [None, seen["fair"]]
+    assert "taken out" in seen["toast"]
 
 
 def test_views_and_score_in_one_window(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run_in_turn(["viewpoints", "look", "score", "worn"], environment, tmp_path)
     viewpoints_are_kept_by_keys_and_in_the_popup(seen["viewpoints"])
     every_viewpoint_can_be_chosen_and_turned(seen["look"])
-    the_score_s_three_forms(seen["score"])
+    the_score_s_four_forms(seen["score"])
     colours_and_sizes_are_worn_and_kept(seen["worn"])
 
 
@@ -326,10 +338,10 @@ def colours_and_sizes_are_worn_and_kept(seen: dict[str, Any]) -> None:
     assert 0.3 < seen["panels"] < 0.36, "1.25 times 26 percent of the window"
 
 
-def the_score_s_three_forms(seen: dict[str, Any]) -> None:
-    assert seen["by_key"] == ["PAGED", "HIGHWAY", "SCROLLING"]
-    assert seen["chosen"] == "PAGED"
-    assert seen["kept"] == "paged"
+def the_score_s_four_forms(seen: dict[str, Any]) -> None:
+    assert seen["by_key"] == ["HIGHWAY", "FALLING", "SCROLLING", "PAGED"], "from the pages that everybody begins with"
+    assert seen["chosen"] == ["FALLING", False]
+    assert seen["kept"] == ["falling", False]
 
 
 def a_fault_is_said_in_one_line(seen: dict[str, Any]) -> None:

@@ -12,6 +12,7 @@ from station.core.settings import load_settings
 from station.gui.keyboard_kit import VIEW_KEYS
 from station.gui.panels.player_controls import MORE_LABEL
 from station.gui.panels.transport_bar import VIEW_LABEL
+from station.gui.panels.view_popup import LEGEND_LABEL
 from station.render.camera import VIEW_NAMES
 from tests.fakes.stick_physics import FINE_HZ, Sensor, measured
 from tests.gui.drive import Drive
@@ -94,10 +95,10 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 
 def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
-    """The score's three forms by key and in the popup."""
+    """The score's four forms by key and in the popup, and the names of the staff's lines."""
     ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
     forms = []
-    for _ in range(3):
+    for _ in range(4):
         ctx.key_press(imgui.Key.n)
         ctx.yield_(2)
         forms.append(drive.window.viewport.view_settings.score.name)
@@ -105,10 +106,12 @@ def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref("//Transport")
     ctx.item_click("Look##look")
     ctx.yield_(2)
-    ctx.item_click("//$FOCUSED/Pages##Score")
+    ctx.item_click("//$FOCUSED/Falling##Score")
+    ctx.item_uncheck(f"//$FOCUSED/{LEGEND_LABEL}")
     ctx.yield_(2)
-    drive.seen["chosen"] = drive.window.viewport.view_settings.score.name
-    drive.seen["kept"] = load_settings(drive.settings).score
+    chosen, kept = drive.window.viewport.view_settings, load_settings(drive.settings)
+    drive.seen["chosen"] = [chosen.score.name, chosen.legend]
+    drive.seen["kept"] = [kept.score, kept.legend]
 
 
 def worn(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:

@@ -14,6 +14,7 @@ from station.app.actions.player_actions import PlayerAction
 from station.app.actions.practice_actions import ChoiceAction, PracticeAction
 from station.app.actions.settings_actions import AskWhoPlays, Embody, KeptSetting, PlayAs
 from station.app.actions.song_actions import PinAction, SaveSong
+from station.app.actions.sound_actions import SoundAction
 from station.app.actions.style_actions import StyleAction
 from station.app.actions.teacher_actions import SendReturn, TakeUp, TeacherAction
 from station.app.actions.today_actions import BookAction, StartBlock
@@ -51,6 +52,7 @@ def handlers_of(parts: StationParts) -> dict[type, Handler]:
         (FileAction, partial(write_file, parts)),
         (PinAction, parts.song.act),
         (SaveSong, partial(keep_song, parts)),
+        (SoundAction, parts.sound.act),
         (TeacherAction, parts.teacher.act),
         (SendReturn, parts.assigned.send),
         (TakeUp, lambda action: parts.chooser.take_up(action.lesson)),

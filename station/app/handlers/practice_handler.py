@@ -107,6 +107,8 @@ def _leave(parts: StationParts) -> None:
         parts.sticks.give_up()
     elif stage is Stage.PLAYING:
         parts.sessions.practice.end()
+    elif stage is Stage.RESULT and parts.sessions.practice.last_result.is_asking:
+        parts.sessions.practice.last_result.leave()
     elif stage is Stage.RESULT:
         parts.sessions.dismiss()
     elif parts.exam.looks:

@@ -1,26 +1,27 @@
-"""Who plays? The list that comes up between sessions, from the window or by the kit, and what a pad chooses of it."""
+"""Who plays? The list that comes up between sessions, from the window or by the kit: a choice on the screen."""
 
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
-from itertools import zip_longest
+from datetime import date
 
+from station.app.actions.settings_actions import PlayAs
+from station.app.sessions.screen_choice import Option, ScreenChoice
 from station.app.settings.students import Students
-from station.core.events import Hit
 from station.core.labels import piece_name
 from station.core.pieces import Piece
-from station.engine.messages import EngineEvent
-from station.practice.control.pad_choice import PadChoice, pads_for
-from station.practice.records.students import KnownStudent
+from station.practice.control.pad_choice import pads_for
 
 BY_PAD = 5
 """So many students have a pad (our choice: what one looks over at a glance); the others are chosen with the mouse."""
+QUESTION = "Who plays?"
 
 
 @dataclass(frozen=True, slots=True)
 class StudentLine:
-    """A student of the list, the `pad` that chooses them (empty: none), and whether it has been struck for it."""
+    """A student of the list, when they `played`, the `pad` that chooses them (empty: none), whether it was struck."""
 
-    student: KnownStudent
+    name: str
+    played: str
     pad: str = ""
     is_meant: bool = False
 
@@ -40,10 +41,7 @@ class WhoPlays:
 
     def __init__(self, students: Students, pieces: Callable[[], Collection[Piece]]) -> None:
         self._students, self._pieces = students, pieces
-        self._listed: tuple[KnownStudent, ...] = ()
-        self._pads: tuple[frozenset[Piece], ...] = ()
-        self._choice: PadChoice | None = None
-        self._now_ns = 0
+        self._choice: ScreenChoice | None = None
 
     @property
     def is_open(self) -> bool:
@@ -56,30 +54,25 @@ class WhoPlays:
             self._choice = self._choice if on else None
             return
         self._students.look_again()
-        self._listed = self._students.known
-        self._pads = pads_for(min(len(self._listed), BY_PAD), self._pieces())
-        self._choice = PadChoice(self._pads, self._now_ns)
+        known, today = self._students.known, date.today()
+        first = pads_for(min(len(known), BY_PAD), self._pieces())
+        pads = (*first, *[frozenset[Piece]()] * (len(known) - len(first)))
+        options = [
+            Option(student.name, PlayAs(student.name), student.words(today), pad)
+            for student, pad in zip(known, pads, strict=True)
+        ]
+        self._choice = ScreenChoice(tuple(options), QUESTION)
 
-    def handle(self, event: EngineEvent) -> None:
-        """A stroke while the list is open."""
-        if self._choice is not None and isinstance(event, Hit):
-            self._choice.feed(event)
+    def choice(self) -> ScreenChoice | None:
+        """The list as a choice; None while it is closed."""
+        return self._choice
 
-    def advance(self, now_ns: int) -> str | None:
-        """Move on; returns the name of the student whom a pad has chosen."""
-        self._now_ns = now_ns
-        chosen = None if self._choice is None else self._choice.advance(now_ns)
-        return None if chosen is None else self._listed[chosen].name
-
-    def view(self) -> StudentsView:
-        """What is shown."""
-        if self._choice is None:
+    def view(self, heard: ScreenChoice | None) -> StudentsView:
+        """What is shown; `heard` is the choice with what pads do to it."""
+        if self._choice is None or heard is None:
             return StudentsView(self._students.now)
-        pads = [" or ".join(piece_name(piece) for piece in sorted(pad)) for pad in self._pads]
-        meant = self._choice.meant
-        lines = tuple(
-            StudentLine(student, pad, number == meant)
-            for number, (student, pad) in enumerate(zip_longest(self._listed, pads, fillvalue=""))
-            if isinstance(student, KnownStudent)
-        )
-        return StudentsView(self._students.now, True, lines, self._choice.hears(self._now_ns))
+        lines = [
+            StudentLine(option.label, option.why, " or ".join(map(piece_name, sorted(option.pads))), n == heard.meant)
+            for n, option in enumerate(heard.options)
+        ]
+        return StudentsView(self._students.now, True, tuple(lines), heard.hears)

@@ -15,7 +15,7 @@ from station.core.named_view import NamedView
 from station.core.settings import LARGEST_PANELS, SMALLEST_PANELS, Settings, settings_path
 from station.render.camera import Camera
 from station.render.gpu.moving_parts import DoublePlace
-from station.render.notation.screen.score_view import ScoreForm
+from station.render.notation.screen.score_place import ScoreForm
 from station.render.palette import Theme
 
 SLOTS = 8
@@ -36,18 +36,19 @@ Viewpoints = tuple[Camera | None, ...]
 class ViewSettings:
     """The view, whether left and right are swapped, what the `inset` shows, the score's form, the viewpoints kept.
 
-    `theme` is the colours, `scale` how many times as large as designed the panels are, `double` where the student's
-    double is.
+    `legend` is whether a staff says which line is which piece, `theme` the colours, `scale` how many times as large as
+    designed the panels are, `double` where the student's double is.
     """
 
     view: NamedView = NamedView.SHOULDER
     mirrored: bool = False
     inset: NamedView | None = None
-    score: ScoreForm = ScoreForm.SCROLLING
+    score: ScoreForm = ScoreForm.PAGED
     viewpoints: Viewpoints = (None,) * SLOTS
     theme: Theme = Theme.NIGHT
     scale: float = 1.0
     double: DoublePlace = DoublePlace.NOWHERE
+    legend: bool = True
 
     def keeping(self, slot: int, camera: Camera) -> "ViewSettings":
         """With `camera` as the viewpoint `slot`, from 0."""
@@ -85,6 +86,7 @@ def view_settings_of(settings: Settings) -> ViewSettings:
         (DoublePlace.BESIDE if settings.double_beside else DoublePlace.OVER)
         if settings.double
         else DoublePlace.NOWHERE,
+        settings.legend,
     )
 
 
@@ -96,6 +98,7 @@ def with_view_settings(settings: Settings, view_settings: ViewSettings) -> Setti
         mirrored=view_settings.mirrored,
         inset="" if view_settings.inset is None else view_settings.inset.name.lower(),
         score=view_settings.score.name.lower(),
+        legend=view_settings.legend,
         theme=str(view_settings.theme),
         panel_scale=view_settings.scale,
         double=view_settings.double is not DoublePlace.NOWHERE,
