@@ -229,8 +229,8 @@ class Window:
         self._keys()
         if not io.want_capture_mouse:
             self.viewport.steer(io)
-        draw_flash(self.state.flash, central_area(self.params.docking_params))
         self.pages.who.gui(self.state.students)
+        draw_flash(self.state.flash, central_area(self.params.docking_params))
         if self._show_help:
             self._help()
         else:

@@ -20,8 +20,9 @@ from station.app.settings.settings_store import SettingsStore
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
 from station.music.score import Score
-from station.practice.control.pad_choice import ANSWERS, PadChoice
+from station.practice.control.pad_choice import PadChoice
 from station.practice.control.pad_commands import PadCommands
+from station.practice.control.pad_gestures import BEFORE_NS
 
 _REMEMBERED = 8
 """Strokes (our choice: as many as two hands strike at once, and some before)."""
@@ -65,10 +66,10 @@ class PadControl:
     def handle(self, event: EngineEvent, practice: CurrentPractice) -> Action | None:
         """What `event` asks for, given what is practised; None for nothing."""
         score = practice.session.plan.score
-        if self._by != _asked_by(self._store):
-            self._go_by(score)
         if isinstance(event, Hit):
             self._struck.append(event)
+        if self._by != _asked_by(self._store):
+            self._go_by(score)
         if not self._is_question and self._preferences.handle(event):
             self._pads.forget()
             return None
@@ -77,18 +78,23 @@ class PadControl:
         chosen = self._choice.feed(event) if self._choice is not None and isinstance(event, Hit) else None
         if (asked := self._asked(has_kicked, chosen, practice)) is not None:
             return asked
-        return self._paused(event, practice)
-
-    def _paused(self, event: EngineEvent, practice: CurrentPractice) -> Pause | AskWhoPlays | None:
-        """What a gesture that pauses asks for: that a session pauses or goes on, or between two who plays."""
         if not practice.is_playing:
-            may_ask = self._store.now.pads_switch and (self._who.is_open or not self._is_question)
-            return self._ask_who_plays(event) if may_ask else None
+            return self._who_plays(event)
         strokes = self._pads.pauses(event)
         if strokes is None or not practice.is_session:
             return None
         self._pads.forget()
         return Pause(tuple(strokes))
+
+    def _who_plays(self, event: EngineEvent) -> AskWhoPlays | None:
+        """Between sessions what pauses one asks who plays, where no music leads to it, and puts the list away."""
+        strokes = self._pads.pauses(event)
+        if strokes is None or not (self._who.is_open or (self._store.now.pads_switch and not self._is_question)):
+            return None
+        self._pads.forget()
+        first_ns = min((stroke.at_ns for stroke in strokes), default=0)
+        before = [hit for hit in self._struck if hit not in strokes and hit.at_ns > first_ns - BEFORE_NS]
+        return None if strokes and before else AskWhoPlays(not self._who.is_open)
 
     def advance(self, now_ns: int, practice: CurrentPractice) -> Action | None:
         """What was asked for by `now_ns`: a gesture counts once nothing has come after it."""
@@ -107,16 +113,6 @@ class PadControl:
         if practice.is_session:
             return Pause()
         return self._options[0].action if self._options else Begin()
-
-    def _ask_who_plays(self, event: EngineEvent) -> AskWhoPlays | None:
-        """What pauses a session asks between two who plays, and no more, where no music leads to it."""
-        strokes = self._pads.pauses(event)
-        if strokes is None:
-            return None
-        self._pads.forget()
-        first_ns = min((stroke.at_ns for stroke in strokes), default=0)
-        before = [hit for hit in self._struck if hit not in strokes and hit.at_ns > first_ns - ANSWERS.before_ns]
-        return None if strokes and before else AskWhoPlays(not self._who.is_open)
 
 
 def _asked_by(store: SettingsStore) -> tuple[str, bool]:
