@@ -24,7 +24,8 @@ class RoomEngine(EngineLink, Protocol):
 
 
 WakeEngine = Callable[[], RoomEngine]
-_WAKING = "the engine is waking"
+_WAKING, SILENT, DEAD = "the engine is waking", "silent", "the engine has ended"
+"""What is said of the sound where there is no card."""
 
 
 class EngineClient:
@@ -104,7 +105,7 @@ class EngineClient:
         try:
             events = self._engine.events(wait_s)
         except DeviceError:
-            self.alive, self.sound, self._kits = False, "the engine has ended", []
+            self.alive, self.sound, self._kits = False, DEAD, []
             raise
         for event in events:
             self._handle(event)
@@ -120,7 +121,7 @@ class EngineClient:
             case Hit(at_ns):
                 self.struck_ns = at_ns
             case Ready(output, rate_hz) | Sounding(output, rate_hz):
-                self.sound = output or "silent"
+                self.sound = output or SILENT
                 self.rate_hz = rate_hz or self.rate_hz
             case _:
                 pass

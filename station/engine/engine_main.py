@@ -16,6 +16,7 @@ from multiprocessing.connection import Connection
 
 from station.core.clock import monotonic_ns
 from station.core.errors import StationError
+from station.core.processes import silence_libraries
 from station.devices.device_ports import Watches, watch_devices
 from station.devices.mapping.device_file import own_kit
 from station.devices.mapping.stick_file import own_stick
@@ -49,6 +50,7 @@ SWITCH_INTERVAL_S = 0.0002
 def run_engine(commands: "Connection[None, Command]", events: "Connection[list[EngineEvent], None]") -> None:
     """The child's whole life: before any command it is sent its configuration, and before that what to make ready."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent asks the child to quit
+    silence_libraries()
     try:
         config: object = commands.recv()
         if isinstance(config, Prepare):

@@ -48,6 +48,7 @@ __all__ = [
     "Status",
     "Stop",
     "TrackPhase",
+    "Unheard",
     "Watch",
     "WatchRawBytes",
     "WatchSensors",
@@ -287,6 +288,14 @@ class Notice:
 
 
 @dataclass(frozen=True, slots=True)
+class Unheard:
+    """No stroke could be heard between these session times: the engine had ended, and another took its place."""
+
+    from_ns: int
+    until_ns: int
+
+
+@dataclass(frozen=True, slots=True)
 class Status:
     """How the engine is doing; sent once a second while it runs.
 
@@ -311,4 +320,4 @@ class RawBytes:
 
 
 Heard = DeviceEvent | StickEvent | SensorSamples | RawBytes
-EngineEvent = Heard | Ready | Sounding | SoundsSet | CaptureSaved | Started | Notice | Status
+EngineEvent = Heard | Ready | Sounding | SoundsSet | CaptureSaved | Started | Notice | Status | Unheard

@@ -13,7 +13,7 @@ from imgui_bundle import hello_imgui, imgui, implot
 from station.app.actions.action import Notify, Show
 from station.app.actions.file_actions import Import
 from station.app.actions.practice_actions import Begin, Leave, Pause, StrikeKey
-from station.app.actions.settings_actions import FinishFirstStart
+from station.app.actions.settings_actions import AskWhoPlays, FinishFirstStart
 from station.app.actions.sound_actions import BringTrack
 from station.app.controller import Controller
 from station.app.help_topics import topic_of
@@ -38,6 +38,7 @@ from station.gui.player_keys import player_keys
 from station.gui.viewport import Viewport
 from station.gui.window_frame import Calls, WindowOptions, central_area, logical_size, runner, splits
 from station.practice.exchange.parcel import Kind, kind_by_name
+from station.practice.lag.first_groove import FIRST_GROOVE
 from station.render.snapshot import Snapshot
 
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
@@ -110,6 +111,7 @@ class Window:
         self.state = self._controller.view()
         snapshot = self.state.snapshot
         self.viewport.follow(self.state.view_settings, None if snapshot is None else snapshot.view)
+        self.viewport.may_rebuild = self.state.room.stage is not Stage.PLAYING
         self._wear()
         self.pages.show(self.state, self.welcome is None)
         self.params.fps_idling.enable_idling = not self.state.is_lively
@@ -228,6 +230,7 @@ class Window:
         if not io.want_capture_mouse:
             self.viewport.steer(io)
         draw_flash(self.state.flash, central_area(self.params.docking_params))
+        self.pages.who.gui(self.state.students)
         if self._show_help:
             self._help()
         else:
@@ -235,7 +238,8 @@ class Window:
 
     def _ask(self, page: WelcomePage) -> None:
         """The questions of the first start, until they are answered or put aside."""
-        begun = page.gui()
+        plays_at_once = self.state.selection.card is not None and self.state.selection.card.name == FIRST_GROOVE
+        begun = page.gui(self.state.room, plays_at_once)
         if begun is not None:
             self._controller.dispatch(FinishFirstStart(page.answers if begun else None))
             self.welcome = None
@@ -268,6 +272,9 @@ class Window:
         """Escape closes what lies over the page, a list before the help; whether anything did."""
         if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
             imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
+            return True
+        if self.state.students.asks:
+            self._controller.dispatch(AskWhoPlays(on=False))
             return True
         is_closed, self._show_help = self._show_help, False
         return is_closed

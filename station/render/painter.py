@@ -19,7 +19,8 @@ from station.render.gpu.edge_smoothing import EdgeSmoother
 from station.render.gpu.gl import RenderTarget, give_back
 from station.render.gpu.moving_parts import DoublePlace, frames_of
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
-from station.render.notation.screen.score_view import ScoreForm, ScorePlace, ScoreView, shows_staff
+from station.render.notation.screen.score_place import ScoreForm, halves
+from station.render.notation.screen.score_view import ScoreView
 from station.render.palette import INK_FAINT, NIGHT, PAPER, Theme, over_picture, themed
 from station.render.quality import QUALITIES, Quality
 from station.render.scene import Scene
@@ -30,8 +31,6 @@ from station.render.text.draw_list import SHAPE_DTYPE
 Area = tuple[int, int, int, int]
 """Left, lower, width, height in pixels from the lower left corner, as OpenGL counts."""
 
-SCORE_SHARE = 0.30
-"""The score's share of the picture's height."""
 INSET_SHARE = 0.36
 """The second picture's share of the scene's width or height, whichever is less (our choice: hands at arm's length)."""
 _STILL_SAMPLES = 4
@@ -54,14 +53,16 @@ def inset_area(scene: Area) -> Area:
 class Arrangement:
     """What else a picture has: the camera of a second, small picture in its corner, and the score's form.
 
-    `is_rough`: the camera moves, so that at the lowest quality the room may be drawn more simply. `double`: where the
-    student's double is, where the snapshot has one. `letters` is how large the words are, as `hud.scale` has it.
+    `has_legend`: beside a staff stands which piece is which. `is_rough`: the camera moves, so that at the lowest
+    quality the room may be drawn more simply. `double`: where the student's double is, where the snapshot has one.
+    `letters` is how large the words are, as `hud.scale` has it.
     """
 
     inset: Camera | None = None
     form: ScoreForm = ScoreForm.SCROLLING
     is_rough: bool = False
     double: DoublePlace = DoublePlace.NOWHERE
+    has_legend: bool = False
     letters: float | None = None
 
 
@@ -118,17 +119,17 @@ class Painter:
         """
         self.printer.theme = self.theme
         left, low, width, height = area
-        score_height = round(height * SCORE_SHARE) if with_score else 0
-        page = _page(snapshot.hud, (width, height - score_height), arrangement.letters)
-        scene_area = (left, low + score_height, width, page.size[1] - page.band)
-        place = ScorePlace(0.0, float(page.size[1]), float(width), float(score_height), self._score.reach(snapshot))
+        cut = halves((width, height), form := form_of(snapshot, arrangement.form) if with_score else None)
+        page = _page(snapshot.hud, cut.scene[2:], arrangement.letters)
+        scene_area = (left + cut.scene[0], low + height - cut.scene[3], cut.scene[2], cut.scene[3] - page.band)
+        paper = None if form is None else self._score.paper(snapshot, cut.score, form, arrangement.has_legend)
         scene = self._scene_of(snapshot)
         camera = camera or named(NamedView.SHOULDER, stage_of(snapshot))
         frames = frames_of(snapshot, arrangement.double, self.theme)
         places = _side_by_side(scene_area, len(frames))
         scene.set(frames[0])
 
-        is_staff = shows_staff(snapshot, arrangement.form)
+        corners = hud.corners(snapshot.hud)
 
         def each(draw: Callable[[moderngl.Framebuffer, Camera, Area], None], into: moderngl.Framebuffer) -> None:
             for frame, window in zip(frames[::-1], places[::-1], strict=True):  # the demonstrator's stays set
@@ -138,8 +139,8 @@ class Painter:
         def lay(into: moderngl.Framebuffer, draw: Callable[[moderngl.Framebuffer, Camera, Area], None]) -> None:
             each(draw, into)
             self._ctx.viewport = area
-            if with_score:
-                self._score.draw_paper(place, (width, height), is_staff)
+            if paper is not None:
+                self._score.draw_paper(snapshot, paper, (width, height))
             self._fill_band(page, (width, height))
 
         def lay_still(into: moderngl.Framebuffer) -> None:
@@ -150,22 +151,12 @@ class Painter:
             self._still.under(into, key, lay_still, 0 if arrangement.is_rough else _STILL_SAMPLES)
             into.use()
             self._ctx.viewport = area
-            self._lay_lines(self._lines.of(hud.corners(snapshot.hud), page), (width, height))
+            self._lay_lines(self._lines.of(corners, page), (width, height))
 
         if self.quality.is_layered:
-            shown = scene.shows_figure, len(frames)
-            key = (
-                scene,
-                camera,
-                area,
-                page.band,
-                with_score and place,
-                is_staff,
-                shown,
-                self.theme,
-                arrangement.is_rough,
-            )
-            self._worded.under(target, (key, hud.corners(snapshot.hud)), lay_words)
+            drawn = scene, camera, area, page.band, paper, scene.shows_figure, len(frames)
+            key = (drawn, self.theme, arrangement.is_rough)
+            self._worded.under(target, (key, corners), lay_words)
             each(partial(_draw_moving, scene, self._smoother), target)
         else:
             lay(target, scene.draw)
@@ -180,8 +171,8 @@ class Painter:
             if arrangement.inset is not None:
                 self._draw_inset(scene, target, arrangement.inset, places[0])
             self._ctx.viewport = area
-            if with_score:
-                self._score.draw(newest, place, (width, height), arrangement.form)
+            if paper is not None:
+                self._score.draw(newest, paper, (width, height))
             self._print_words(newest.hud, (width, height), page, len(frames) > 1)
 
         return finish
@@ -199,7 +190,7 @@ class Painter:
         """The paper of the upper lines, above the scene."""
         if page.band:
             self.printer.theme = over_picture(self.theme)
-            self.printer.fill((0.0, 0.0, float(size[0]), float(page.band)), (PAPER, PAPER), Transform(size))
+            self.printer.fill((0.0, 0.0, float(page.size[0]), float(page.band)), (PAPER, PAPER), Transform(size))
             self.printer.theme = self.theme
 
     def _lay_lines(self, lines: NDArray[np.void], size: tuple[int, int]) -> None:
@@ -293,6 +284,11 @@ def _draw_moving(scene: Scene, smoother: EdgeSmoother, into: moderngl.Framebuffe
 def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:
     """Whether both are the very same, or alike in all that is drawn."""
     return (one[0] is other[0] and one[1] is other[1]) or one == other
+
+
+def form_of(snapshot: Snapshot, form: ScoreForm) -> ScoreForm:
+    """How the snapshot's score is shown: what nobody has written rolls by, below the room."""
+    return form if snapshot.strip is None else ScoreForm.SCROLLING
 
 
 def _side_by_side(scene: Area, count: int) -> list[Area]:

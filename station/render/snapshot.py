@@ -187,8 +187,10 @@ class Snapshot:
     the rows of `score`; nobody writes to it after it was put here. `limbs` (n,) of `Limb` shows the sticking, None what
     the score says. Written tempi count beats of `beat_ticks`; `spelling` is how a take is written. `pose` None draws
     the kit alone. Where there is a `strip`, it stands in place of the score. `double` is the student beside the
-    demonstrator, for those who want to see it. `view` is from where the lesson's teacher wants it to be seen, None
-    where they leave it to whoever looks.
+    demonstrator, for those who want to see it. `comes_again`: after the score's end its first bars come once more, in
+    this picture's score or in the next one's; `before` is the score that was played before this one, None where none
+    was. `is_replay`: what was played is heard again, to be studied. `view` is from where the lesson's teacher wants it
+    to be seen, None where they leave it to whoever looks.
     """
 
     score: Score
@@ -206,4 +208,7 @@ class Snapshot:
     spelling: TakeSpelling | None = None
     strip: Strip | None = None
     double: StudentShown | None = None
+    comes_again: bool = False
+    before: Score | None = None
+    is_replay: bool = False
     view: NamedView | None = None

@@ -63,7 +63,7 @@ def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) 
         phase="1 pass played" if plan.passes == 1 else f"{plan.passes} passes played",
         beats_a_minute=tempo_at(tempo_map, tempo_map.bar_start(last), plan.lesson.beat_ticks),
         right=right,
-        judged=len(result.score),
+        judged=len(result.score) - result.alignment.count(Label.UNKNOWN),
     )
     shown = replace(
         snapshot,

@@ -29,7 +29,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         title=plan.lesson.title,
         subtitle=f"{passes} of {bars} at {tempi_in_words(plan, result.score)}{stopped}{_standing(document)}",
         points=float(points) if isinstance(points, float | int) else None,
-        advice=tuple(map(str, steps)),
+        advice=(*_lag_words(document), *map(str, steps)),
         technique=(*stick_lines(document), *technique_lines(document)),
         first_bar=plan.first_bar,
         starts=plan.pass_starts,
@@ -42,6 +42,12 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         np.asarray(result.performance.hits["at_ns"][extra] / NS_PER_S),
         words,
     )
+
+
+def _lag_words(document: dict[str, Json]) -> tuple[str, ...]:
+    """What was found of a lag: before all advice, for it says what the score leaves out."""
+    lag = document.get("lag")
+    return (str(lag["text"]),) if isinstance(lag, dict) and lag["text"] else ()
 
 
 def _standing(document: dict[str, Json]) -> str:

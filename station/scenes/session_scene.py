@@ -17,7 +17,9 @@ from station.engine.engine import KEYBOARD
 from station.motion.drummer import Drummer
 from station.motion.style.style import Style
 from station.music.judgement import Judgement, Label
+from station.music.score import Score
 from station.practice.now.directions_now import direction_of
+from station.practice.now.entry_now import entry_words
 from station.practice.now.tempo_now import session_tempo
 from station.practice.now.whereabouts import Doing, whereabouts
 from station.practice.session.plan import Phase, Plan
@@ -40,6 +42,8 @@ CUE_SHOWN_NS = 1200 * NS_PER_MS
 CUE_OF_LEAN = {-1: TimingCue.EARLY, 0: TimingCue.ON_TIME, 1: TimingCue.LATE}
 """The cue of a stroke that leans so (`Windows.lean`)."""
 _WAITED_FOR = "play on: the score goes on with you"
+MARKS_OF = {Feedback.TIMING: "", Feedback.PADS: ", early and late not shown", Feedback.NONE: ", blind: no marks"}
+"""What is said of a pass in which marks are held back on purpose: else it looks as if nothing was heard."""
 _CUE_OF = {Label.MISS: TimingCue.MISSED, Label.WRONG_PIECE: TimingCue.WRONG_PIECE}
 
 
@@ -52,11 +56,14 @@ class SessionView:
         demonstrator: Demonstrator | None = None,
         before: "SessionView | None" = None,
         demonstrates: bool = True,
+        goes_on: bool = False,
     ) -> None:
         """`before` is the view that was shown last: its drummer sits there while this one's is made.
 
-        Where nobody `demonstrates` they sit still, and hands are those that the score writes.
+        Where nobody `demonstrates` they sit still, and hands are those that the score writes. Where practice `goes_on`
+        more passes follow those of the plan.
         """
+        self._goes_on = goes_on
         self.plan, self._demonstrates = plan, demonstrates
         self._demonstrator = demonstrator or Demonstrator()
         self._sits = None if before is None else before.sitting
@@ -147,6 +154,8 @@ class SessionView:
             bar_numbers=part.bar_numbers,
             beat_ticks=self.plan.lesson.beat_ticks,
             double=double,
+            comes_again=self._comes_again(part),
+            before=self._before(part),
             view=direction_of(session).view,
         )
 
@@ -195,7 +204,17 @@ class SessionView:
             limbs=part.score.notes["limb"],
             bar_numbers=part.bar_numbers,
             beat_ticks=self.plan.lesson.beat_ticks,
+            comes_again=self._comes_again(part),
+            before=self._before(part),
         )
+
+    def _comes_again(self, part: SessionPart) -> bool:
+        """Whether the bars of `part` are played once more after it: passes follow a demonstration."""
+        return part is not self._passes or self._goes_on
+
+    def _before(self, part: SessionPart) -> Score | None:
+        """What was played before `part`."""
+        return self._demonstration.score if part is self._passes and part is not self._demonstration else None
 
     def _extras(self, session: Session) -> tuple[ExtraHit, ...]:
         hits = [session.hits[index] for index in session.extras()]
@@ -211,7 +230,7 @@ class SessionView:
         age_ns = now_ns - self._cue_ns
         return Hud(
             title=plan.lesson.title,
-            phase=where.words,
+            phase=where.words + (MARKS_OF[session.feedback] if segment.phase is Phase.PASS else ""),
             bar=where.bar,
             beat=where.beat,
             beats=_beats_of(plan, where.bar),
@@ -220,7 +239,7 @@ class SessionView:
             count_in=where.beat if is_counted_in else None,
             right=right,
             judged=judged,
-            message=session.message if is_counted_in else "",
+            message=session.message if is_counted_in else entry_words(session) if where.doing is Doing.PASS else "",
             cue=self._cue if age_ns < CUE_SHOWN_NS else TimingCue.NONE,
             cue_age_s=age_ns / NS_PER_S,
             say=direction_of(session).say,

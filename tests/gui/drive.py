@@ -31,6 +31,7 @@ from station.gui.panels.panel import PANELS_LABEL
 from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.window import Window
 from station.gui.window_frame import WindowOptions
+from station.practice.lag.first_groove import FIRST_GROOVE, FIRST_TIME
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.render.snapshot import Snapshot
 from station.simulation.student_spec import StudentSpec, parse_spec
@@ -81,12 +82,15 @@ class Drive:
     def __init__(
         self, sessions: Path, student: str | None, picture_every: int = PICTURE_EVERY, size: tuple[int, int] = SIZE
     ) -> None:
-        spec = None if student in (None, NEWCOMER) else parse_spec(str(student))
+        is_new = student is not None and student.startswith(NEWCOMER)
+        said = (student or "").removeprefix(NEWCOMER).removeprefix(",")
+        spec = parse_spec(said) if said else None
         self.picture_every = picture_every
-        settings = Settings(sessions=str(sessions), welcomed=student != NEWCOMER)
+        settings = Settings(sessions=str(sessions), welcomed=not is_new)
         self.settings = save_settings(settings, sessions / "settings.toml")
         store = SettingsStore(self.settings)
-        self.station, self.engine, self.clock = self.made(store, spec)
+        first = (FIRST_GROOVE, FIRST_TIME) if is_new else ("rock-1", PlanOptions())
+        self.station, self.engine, self.clock = self.made(*first, store, spec)
         options = WindowOptions(size, quality=0, remember_layout=False, tests=self._register)
         options = replace(
             options, picture_every=picture_every, shown=self._frame_is_shown, screen=self._monitors_are_asked_for
@@ -101,9 +105,11 @@ class Drive:
         """What cannot be read of the panels as they were looked at last."""
         self._scenarios: Sequence[Scenario] = ()
 
-    def made(self, store: SettingsStore, student: StudentSpec | None) -> tuple[Controller, DirectEngine, Clock]:
-        """The station, its engine and its clock: here a played one."""
-        return station("rock-1", PlanOptions(), store, student, STEP_NS)
+    def made(
+        self, lesson: str, options: PlanOptions, store: SettingsStore, student: StudentSpec | None
+    ) -> tuple[Controller, DirectEngine, Clock]:
+        """The station that opens on `lesson`, its engine and its clock: here a played one."""
+        return station(lesson, options, store, student, STEP_NS)
 
     @property
     def seen(self) -> dict[str, object]:

@@ -15,7 +15,7 @@ from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
 from station.gui.widgets.level_choice import LEVEL_LABEL
 from station.music.formats.format_table import read_part
 from station.practice.session.self_estimate import SelfEstimate
-from station.render.notation.screen.score_view import ScoreForm
+from station.render.notation.screen.score_place import ScoreForm
 from tests.gui.drive import MOST_FRAMES, TIMEOUT_S, Drive, open_panel, to_list, to_options
 
 

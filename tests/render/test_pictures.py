@@ -25,10 +25,12 @@ from station.render.framing import named
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.gpu.moving_parts import DoublePlace
 from station.render.hud import band_height
-from station.render.notation.screen.score_view import AFTER_S, BEFORE_S, ScoreForm, ScorePlace, lead_spaces
+from station.render.notation.screen.score_place import SHARES, ScoreForm, ScorePlace
+from station.render.notation.screen.score_view import lead_spaces
+from station.render.notation.screen.time_span import BEHIND_SHARE, MOST_AHEAD_S
 from station.render.notation.staff import PLACES, height
 from station.render.notation.staff_rows import staff_rows
-from station.render.painter import SCORE_SHARE, Arrangement, Painter
+from station.render.painter import Arrangement, Painter
 from station.render.palette import BRAND, MISSED, Theme
 from station.render.picture import PictureMaker, Shot, draw_png
 from station.render.quality import QUALITIES, Quality
@@ -42,7 +44,7 @@ from tests.unit.render.test_png_file import decode
 pytestmark = pytest.mark.gl
 
 SIZE = (640, 360)
-SCORE_TOP = SIZE[1] - round(SIZE[1] * SCORE_SHARE)
+SCORE_TOP = SIZE[1] - round(SIZE[1] * SHARES[ScoreForm.SCROLLING])
 Picture = NDArray[np.uint8]
 Draw = Callable[..., Picture]
 
@@ -263,8 +265,8 @@ def place_of(score: Score) -> ScorePlace:
 
 PLACE = place_of(SCORE)
 CLEF = lead_spaces(SCORE) * PLACE.space
-PER_S = (SIZE[0] - CLEF) / (BEFORE_S + AFTER_S)
-LINE_X = CLEF + BEFORE_S * PER_S
+LINE_X = CLEF + BEHIND_SHARE * (SIZE[0] - CLEF)
+PER_S = (SIZE[0] - LINE_X) / MOST_AHEAD_S  # two bars at 120
 
 
 def near(colour: tuple[float, float, float, float], picture: Picture, tolerance: int = 60) -> NDArray[np.bool_]:
@@ -272,7 +274,7 @@ def near(colour: tuple[float, float, float, float], picture: Picture, tolerance:
     return np.asarray(np.abs(picture.astype(float) - wanted).max(axis=2) < tolerance)
 
 
-def test_the_play_line_stands_in_the_middle_of_the_music(draw: Draw) -> None:
+def test_the_play_line_leaves_most_of_the_width_to_what_comes(draw: Draw) -> None:
     score = draw(at(-3.0))[SCORE_TOP + 4 :]
     columns = np.flatnonzero(near(BRAND, score).mean(axis=0) > 0.8)
     assert len(columns)
@@ -287,7 +289,7 @@ def test_a_note_is_at_the_play_line_when_it_is_due(draw: Draw, position_s: float
     row = round(place.middle_line + height(PLACES[Piece.SNARE].step) * place.space)
     snapshot = Snapshot(score, position_s, KIT, FIGURE)
     clef = lead_spaces(score) * place.space
-    line_x = clef + BEFORE_S * (SIZE[0] - clef) / (BEFORE_S + AFTER_S)
+    line_x = clef + BEHIND_SHARE * (SIZE[0] - clef)
     beside = round(line_x + 0.4 * place.space)  # the head's right half, clear of the line itself
     assert draw(snapshot)[row, beside].min() > 170
     assert draw(replace(snapshot, position_s=position_s - 0.2))[row, beside].min() < 170
@@ -348,7 +350,7 @@ def test_no_drum_ever_lies_under_the_title(quality: Quality, size: tuple[int, in
         for view, mirrored, zoom in product(NamedView, (False, True), (1.0, 2.5)):
             camera = replace(named(view), mirrored=mirrored).zoomed(zoom)
             painter.draw(at(0.5, hud=hud), target.framebuffer, (0, 0, *size), camera)
-            above = size[1] - round(size[1] * SCORE_SHARE)
+            above = size[1] - round(size[1] * SHARES[ScoreForm.SCROLLING])
             bands.append(target.read()[: band_height(hud, (size[0], above))])
     assert bands[0].shape[0] > 20
     assert (np.abs(bands[0].astype(int) - (0x11, 0x14, 0x1B)).max(axis=2) < 4).mean() > 0.6

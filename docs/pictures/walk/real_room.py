@@ -18,7 +18,7 @@ from station.app.sessions.session_control import Launch
 from station.app.settings.settings_store import SettingsStore
 from station.core.clock import Clock, MonotonicClock
 from station.core.measured_latency import load_calibration
-from station.drills.library import FIRST_LESSON, find_lesson
+from station.drills.library import find_lesson
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
 from station.practice.session.device_latency import latency_of
@@ -40,14 +40,14 @@ class RealRoom(Drive):
         super().__init__(sessions, NEWCOMER, picture_every=1, size=size)
         self.station.dispatch(SetView(replace(self.state.view_settings, scale=scale)))
 
-    def made(self, store: SettingsStore, student: StudentSpec | None) -> tuple[Controller, DirectEngine, Clock]:
+    def made(
+        self, lesson: str, options: PlanOptions, store: SettingsStore, student: StudentSpec | None
+    ) -> tuple[Controller, DirectEngine, Clock]:
         """The station as `station` opens it; nothing of its engine is played."""
         del student
         store = SettingsStore(self.settings, {"kit": self.student.device})
         wake = lambda: self._engines.enter_context(EngineSupervisor(EngineConfig.from_settings(store.now)))  # noqa: E731
-        launch = Launch(
-            plan_practice(find_lesson(FIRST_LESSON), PlanOptions()), True, latency_of(store.now, load_calibration())
-        )
+        launch = Launch(plan_practice(find_lesson(lesson), options), True, latency_of(store.now, load_calibration()))
         nobody = cast("DirectEngine", SimpleNamespace(sent=[]))
         return Controller(ChildPrograms(wake), store, launch), nobody, MonotonicClock()
 

@@ -23,11 +23,13 @@ def lessons(room: RealRoom, ctx: Context) -> None:
 
 
 def first_pass(room: RealRoom, ctx: Context) -> None:
+    """Somebody plays along."""
     ctx.key_press(imgui.Key.enter)
     room.wait_until(ctx, lambda state: state.snapshot is not None and state.snapshot.hud.judged > 10)
 
 
 def result(room: RealRoom, ctx: Context) -> None:
+    """What they are told."""
     room.wait_until(ctx, lambda state: state.room.stage is Stage.RESULT)
 
 

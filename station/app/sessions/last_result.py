@@ -4,6 +4,7 @@ A student who first judges their own error learns more (`practice.session.self_e
 nothing of the result is shown.
 """
 
+from bisect import bisect_right
 from collections.abc import Mapping
 
 from station.app.room_state import ShownResult
@@ -38,7 +39,7 @@ class LastResult:
 
     def keep(self, saved: SavedSession, may_ask: bool) -> None:
         """From now on this is the last one; a question is opened where the student `may` be asked one."""
-        self._saved, self._curves, self._compared = saved, None, None
+        self.put(saved)
         self.is_asking = may_ask and self._is_new(saved.result.plan.lesson.name, saved.report.document)
 
     def _is_new(self, lesson: str, document: Mapping[str, object]) -> bool:
@@ -57,6 +58,21 @@ class LastResult:
     def report(self) -> ShownResult | None:
         """What may be shown of it now."""
         return None if self.is_asking or self._saved is None else self._saved.report
+
+    @property
+    def saved(self) -> SavedSession | None:
+        """The session that ended last."""
+        return self._saved
+
+    @property
+    def lag_ms(self) -> float | None:
+        """The lag that it leaves out until somebody has said whose it is."""
+        fair = None if self._saved is None else self._saved.fair
+        return fair.lag.found.lag_ms if fair is not None and fair.is_open and fair.lag is not None else None
+
+    def put(self, saved: SavedSession) -> None:
+        """The same session, judged again."""
+        self._saved, self._curves, self._compared = saved, None, None
 
     @property
     def marks(self) -> Marks | None:
@@ -87,13 +103,16 @@ class LastResult:
         result, before = self._saved.result, self._saved.report.before
         played, shown = None, Replayed("the teacher")
         if whose is Whose.STUDENT:
-            played, shown = students_bar(result, bar), Replayed(self._saved.report.student or "you")
+            played = students_bar(result, bar)
+            number = bisect_right(result.plan.pass_starts, bar)
+            which = f", pass {number} of {result.plan.passes}" if result.plan.passes > 1 else ""
+            shown = Replayed(f"{self._saved.report.student or 'you'}{which}")
         elif whose is Whose.PREVIOUS:
             if isinstance(before, str):
                 return None
             played = previous_bar(result, bar, before)
             shown = Replayed(f"you, {before.day}", previous_tempo(result, bar, before))
-        self._compared = Comparison(result, bar, played, demonstrator, shown)
+        self._compared = Comparison(result, bar, played, demonstrator, shown, whose is Whose.STUDENT)
         listening = bar_by_ear(result, bar, played)
         self._from_ns = listening.from_ns
         return listening

@@ -22,7 +22,9 @@ from station.drills.exam.rubric import Marks
 from station.engine.messages import Command, EngineEvent
 from station.practice.exam.exam_take import exam_runner
 from station.practice.headless.live import begin, end
+from station.practice.lag.fair_judgement import FairResult
 from station.practice.now.whereabouts import place_of
+from station.practice.records.earlier_lags import fair_session
 from station.practice.records.previous_session import find_previous
 from station.practice.records.save_session import SessionFolder, SessionRecord, save
 from station.practice.records.session_report import practice_document
@@ -67,7 +69,7 @@ class LessonSession:
         asked = laid.plan if laid.followed is None else laid.followed.adaptation
         self._runner = SessionRunner(asked, latency) if laid.sitting is None else exam_runner(asked, latency)
         seen = None if before is None else before.view
-        self.view: SessionView = SessionView(self.plan, demonstrator, seen, demonstrates=laid.sitting is None)
+        self.view: SessionView = self._seen_with(seen, demonstrates=laid.sitting is None)
         self._folder: SessionFolder | None = None
         self._following: PhaseFollowing | None = None
         self._way_on = KICKS_ON
@@ -156,8 +158,14 @@ class LessonSession:
             self._see_next_pass()
 
     def _see_next_pass(self) -> None:
-        self.view = SessionView(self.plan, self._demonstrator, self.view)
+        self.view = self._seen_with(self.view)
         self.view.make_ahead()
+
+    def _seen_with(self, before: SessionView | None, demonstrates: bool = True) -> SessionView:
+        """The pictures of the newest pass, after those of `before`."""
+        adaptation = None if self._followed is None else self._followed.adaptation
+        goes_on = adaptation is not None and len(adaptation.rounds) + 1 < adaptation.loops
+        return SessionView(self.plan, self._demonstrator, before, demonstrates, goes_on)
 
     def _send(self, commands: Sequence[Command]) -> None:
         for command in commands:
@@ -225,9 +233,11 @@ class LessonSession:
             self._following.end()
         assert self._folder is not None, "it was begun"
         result = self._runner.finish()
-        saved = save(self._folder, result, practice_document(result, settings), self._followed)
+        fair = fair_session(result, settings) if self.sitting is None else FairResult(result)
+        saved = save(self._folder, fair.result, practice_document(fair.result, settings, fair.lag), self._followed)
         marks, refused = self._marked(result)
-        return SavedSession(result, self._report(saved, self._folder), saved.fault or refused or fault, marks)
+        report = self._report(saved, self._folder)
+        return SavedSession(fair.result, report, saved.fault or refused or fault, marks, fair)
 
     def _marked(self, result: SessionResult) -> tuple[Marks | None, StationError | None]:
         """The marks of an exam, kept, and what the disk refused; nothing of practice."""

@@ -1,29 +1,38 @@
 """What the kit asks for: two kicks start or go on, pads at once and foot switches pause, a pad chooses on the screen.
 
+Between sessions, what pauses one asks who plays.
+
 Pads ask for nothing in mid-drill but the gestures of a pause, and nothing at all while the kit is heard for something
 else: a gesture to be learnt.
 """
 
+from collections import deque
 from dataclasses import replace
 
 from station.app.actions.action import Action
 from station.app.actions.practice_actions import Begin, Pause
+from station.app.actions.settings_actions import AskWhoPlays
 from station.app.sessions.current_practice import CurrentPractice
 from station.app.sessions.screen_choice import Option, ScreenChoice
+from station.app.sessions.who_plays import WhoPlays
 from station.app.settings.preferences import Preferences
 from station.app.settings.settings_store import SettingsStore
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
 from station.music.score import Score
-from station.practice.control.pad_choice import PadChoice
+from station.practice.control.pad_choice import ANSWERS, PadChoice
 from station.practice.control.pad_commands import PadCommands
+
+_REMEMBERED = 8
+"""Strokes (our choice: as many as two hands strike at once, and some before)."""
 
 
 class PadControl:
     """Takes every event of the engine, by the settings of `store`; raises `BadInput` for a pause that is none."""
 
-    def __init__(self, store: SettingsStore, preferences: Preferences, score: Score) -> None:
-        self._store, self._preferences = store, preferences
+    def __init__(self, store: SettingsStore, preferences: Preferences, who: WhoPlays, score: Score) -> None:
+        self._store, self._preferences, self._who = store, preferences, who
+        self._struck: deque[Hit] = deque(maxlen=_REMEMBERED)
         self._options: tuple[Option, ...] = ()
         self._is_question = False
         self._choice: PadChoice | None = None
@@ -58,6 +67,8 @@ class PadControl:
         score = practice.session.plan.score
         if self._by != _asked_by(self._store):
             self._go_by(score)
+        if isinstance(event, Hit):
+            self._struck.append(event)
         if not self._is_question and self._preferences.handle(event):
             self._pads.forget()
             return None
@@ -66,6 +77,13 @@ class PadControl:
         chosen = self._choice.feed(event) if self._choice is not None and isinstance(event, Hit) else None
         if (asked := self._asked(has_kicked, chosen, practice)) is not None:
             return asked
+        return self._paused(event, practice)
+
+    def _paused(self, event: EngineEvent, practice: CurrentPractice) -> Pause | AskWhoPlays | None:
+        """What a gesture that pauses asks for: that a session pauses or goes on, or between two who plays."""
+        if not practice.is_playing:
+            may_ask = self._store.now.pads_switch and (self._who.is_open or not self._is_question)
+            return self._ask_who_plays(event) if may_ask else None
         strokes = self._pads.pauses(event)
         if strokes is None or not practice.is_session:
             return None
@@ -89,6 +107,16 @@ class PadControl:
         if practice.is_session:
             return Pause()
         return self._options[0].action if self._options else Begin()
+
+    def _ask_who_plays(self, event: EngineEvent) -> AskWhoPlays | None:
+        """What pauses a session asks between two who plays, and no more, where no music leads to it."""
+        strokes = self._pads.pauses(event)
+        if strokes is None:
+            return None
+        self._pads.forget()
+        first_ns = min((stroke.at_ns for stroke in strokes), default=0)
+        before = [hit for hit in self._struck if hit not in strokes and hit.at_ns > first_ns - ANSWERS.before_ns]
+        return None if strokes and before else AskWhoPlays(not self._who.is_open)
 
 
 def _asked_by(store: SettingsStore) -> tuple[str, bool]:

@@ -80,6 +80,11 @@ class Follower:
         return self._where is not None and self._where.is_waiting(at_ns)
 
     @property
+    def beats_behind(self) -> float:
+        """Quarters by which the student is behind the click and plays on, as far as the hits show; negative ahead."""
+        return 0.0 if self._where is None else self._where.beats_behind
+
+    @property
     def pace(self) -> float:
         """How many times as fast as written the student plays, as far as the hits show; 1 by the click."""
         return 1.0 if self._where is None else self._where.pace

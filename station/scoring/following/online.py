@@ -112,6 +112,11 @@ class Online:
         return not self._clocked and self._on_time(at_ns / NS_PER_S) > max(last_s, self._waiting_s(last_s))
 
     @property
+    def beats_behind(self) -> float:
+        """Quarters by which a student is behind the click and plays on, negative ahead of it; 0 without one."""
+        return -self._shift
+
+    @property
     def pace(self) -> float:
         """How many times as fast as written the student plays; 1 by the click."""
         return 1.0 if self._clocked else self._clock.rate

@@ -11,7 +11,9 @@ from station.core.events import Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson, shipped_lessons
+from station.drills.mastery.feedback_fading import Feedback
 from station.engine.messages import Started
+from station.practice.now.entry_now import entry_words
 from station.practice.now.tempo_now import TempoNow, demonstration_tempo, session_tempo
 from station.practice.now.whereabouts import Doing, Whereabouts, place_of, replay_place, whereabouts
 from station.practice.session.adaptation import Adaptation
@@ -137,3 +139,14 @@ def test_without_a_click_the_score_waits_and_the_tempo_is_the_student_s_own() ->
     assert tempo.words.startswith("your own tempo")
     session.advance(start_ns + 14 * NS_PER_S)
     assert whereabouts(session).halt == "Waiting for you…"
+
+
+def test_who_comes_in_a_beat_late_is_told_while_they_play() -> None:
+    plan = plan_practice(find_lesson("rock-fill-1"), PlanOptions(tempo_bpm=120.0, loops=2, demonstrations=0))
+    session = at(Session(plan), plan.passes_start_ns)
+    for at_ns, note in zip(plan.score.onset_ns.tolist(), plan.score, strict=True):
+        if at_ns < 4 * NS_PER_S:
+            session.handle(Hit(plan.passes_start_ns + at_ns + NS_PER_S // 2, note.piece, note.zone, 80))
+    assert entry_words(session) == "You came in a beat late: your strokes count there"
+    session.feedback = Feedback.NONE
+    assert entry_words(session) == ""
