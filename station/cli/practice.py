@@ -18,7 +18,7 @@ from station.core.errors import BadInput
 from station.core.settings import Settings, with_said
 from station.drills.lesson import Lesson
 from station.practice.records.lesson_order import first_words, followed_course, shipped_title
-from station.practice.records.memory import Memory, Remembered
+from station.practice.records.memory import Memory, Remembered, following_lesson
 from station.practice.records.recovery import offer, recovered
 from station.practice.records.save_session import SessionFolder, save
 from station.practice.records.session_report import practice_document, with_truth
@@ -110,7 +110,8 @@ def _live(asked: AskedPractice, options: PracticeOptions, settings: Settings) ->
         with ExitStack() as until_saved:
             played = asked.plan if remembered is None else remembered.adaptation
             outcome = practise_in_terminal(played, settings, folder.capture, until_saved, asked.backing)
-            saved = save(folder, outcome.result, practice_document(outcome.result, settings), remembered)
+            following = following_lesson(settings, asked.plan.lesson, date.today()) if remembered is None else None
+            saved = save(folder, outcome.result, practice_document(outcome.result, settings, following), remembered)
         may_ask = settings.ask_first and outcome.is_attended and not options.json
         leave_report(folder, saved, options, settings, may_ask)
     if outcome.fault is not None:

@@ -17,6 +17,7 @@ from station.app.settings.settings_store import SettingsStore
 from station.core.errors import StationError
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
+from station.practice.records.next_steps import NextStep
 from station.practice.session.self_estimate import SelfEstimate
 from station.render.snapshot import Snapshot
 from station.sound.track import PreparedTrack
@@ -40,6 +41,8 @@ class CurrentPractice:
         self.is_free = False
         """Whether no lesson is shown: the kit alone, to just play."""
         self._was_free = False  # before a student's result was looked at
+        self.next_block: NextStep | None = None
+        """The block behind the one of the day's plan that is played; None where there is none, or no plan."""
         self.fault: StationError | None = None
         """What went wrong with the last session or take when it ended."""
 
@@ -118,6 +121,8 @@ class CurrentPractice:
         self.fault = saved.fault
         if saved.fault is not None:
             self._notify(str(saved.fault))
+        if self.next_block is not None and saved.steps:
+            saved = saved.leading_to(self.next_block)
         self.last_result.keep(saved, settings.ask_first and saved.marks is None)
         self.stage = Stage.RESULT
 

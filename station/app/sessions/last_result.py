@@ -10,6 +10,7 @@ from station.app.room_state import ShownResult
 from station.app.sessions.shown_result import SavedSession
 from station.drills.exam.rubric import Marks
 from station.practice.demonstration.compare_by_ear import Whose, bar_by_ear, previous_bar, students_bar
+from station.practice.records.next_steps import NextStep
 from station.practice.session.cues.listening import Listening
 from station.practice.session.self_estimate import QUESTION, SelfEstimate, answered, is_worth_asking
 from station.render.snapshot import Snapshot
@@ -51,6 +52,11 @@ class LastResult:
     def report(self) -> ShownResult | None:
         """What may be shown of it now."""
         return None if self.is_asking or self._saved is None else self._saved.report
+
+    @property
+    def steps(self) -> tuple[NextStep, ...]:
+        """What comes next, the best first; none while the question is open."""
+        return () if self.is_asking or self._saved is None else self._saved.steps
 
     @property
     def marks(self) -> Marks | None:

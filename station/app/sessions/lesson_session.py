@@ -8,6 +8,7 @@ result when the session is over. Where the tempo follows the student, each pass 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from datetime import date
 
 from station.app.engine_client import EngineClient
 from station.app.room_state import PlaceNow, RoomState, ShownResult, Stage
@@ -19,9 +20,12 @@ from station.core.events import Hit, StickPose
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.exam.rubric import Marks
+from station.drills.mastery.agenda import Turn
 from station.engine.messages import Command, EngineEvent
 from station.practice.exam.exam_take import exam_runner
 from station.practice.headless.live import begin, end
+from station.practice.records.memory import following_lesson
+from station.practice.records.next_steps import steps_in
 from station.practice.records.previous_session import find_previous
 from station.practice.records.save_session import SessionFolder, SessionRecord, save
 from station.practice.records.session_report import practice_document
@@ -223,9 +227,18 @@ class LessonSession:
             self._following.end()
         assert self._folder is not None, "it was begun"
         result = self._runner.finish()
-        saved = save(self._folder, result, practice_document(result, settings), self._followed)
+        saved = save(
+            self._folder, result, practice_document(result, settings, self._following_lesson(settings)), self._followed
+        )
         marks, refused = self._marked(result)
-        return SavedSession(result, self._report(saved, self._folder), saved.fault or refused or fault, marks)
+        fault = saved.fault or refused or fault
+        steps = steps_in(saved.document) if marks is None else ()
+        return SavedSession(result, self._report(saved, self._folder), fault, marks, steps)
+
+    def _following_lesson(self, settings: Settings) -> Turn | None:
+        """What to turn to after practice that has not followed the student; theirs knows it itself."""
+        is_asked = self._followed is None and self.sitting is None
+        return following_lesson(settings, self.plan.lesson, date.today()) if is_asked else None
 
     def _marked(self, result: SessionResult) -> tuple[Marks | None, StationError | None]:
         """The marks of an exam, kept, and what the disk refused; nothing of practice."""

@@ -15,7 +15,7 @@ from station.app.settings.settings_store import SettingsStore
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
 from station.music.score import Score
-from station.practice.control.pad_choice import PadChoice
+from station.practice.control.pad_choice import ANSWERS, BEGINS, PadChoice
 from station.practice.control.pad_commands import PadCommands
 
 
@@ -45,7 +45,8 @@ class PadControl:
         if options != self._options:
             self._options = options
             hears = any(option.pads for option in options)
-            self._choice = PadChoice([option.pads for option in options], now_ns) if hears else None
+            still = ANSWERS if self._is_question else BEGINS
+            self._choice = PadChoice([option.pads for option in options], now_ns, still) if hears else None
 
     def heard(self, choice: ScreenChoice, now_ns: int) -> ScreenChoice:
         """The choice with what pads do to it now."""

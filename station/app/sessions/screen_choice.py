@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 
 from station.app.actions.action import Action
-from station.app.actions.practice_actions import Answer
+from station.app.actions.practice_actions import Answer, TakeStep
 from station.app.room_state import Stage
 from station.app.sessions.current_practice import CurrentPractice
 from station.core.pieces import Piece
-from station.practice.session.self_estimate import PADS_OF, QUESTION
+from station.practice.control.pad_choice import pads_for
+from station.practice.session.self_estimate import PADS_OF, QUESTION, SelfEstimate
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +36,24 @@ class ScreenChoice:
     kicks: bool = False
 
 
-_QUESTION = ScreenChoice(tuple(Option(guess.value, Answer(guess), pads=PADS_OF[guess]) for guess in PADS_OF), QUESTION)
+_MEANS = {
+    SelfEstimate.RUSHED: "ahead of the click",
+    SelfEstimate.ON: "with the click",
+    SelfEstimate.DRAGGED: "behind the click",
+}
+_QUESTION = ScreenChoice(
+    tuple(Option(guess.value, Answer(guess), _MEANS[guess], pads) for guess, pads in PADS_OF.items()), QUESTION
+)
 
 
-def choice_beside(practice: CurrentPractice) -> ScreenChoice | None:
-    """What is to be chosen beside what is practised; None where nothing is."""
-    is_open = practice.stage is Stage.RESULT and practice.last_result.is_asking
-    return _QUESTION if is_open else None
+def choice_beside(practice: CurrentPractice, kit_starts: bool) -> ScreenChoice | None:
+    """What is to be chosen beside what is practised, None where nothing is; `kit_starts` where strokes may begin it."""
+    if practice.stage is not Stage.RESULT:
+        return None
+    if practice.last_result.is_asking:
+        return _QUESTION
+    steps = practice.last_result.steps
+    there = frozenset(practice.session.plan.kit.pieces) if kit_starts else frozenset[Piece]()
+    options = zip(steps, pads_for(len(steps), there), strict=True)
+    made = tuple(Option(step.label, TakeStep(place), step.why, pads) for place, (step, pads) in enumerate(options))
+    return ScreenChoice(made, kicks=kit_starts) if made else None

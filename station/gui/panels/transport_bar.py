@@ -10,7 +10,7 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
-from station.app.actions.practice_actions import Answer, Begin, Dismiss, EndSession, Pause, Veto
+from station.app.actions.practice_actions import Dismiss, EndSession, Pause, Veto
 from station.app.actions.settings_actions import SetView
 from station.app.room_state import RoomState, Stage
 from station.app.sessions.demo_picture import PlayerView
@@ -23,13 +23,11 @@ from station.gui.panels.player_controls import PlayerControls, counter
 from station.gui.panels.ruler import Ruler
 from station.gui.panels.view_popup import LOOK_LABEL, POPUP, ViewActions, view_settings_popup
 from station.gui.widgets.flow_row import LINE_HEIGHT, FlowRow
-from station.practice.session.self_estimate import SelfEstimate
 from station.render.camera import VIEW_NAMES
 
 PAUSE_LABEL, GO_ON_LABEL = "Pause##hold", "Go on##hold"
 VETO_LABEL = "As it was##veto"
 STOP_LABEL = "Stop##stop"
-AGAIN_LABEL = "Once more##again"
 BACK_LABEL = "Back to the lessons##back"
 
 _PAUSE = "The score waits (Backspace; both crashes at once or a foot switch, as the Practice panel says)"
@@ -88,13 +86,10 @@ class TransportBar:
 
     @staticmethod
     def _has_second_line(room: RoomState) -> bool:
-        return (room.stage is Stage.IDLE and not room.free) or (room.stage is Stage.RESULT and bool(room.question))
+        return room.stage is Stage.IDLE and not room.free
 
     def _second_line(self, room: RoomState, player: PlayerView) -> None:
-        """The player's controls, or the question that the first line's buttons answer."""
-        if room.stage is Stage.RESULT:
-            imgui.text_wrapped(room.question)
-            return
+        """The player's controls."""
         row = FlowRow(height=LINE_HEIGHT)
         self.controls.gui(player, row)
         _lines(found(room), row)
@@ -103,11 +98,6 @@ class TransportBar:
         """Where one is in the music, or what is to be answered or done."""
         if room.stage is Stage.PLAYING:
             self._session(room, row)
-        elif room.stage is Stage.RESULT and room.question:
-            for guess in SelfEstimate:
-                if row.button(guess.value, 96):
-                    self._dispatch(Answer(guess))
-                theme.tooltip(room.question)
         elif room.stage is Stage.RESULT:
             self._result(room, row)
         elif room.free:
@@ -116,15 +106,10 @@ class TransportBar:
             self._ruler.gui(player.player, player.now_ns, row.left_px)
 
     def _result(self, room: RoomState, row: FlowRow) -> None:
-        """What comes after a result; one that a student sent, or of an exam, is not played once more."""
-        if not room.student and not room.exam:
-            row.place(theme.points(150))
-            if theme.main_button(AGAIN_LABEL, (theme.points(150), theme.points(LINE_HEIGHT))):
-                self._dispatch(Begin())
-            theme.tooltip("The same lesson, the same tempo (Enter)")
+        """The way back from a result; what comes next stands large below it."""
         if row.button(BACK_LABEL, 190):
             self._dispatch(Dismiss())
-        theme.tooltip("Choose another lesson (Esc)")
+        theme.tooltip("Choose another lesson (Esc; while a question is open Esc puts that aside first)")
         _lines((f"played by {room.student}",) if room.student else found(room), row)
 
     def _session(self, room: RoomState, row: FlowRow) -> None:
