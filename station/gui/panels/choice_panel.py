@@ -61,9 +61,9 @@ def band_height(choice: ScreenChoice | None, picture: Area) -> int:
 
 
 def choice_keys(choice: ScreenChoice, dispatch: Callable[[Action], None]) -> bool:
-    """Choose by 1 to 4, and what comes next by Enter; returns whether a key did."""
+    """Choose by 1 to 4, and what comes next by Enter where no control has the keyboard; returns whether a key did."""
     chosen = next((option for key, option in zip(SLOT_KEYS, choice.options, strict=False) if _pressed(key)), None)
-    if chosen is None and not choice.question and _pressed(imgui.Key.enter):
+    if chosen is None and not choice.question and not imgui.get_io().nav_visible and _pressed(imgui.Key.enter):
         chosen = choice.options[0]
     if chosen is not None:
         dispatch(chosen.action)
