@@ -7,7 +7,7 @@ from station.gui import theme
 from station.render import palette
 from station.render.painter import Area
 
-_WIDE, _SHARE = 30.0, 0.04
+_WIDE, _SHARE = 20.0, 0.04
 """Design pixels of each side, and at most so much of the picture: words begin further in (our choice)."""
 _VEIL = 0.14
 """Of an accent's brightness lies over the whole picture (our choice: the corner of an eye sees it)."""
