@@ -1,9 +1,9 @@
-"""Draws the click as light (`app.sound.click_flash`): beside the picture, so that no word is covered, on both sides."""
+"""Draws the click as light (`practice.session.cues.click_flash`) at both sides of the picture, where no words are."""
 
 from imgui_bundle import imgui
 
-from station.app.sound.click_flash import Flash
 from station.gui import theme
+from station.practice.session.cues.click_flash import Flash
 from station.render import palette
 from station.render.painter import Area
 
