@@ -45,7 +45,7 @@ class State:
     in, `editor` the lesson that is edited, None for none, `drafts` those that were left unsaved, `today` the day's
     plan and the lesson book, `song` the one that is pinned to its sound, `exam` how far an exam is, `teacher` what
     students sent, `assigned` what a teacher gave, `sound` what sounds, each empty while nobody looks. `choice` is to be
-    chosen from on the screen now, `students` says who plays and who else may; `flash` is the click as light; `toast` is
+    chosen from on the screen now; `students` says who plays and who else may; `flash` is the click as light; `toast` is
     shown in passing; `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
     """
 

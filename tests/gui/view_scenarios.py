@@ -180,7 +180,7 @@ def resized(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
             help_window = ctx.window_info("//Help").window
             assert help_window is not None
             size[f"help {scale:g}"] = _inside(help_window, width, height)
-            size["unread"] += drive.unread(ctx)
+            size["unread"] += [line for line in drive.unread(ctx) if line.startswith("Help")]
         drive.station.dispatch(SetView(replace(drive.state.view_settings, scale=1.0)))
         ctx.key_press(imgui.Key.f1)
         ctx.yield_(3)

@@ -153,7 +153,7 @@ def cymbal(radius: float, detail: Detail, bell: float = 0.19, is_china: bool = F
     r = np.array(
         [1.0, 0.985, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, bell * 1.15, bell, bell * 0.9, bell * 0.6, bell * 0.25]
     )
-    if detail.hardware:
+    if detail.has_grooves:
         r = np.sort(np.concatenate([r, np.linspace(bell * 1.3, 0.97, 22)]))[::-1]
     bow = rise * (1 - (r / 0.98) ** 2) - rise * (1 - (0.6 / 0.98) ** 2)
     dome = np.where(r < bell, (BELL_ABOVE_BOW_M - 0.4 * rise) * np.sqrt(np.clip(1 - (r / bell) ** 2, 0, 1)), 0)
