@@ -2,8 +2,9 @@
 
 Run from the project's root; it needs Xvfb and takes some ten seconds a page without a graphics card. Pages share a
 window where they can, driven by imgui's test engine as in `tests/gui`. What imgui has cut off or written over itself is
-told; look at each picture all the same. 1280x720 at scale 1 is what `docs/window.md` shows; look at 1920x1080 and at
-scale 2 too.
+told; look at each picture all the same. 1280x720 at scale 1 is what `docs/window.md` shows; look at 760x480, 1920x1080
+and 3840x2160 too. `--scale` is the user's own, beyond what the window's size gives (`station.gui.panel_size`): a dense
+screen needs none.
 """
 
 import argparse
@@ -12,7 +13,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from datetime import date, timedelta
+from datetime import date, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -44,12 +45,14 @@ from station.gui.panels.figure.style_panel import FIGURE  # noqa: E402
 from station.gui.panels.hits_panel import HITS  # noqa: E402
 from station.gui.panels.import_panel import IMPORT  # noqa: E402
 from station.gui.panels.lessons.lesson_list import FREE_LABEL  # noqa: E402
+from station.gui.panels.lessons.who_plays import WHO_LABEL  # noqa: E402
 from station.gui.panels.phase_panel import PHASE  # noqa: E402
 from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
 from station.gui.panels.sound.sound_panel import CLICK_TAB, DRUMS_TAB, LEVELS_TAB, OUTPUT_TAB, SOUND, TRACK_TAB  # noqa: E402
 from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
 from station.practice.records.memory import Memory  # noqa: E402
+from station.practice.records.session_files import session_folder  # noqa: E402
 from station.render.files.png_file import write_png  # noqa: E402
 from station.render.gpu.moving_parts import DoublePlace  # noqa: E402
 from station.sync.air.air_file import air_path, save_air  # noqa: E402
@@ -92,6 +95,16 @@ def _courses(drive: Drive, ctx: Context) -> None:
     ctx.item_click("##course")
     ctx.item_click("//$FOCUSED/###course-first-beats")
     ctx.yield_(3)
+
+
+def _who(drive: Drive, ctx: Context) -> None:
+    """Three who practised here, and the one who plays."""
+    settings = load_settings(drive.settings)
+    for name, day in (("Ann Lee", 1), ("Bea", 2), ("Cem", 9)):
+        started = datetime.now() - timedelta(days=day)
+        session_folder(settings.sessions_dir, name, "rock-1", started)
+    ctx.item_click(f"//Lessons/{WHO_LABEL}")
+    ctx.yield_(20)
 
 
 def _look(drive: Drive, ctx: Context) -> None:
@@ -290,6 +303,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "first-groove": _first_groove,
     "first-result": _first_result,
     "lessons": _lessons,
+    "who": _who,
     "look": _look,
     "help": _help,
     "figure": _tool(FIGURE),

@@ -25,8 +25,9 @@ def state_of(parts: StationParts, now_ns: int) -> State:
     sessions, shown = parts.sessions, parts.shown
     snapshot = sessions.snapshot(now_ns) if shown.picture else None
     choice = parts.choice()
+    choice = None if choice is None else parts.pads.heard(choice, now_ns)
     return State(
-        choice=None if choice is None else parts.pads.heard(choice, now_ns),
+        choice=None if parts.who.is_open else choice,
         room=replace(sessions.room(), exam=parts.exam.is_on),
         selection=parts.chooser.selection,
         player=sessions.player.view(),
@@ -36,6 +37,7 @@ def state_of(parts: StationParts, now_ns: int) -> State:
         hands=sessions.hands,
         score=sessions.practice.session.plan.lesson.score,
         preferences=parts.preferences.now,
+        students=parts.who.view(choice),
         mapping=parts.mapping.view() if shown.devices else MappingView(),
         calibration=parts.calibration.view() if shown.devices else _NO_CALIBRATION,
         sticks=parts.sticks.view() if shown.sticks else SticksView(),

@@ -16,6 +16,7 @@ from station.app.room_state import RoomState, ShownResult, Stage
 from station.app.selection import Selection
 from station.app.sessions.demo_picture import PlayerView
 from station.app.sessions.screen_choice import ScreenChoice
+from station.app.sessions.who_plays import StudentsView
 from station.app.settings.preferences import PracticePreferences
 from station.app.settings.view_settings import ViewSettings
 from station.app.songs.song_page import SongView
@@ -44,8 +45,8 @@ class State:
     in, `editor` the lesson that is edited, None for none, `drafts` those that were left unsaved, `today` the day's
     plan and the lesson book, `song` the one that is pinned to its sound, `exam` how far an exam is, `teacher` what
     students sent, `assigned` what a teacher gave, `sound` what sounds, each empty while nobody looks. `choice` is to be
-    chosen from on the screen now; `flash` is the click as light; `toast` is shown in passing; `is_lively` whether
-    something moves or may at any moment, so that no frame is to be spared.
+    chosen from on the screen now; `students` says who plays and who else may; `flash` is the click as light; `toast` is
+    shown in passing; `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
     """
 
     room: RoomState
@@ -80,6 +81,7 @@ class State:
     choice: ScreenChoice | None = None
     flash: Flash = DARK
     toast: str = ""
+    students: StudentsView = field(default_factory=StudentsView)
     is_lively: bool = True
 
     @property

@@ -20,7 +20,9 @@ from station.core.toml.schema import (
     Reader,
     checked_values,
     flag,
+    list_of,
     members_by_label,
+    needed,
     number,
     one_of,
     record,
@@ -43,6 +45,15 @@ LEAST_BLOCK_FRAMES = 16
 
 EVERYTHING, CLICK_ALONE, NOTHING = HEARD = ("everything", "click", "nothing")
 """How much is heard: for a night beside others the click alone, or nothing, and the picture clicks."""
+
+
+@dataclass(frozen=True, slots=True)
+class StudentSettings:
+    """What is a student's own while another one plays: who leads, and the course that is listed."""
+
+    name: str
+    hands: str = ""
+    course: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,13 +82,15 @@ class Settings:
     before them, a shipped one or a file, empty for the lesson's, and `hands` whose hand leads: `right`, `left`, `open`,
     empty for as that kit is built (`practice.session.leading_hand`). `view`, `mirrored`, `inset` and `viewpoints`
     are where the window looks from, `score` how it shows the score, `legend` whether a staff says which line is which
-    piece, `theme` its colours (`app.settings.view_settings`),
-    `panel_scale` how many times as large as designed its panels are, `double` whether the student is shown as a second
+    piece, `theme` its colours (`app.settings.view_settings`), `panel_scale` how many times as large as their window
+    asks for its panels are, `quality` how finely it draws, empty for what the machine holds, `double` whether the
+    student is shown as a second
     drummer, `double_beside` whether beside the demonstrator and not over them, `air_drums` whether strokes in the air
     are hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock,
     `sound_phase` whether that phase sounds the drill's strokes as it passes them, `course` names the course whose
     lessons are listed, empty for all; `welcomed` whether the questions of the first start were asked
-    (`app.settings.first_start`).
+    (`app.settings.first_start`), `students` who has played here, the last one first, with what is their own
+    (`app.settings.students`), `pads_switch` whether the kit may ask who plays.
     """
 
     student: str = "student"
@@ -122,12 +135,15 @@ class Settings:
     course: str = ""
     theme: str = "night"
     panel_scale: float = 1.0
+    quality: str = ""
     welcomed: bool = False
     double: bool = False
     double_beside: bool = False
     air_drums: bool = False
     follow_phase: bool = False
     sound_phase: bool = False
+    pads_switch: bool = True
+    students: tuple[StudentSettings, ...] = ()
 
     @property
     def threshold_of(self) -> dict[Piece, int]:
@@ -205,6 +221,9 @@ def _block(value: object) -> int:
     return frames
 
 
+_STUDENT: Fields = MappingProxyType(
+    {"name": needed(text, 'a name such as "Ann"'), "hands": Field(text, ""), "course": Field(text, "")}
+)
 _SPECIAL: Mapping[str, Reader[object]] = MappingProxyType(
     {
         "panel_scale": number(SMALLEST_PANELS, LARGEST_PANELS),
@@ -217,6 +236,7 @@ _SPECIAL: Mapping[str, Reader[object]] = MappingProxyType(
         "track_bpm": number(0, 400),
         "track_start_s": number(0, 600),
         "thresholds": _threshold_text,
+        "students": list_of(record(StudentSettings, _STUDENT), '[{name = "Ann", hands = "left"}]'),
     }
 )
 """What a sound card or a person could mean; our choice, wide enough for every device on sale. The others are texts and

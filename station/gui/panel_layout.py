@@ -33,6 +33,7 @@ from station.gui.panels.devices import devices_panel, sticks_panel
 from station.gui.panels.editor.editor_panel import EDITOR, EditorPanel
 from station.gui.panels.exam_notes import NOTES, ExamNotes
 from station.gui.panels.figure import style_panel
+from station.gui.panels.lessons.who_plays import WhoPlaysPage
 from station.gui.panels.lessons_panel import LessonsPanel
 from station.gui.panels.panel import DockSide, Panel, panels_popup
 from station.gui.panels.playback_row import PlaybackRow
@@ -72,10 +73,11 @@ class Pages:
         self._exam_stage = ExamStage.ASKED
         self.teacher = teacher_panel.TeacherPanel(dispatch, self._playback)
         self.assigned = assigned_panel.AssignedPanel(dispatch)
-        viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go)
+        viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go, lambda: viewport.quality)
         self._transport = TransportBar(dispatch, viewpoints, self._open_tools)
         self.controls = self._transport.controls
         self.table = self._table()
+        self.who = WhoPlaysPage(dispatch)
         self.docking: hello_imgui.DockingParams | None = None
         """Where they are docked, once the window is made."""
 

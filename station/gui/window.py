@@ -13,7 +13,7 @@ from imgui_bundle import hello_imgui, imgui, implot
 from station.app.actions.action import Notify, Show
 from station.app.actions.file_actions import Import
 from station.app.actions.practice_actions import Begin, Leave, Pause, StrikeKey
-from station.app.actions.settings_actions import FinishFirstStart
+from station.app.actions.settings_actions import AskWhoPlays, FinishFirstStart
 from station.app.actions.sound_actions import BringTrack
 from station.app.controller import Controller
 from station.app.help_topics import topic_of
@@ -111,6 +111,7 @@ class Window:
         self.state = self._controller.view()
         snapshot = self.state.snapshot
         self.viewport.follow(self.state.view_settings, None if snapshot is None else snapshot.view)
+        self.viewport.may_rebuild = self.state.room.stage is not Stage.PLAYING
         self._wear()
         self.pages.show(self.state, self.welcome is None)
         self.params.fps_idling.enable_idling = not self.state.is_lively
@@ -228,6 +229,7 @@ class Window:
         self._keys()
         if not io.want_capture_mouse:
             self.viewport.steer(io)
+        self.pages.who.gui(self.state.students)
         draw_flash(self.state.flash, central_area(self.params.docking_params))
         if self._show_help:
             self._help()
@@ -270,6 +272,9 @@ class Window:
         """Escape closes what lies over the page, a list before the help; whether anything did."""
         if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
             imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
+            return True
+        if self.state.students.asks:
+            self._controller.dispatch(AskWhoPlays(on=False))
             return True
         is_closed, self._show_help = self._show_help, False
         return is_closed

@@ -152,6 +152,11 @@ class CurrentPractice:
         self.session, self.stage = session, Stage.IDLE
         self.is_free, self._was_free = self._was_free, False
 
+    def put_away(self, free: FreeSession) -> None:
+        """Forget the last result and the last take; nobody plays, and takes are `free`'s from now on."""
+        assert not self.is_playing, "whoever asks has looked"
+        self.last_result, self.free = LastResult(), free
+
     # --- what is seen ------------------------------------------------------------------------------------------------
 
     def state_in(self, state: RoomState) -> RoomState:

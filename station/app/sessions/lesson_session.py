@@ -19,10 +19,12 @@ from station.core.events import Hit, StickPose
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.exam.rubric import Marks
+from station.drills.mastery.feedback_fading import Feedback
 from station.engine.messages import Command, EngineEvent
 from station.practice.exam.exam_take import exam_runner
 from station.practice.headless.live import begin, end
 from station.practice.lag.fair_judgement import FairResult
+from station.practice.lag.first_groove import FIRST_GROOVE
 from station.practice.now.whereabouts import place_of
 from station.practice.records.earlier_lags import fair_session
 from station.practice.records.previous_session import find_previous
@@ -95,6 +97,8 @@ class LessonSession:
         sitting = self.sitting
         folder = SessionFolder.make(None, settings, self.plan.lesson.name) if sitting is None else sitting.folder
         self.session.backing, self.session.waits = track, settings.auto_pause and sitting is None
+        if self.plan.lesson.name == FIRST_GROOVE:  # what is early or late is not known before its end: equipment may be
+            self.session.feedback = Feedback.PADS
         try:
             begin(self._engine, self._runner, folder.capture)
         except StationError:

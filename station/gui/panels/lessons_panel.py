@@ -21,6 +21,7 @@ from station.gui import theme
 from station.gui.panels.lessons.course_list import course_picker
 from station.gui.panels.lessons.lesson_list import LessonList, bars_of
 from station.gui.panels.lessons.lesson_options import LessonOptions
+from station.gui.panels.lessons.who_plays import who_button
 
 START_LABEL, EDIT_LABEL = "Start##start", "Edit##edit-lesson"
 ADD_LABEL = f"{icons.ICON_FA_PLUS}##add"
@@ -36,7 +37,7 @@ _WIDE = 280
 """Design pixels: in a narrower panel the search and the courses have a line each."""
 _LEAST_LIST, _LEAST_ABOUT, _MOST_ABOUT, _OPTIONS = 140, 92, 260, 180
 """Design pixels (our choice): six lessons; a title of two lines and what it is; a long text; most options."""
-_ABOUT_SHARE = 0.34
+_ABOUT_SHARE = 0.3
 """Of what list and text have together, the text's."""
 
 
@@ -52,6 +53,7 @@ class LessonsPanel:
 
     def gui(self, state: State) -> None:
         """Draw the panel and do what the user does in it."""
+        self._who_and_more(state)
         selection = self._head(state.selection)
         start = imgui.get_window_height() - imgui.get_style().window_padding.y - theme.points(_START)
         middle = start - imgui.get_cursor_pos_y() - imgui.get_style().item_spacing.y
@@ -68,21 +70,22 @@ class LessonsPanel:
 
     # --- who and what ------------------------------------------------------------------------------------------------
 
-    def _head(self, selection: Selection) -> Selection:
-        """Which lessons are listed, and what brings more of them."""
+    def _who_and_more(self, state: State) -> None:
+        """Who plays, and what brings more lessons."""
         beside = imgui.get_frame_height() + imgui.get_style().item_spacing.x
-        width = imgui.get_content_region_avail().x
-        if width >= theme.points(_WIDE):
-            half = (width - beside - imgui.get_style().item_spacing.x) / 2
-            selection = course_picker(selection, half)
-            imgui.same_line()
-            selection = replace(selection, search=self._search(selection.search, half))
-        else:
-            selection = course_picker(selection, width)
-            selection = replace(selection, search=self._search(selection.search, width - beside))
+        who_button(state.students, imgui.get_content_region_avail().x - beside, self._dispatch)
         imgui.same_line()
         self._add()
-        return selection
+
+    def _head(self, selection: Selection) -> Selection:
+        """Which lessons are listed."""
+        width = imgui.get_content_region_avail().x
+        is_wide = width >= theme.points(_WIDE)
+        each = (width - imgui.get_style().item_spacing.x) / 2 if is_wide else width
+        selection = course_picker(selection, each)
+        if is_wide:
+            imgui.same_line()
+        return replace(selection, search=self._search(selection.search, each))
 
     @staticmethod
     def _search(words: str, width: float) -> str:
@@ -122,7 +125,9 @@ class LessonsPanel:
         imgui.end_child()
         flags = imgui.ChildFlags_.auto_resize_y
         imgui.begin_child(OPTIONS, imgui.ImVec2(0, 0), flags)
+        imgui.push_style_var(imgui.StyleVar_.item_spacing, imgui.ImVec2(imgui.get_style().item_spacing.x, spacing / 2))
         selection = self._played(selection, state.room)
+        imgui.pop_style_var()
         imgui.end_child()
         self._high = imgui.get_item_rect_size().y
         return selection

@@ -31,6 +31,11 @@ _TICKS = (
         "wait when I stop",
         "After two silent bars that have notes the score waits for you",
     ),
+    (
+        "pads_switch",
+        "the kit asks who plays",
+        "Between sessions, what pauses one lists the students; pads choose",
+    ),
     ("ask_first", "ask me before a result", "Did you rush or drag? At most once a lesson; pads answer"),
     ("guide", "the drummer sounds along", "The demonstration's strokes sound in the passes too, from the next session"),
 )

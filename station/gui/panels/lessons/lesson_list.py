@@ -29,8 +29,9 @@ UNSAVED, _DRAFT_MENU = "Draft: ", "##draft-menu"
 LIST = "##list"
 _INWARDS, _ROOMY = 12.0, 240.0
 """Design pixels that lessons stand behind their level, where the list has this room."""
-_CLOSE = 6.0
-"""Design pixels between lines (our choice: a third more lessons are seen than with the panel's own spacing)."""
+_CLOSE, _FLAT = 6.0, 4.0
+"""Design pixels between lines, and above and below a heading's words (our choice: a third more lessons are seen than
+with the panel's own spacing)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +57,9 @@ class LessonList:
         self._is_chosen_anew, self._chosen_last = chosen != self._chosen_last, chosen
         imgui.begin_child(LIST, size)
         spacing = imgui.get_style().item_spacing
+        padding = imgui.get_style().frame_padding
         imgui.push_style_var(imgui.StyleVar_.item_spacing, imgui.ImVec2(spacing.x, theme.points(_CLOSE)))
+        imgui.push_style_var(imgui.StyleVar_.frame_padding, imgui.ImVec2(padding.x, theme.points(_FLAT)))
         high = self._head_that_is_scrolled_out()
         low, room = imgui.get_window_pos(), imgui.get_window_size()
         imgui.push_clip_rect(imgui.ImVec2(low.x, low.y + high), imgui.ImVec2(low.x + room.x, low.y + room.y), True)
@@ -64,7 +67,7 @@ class LessonList:
         self._drafts(drafts)
         selection = self._lines(selection)
         imgui.pop_clip_rect()
-        imgui.pop_style_var()
+        imgui.pop_style_var(2)
         imgui.end_child()
         return selection
 

@@ -30,8 +30,8 @@ _PASSES = 92
 """Design pixels of the passes' slider; the level has the rest of its line."""
 _LEAST_LEVEL = 170
 """Design pixels that the level needs to be read; where it has less, it has a line of its own."""
-_TAP, _HIGH = 58, 34
-"""Design pixels."""
+_TAP, _HIGH, _AIR = 58, 34, 8
+"""Design pixels: a button's width, a higher one's height, what a slider's words leave free."""
 
 
 class LessonOptions:
@@ -102,6 +102,9 @@ class LessonOptions:
 
     def _tempo(self, selection: Selection, words: str) -> Selection:
         tap = theme.points(_TAP)
+        room = imgui.get_content_region_avail().x - tap - imgui.get_style().item_spacing.x
+        if imgui.calc_text_size(words).x > room - theme.points(_AIR):
+            words = words.removeprefix("tempo ")
         imgui.set_next_item_width(-(tap + imgui.get_style().item_spacing.x))
         moved, beats = theme.slider_float("##tempo", selection.beats_a_minute, *selection.tempo_range, words)
         if moved:
