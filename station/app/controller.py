@@ -9,7 +9,7 @@ from datetime import date
 from functools import partial
 
 from station.app.actions.action import Action
-from station.app.actions.practice_actions import Begin
+from station.app.actions.practice_actions import Pause
 from station.app.child_programs import ChildPrograms
 from station.app.handlers.file_handler import take_imported
 from station.app.handlers.handler_table import handlers_of
@@ -52,7 +52,7 @@ class Controller:
         events = self._heard()
         asked = [action for event in events if (action := self._handle(event)) is not None]
         parts.mapping.advance(now_ns)
-        for part in (parts.sticks, parts.sessions, parts.exam, parts.editor, parts.phase, parts.song):
+        for part in (parts.sticks, parts.sessions, parts.exam, parts.editor, parts.phase, parts.song, parts.sound):
             attempt(partial(part.advance, now_ns))
         attempt(lambda: parts.toasts.notify(parts.export.news() or parts.export.written() or ""))
         attempt(lambda: take_imported(parts))
@@ -62,8 +62,10 @@ class Controller:
             attempt(parts.teacher.advance)
         if parts.shown.assigned:
             attempt(lambda: parts.assigned.advance(date.today(), parts.sessions.practice.stage))
+        asked += self._chosen()
         for action in asked:
             self.dispatch(action)
+        parts.pads.offer(parts.choice() if parts.kit_commands else None, now_ns)
         if not parts.sessions.practice.is_playing:
             self._keep()
         parts.toasts.update(now_ns)
@@ -78,22 +80,24 @@ class Controller:
             self.parts.editor.died()
             return []
 
-    def _handle(self, event: EngineEvent) -> Begin | None:
-        """Handle one event; a session that it asks for begins when all others are handled, anything else at once."""
+    def _chosen(self) -> list[Action]:
+        """What the kit asks for now that nothing came after a gesture; pads choose from what is on the screen."""
+        parts = self.parts
+        asked = parts.pads.advance(self._now_ns, parts.sessions.practice) if parts.kit_commands else None
+        return [] if asked is None else [asked]
+
+    def _handle(self, event: EngineEvent) -> Action | None:
+        """Handle one event; a session that it asks for begins when all others are handled, a pause at once."""
         parts, attempt = self.parts, self.parts.toasts.attempt
         parts.mapping.handle(event)
         parts.sticks.handle(event)
+        parts.sound.handle(event)
         attempt(lambda: parts.song.handle(event))
         parts.sessions.handle(event, self._now_ns)
-        if parts.mapping.learns or parts.sticks.learns:  # strokes teach, and ask for nothing
-            return None
-        if parts.editor.is_open:  # they write, and ask for nothing
+        if parts.editor.is_open and not (parts.mapping.learns or parts.sticks.learns):
             attempt(lambda: parts.editor.handle(event))
-            return None
-        if parts.exam.is_on:  # whoever tries a piece, plays it or reads their marks asks for nothing
-            return None
-        asked = parts.pads.handle(event, parts.sessions.practice)
-        if asked is None or isinstance(asked, Begin):
+        asked = parts.pads.handle(event, parts.sessions.practice) if parts.kit_commands else None
+        if not isinstance(asked, Pause):
             return asked
         self.dispatch(asked)
         return None

@@ -116,6 +116,11 @@ class Card:
             return None
         return self._output is not None and self._output.fault is None
 
+    def forget_others(self) -> None:
+        """Forget the mixers of other rates, and without a card all: their sounds are not those that are wanted."""
+        rate_hz = self.rate_hz
+        self._mixers = {rate: mixer for rate, mixer in self._mixers.items() if rate == rate_hz}
+
     def close(self) -> None:
         """Give the card back; the engine runs silent from now on."""
         if self._output is not None:

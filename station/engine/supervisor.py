@@ -35,8 +35,10 @@ from station.engine.messages import (
     SetAirDrums,
     SetBacking,
     SetLevel,
+    SetMaster,
     SetMidiOut,
     SetPiece,
+    SetSounds,
     Setting,
     Started,
     Status,
@@ -253,7 +255,16 @@ class _Standing:
                 self._levels[command.bus] = command
             case SetPiece():
                 self._pieces[command.piece] = command
-            case SetBacking() | SetMidiOut() | SetAirDrums() | TrackPhase() | WatchRawBytes() | WatchSensors():
+            case (
+                SetMaster()
+                | SetSounds()
+                | SetBacking()
+                | SetMidiOut()
+                | SetAirDrums()
+                | TrackPhase()
+                | WatchRawBytes()
+                | WatchSensors()
+            ):
                 self._others[type(command)] = command
             case RecordCapture():
                 self._others[RecordCapture] = command
@@ -279,7 +290,7 @@ class _Standing:
         """What a new engine is sent at `now_ns`, in order."""
         yield from self._levels.values()
         yield from self._pieces.values()
-        for kind in (SetBacking, SetMidiOut, SetAirDrums, WatchRawBytes, WatchSensors):
+        for kind in (SetMaster, SetSounds, SetBacking, SetMidiOut, SetAirDrums, WatchRawBytes, WatchSensors):
             if kind in self._others:
                 yield self._others[kind]
         record = self._others.get(RecordCapture)

@@ -73,6 +73,7 @@ def edit(parts: StationParts, action: EditorAction) -> None:
     if not was_open and parts.sessions.practice.stage is not Stage.IDLE:
         raise DeviceError("end the session first: the editor takes its place")
     if not was_open:
+        parts.who.ask(on=False)
         _leave_look(parts)
     parts.editor.act(action)
     if was_open and not parts.editor.is_open:
@@ -106,6 +107,8 @@ def _leave(parts: StationParts) -> None:
         parts.sticks.give_up()
     elif stage is Stage.PLAYING:
         parts.sessions.practice.end()
+    elif stage is Stage.RESULT and parts.sessions.practice.last_result.is_asking:
+        parts.sessions.practice.last_result.leave()
     elif stage is Stage.RESULT:
         parts.sessions.dismiss()
     elif parts.exam.looks:

@@ -118,7 +118,8 @@ class CurrentPractice:
         self.fault = saved.fault
         if saved.fault is not None:
             self._notify(str(saved.fault))
-        self.last_result.keep(saved, settings.ask_first and saved.marks is None)
+        is_open = saved.fair is not None and saved.fair.is_open  # one question at a time
+        self.last_result.keep(saved, settings.ask_first and saved.marks is None and not is_open)
         self.stage = Stage.RESULT
 
     def veto(self) -> None:
@@ -151,6 +152,11 @@ class CurrentPractice:
         self.session, self.stage = session, Stage.IDLE
         self.is_free, self._was_free = self._was_free, False
 
+    def put_away(self, free: FreeSession) -> None:
+        """Forget the last result and the last take; nobody plays, and takes are `free`'s from now on."""
+        assert not self.is_playing, "whoever asks has looked"
+        self.last_result, self.free = LastResult(), free
+
     # --- what is seen ------------------------------------------------------------------------------------------------
 
     def state_in(self, state: RoomState) -> RoomState:
@@ -162,6 +168,7 @@ class CurrentPractice:
             free=self.is_free,
             question=self.last_result.question,
             student=self._sender,
+            lag_ms=self.last_result.lag_ms if self.stage is Stage.RESULT and not self._sender else None,
         )
         return state if self.is_free else self.session.state_in(state)
 

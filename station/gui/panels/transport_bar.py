@@ -10,6 +10,7 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
+from station.app.actions.equipment_actions import AnswerLag
 from station.app.actions.practice_actions import Answer, Begin, Dismiss, EndSession, Pause, Veto
 from station.app.actions.settings_actions import SetView
 from station.app.room_state import RoomState, Stage
@@ -31,6 +32,7 @@ VETO_LABEL = "As it was##veto"
 STOP_LABEL = "Stop##stop"
 AGAIN_LABEL = "Once more##again"
 BACK_LABEL = "Back to the lessons##back"
+TAKE_OUT_LABEL, LEAVE_LABEL = "Take out {:.0f} ms###take-out", "Leave it in##leave-in"
 
 _PAUSE = "The score waits (Backspace; both crashes at once or a foot switch, as the Practice panel says)"
 _GO_ON = "A bar of count-in, then on from the bar of your last stroke (Backspace, or two kicks)"
@@ -62,6 +64,7 @@ class TransportBar:
         self._ruler = Ruler(dispatch)
         self.controls = PlayerControls(dispatch)
         self.height = 0.0
+        self._second = LINE_HEIGHT  # design pixels of the player's line when it was drawn last
 
     def gui(self, state: State) -> None:
         """Draw it and do what the user does in it."""
@@ -83,7 +86,11 @@ class TransportBar:
         if self._has_second_line(room):
             imgui.set_cursor_pos_y(below)
             self._second_line(room, player)
+            if room.stage is Stage.IDLE:
+                self._second = (imgui.get_cursor_pos_y() - below) / theme.points(1.0)
             below = imgui.get_cursor_pos_y()
+        elif room.stage is Stage.IDLE:  # what stands above the strip stays where it is
+            below += theme.points(self._second)
         self.height = below - spacing.y + imgui.get_style().window_padding.y
 
     @staticmethod
@@ -117,15 +124,28 @@ class TransportBar:
 
     def _result(self, room: RoomState, row: FlowRow) -> None:
         """What comes after a result; one that a student sent, or of an exam, is not played once more."""
+        if room.lag_ms is not None:
+            self._lag(room.lag_ms, row)
         if not room.student and not room.exam:
             row.place(theme.points(150))
-            if theme.main_button(AGAIN_LABEL, (theme.points(150), theme.points(LINE_HEIGHT))):
+            again = theme.main_button if room.lag_ms is None else _plain_button
+            if again(AGAIN_LABEL, (theme.points(150), theme.points(LINE_HEIGHT))):
                 self._dispatch(Begin())
             theme.tooltip("The same lesson, the same tempo (Enter)")
         if row.button(BACK_LABEL, 190):
             self._dispatch(Dismiss())
         theme.tooltip("Choose another lesson (Esc)")
         _lines((f"played by {room.student}",) if room.student else found(room), row)
+
+    def _lag(self, lag_ms: float, row: FlowRow) -> None:
+        """Whose a lag of all strokes is, as the student says."""
+        row.place(theme.points(150))
+        if theme.main_button(TAKE_OUT_LABEL.format(lag_ms), (theme.points(150), theme.points(LINE_HEIGHT))):
+            self._dispatch(AnswerLag(take_out=True))
+        theme.tooltip("Your equipment's: leave it out of this score, and of all that you play on it")
+        if row.button(LEAVE_LABEL, 110):
+            self._dispatch(AnswerLag(take_out=False))
+        theme.tooltip("Your own: judge this again with it, and ask no more")
 
     def _session(self, room: RoomState, row: FlowRow) -> None:
         """How to end the session, its time, how far it is."""
@@ -176,6 +196,11 @@ class TransportBar:
         )
         imgui.end_group()
         return replace(chosen, view=NamedView(index) if changed else view_settings.view, mirrored=bool(mirrored))
+
+
+def _plain_button(label: str, size: tuple[float, float]) -> bool:
+    """One that is not the first thing to do."""
+    return bool(imgui.button(label, imgui.ImVec2(*size)))
 
 
 def _views_width() -> float:

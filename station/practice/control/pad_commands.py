@@ -29,7 +29,8 @@ class PadCommands:
         if score is self._score:
             return
         self._score = score
-        self._kicks, self._pad_pairs = TwoKicks(), PadsTogether(self._pause.pairs, score)
+        self._kicks.forget()
+        self._pad_pairs = PadsTogether(self._pause.pairs, score)
 
     def forget(self) -> None:
         """What was struck so far means nothing."""
@@ -37,8 +38,12 @@ class PadCommands:
         self._pad_pairs.forget()
 
     def starts(self, event: EngineEvent) -> bool:
-        """Whether two kicks are complete."""
-        return self._kicks_start and isinstance(event, Hit) and self._kicks.feed(event)
+        """Whether two kicks were complete before `event`; hand it every one, for they must stand alone."""
+        return isinstance(event, Hit) and self._kicks.feed(event) and self._kicks_start
+
+    def starts_by(self, now_ns: int) -> bool:
+        """Whether two kicks are complete at `now_ns`."""
+        return self._kicks.advance(now_ns) and self._kicks_start
 
     def pauses(self, event: EngineEvent) -> Sequence[Hit] | None:
         """The strokes that ask for a pause, none where a switch does; None where nothing does."""
@@ -49,7 +54,7 @@ class PadCommands:
     def asks(self, event: EngineEvent, score: Score, is_paused: bool) -> Sequence[Hit] | None:
         """The strokes with which `event` asks a session of `score` to pause or go on; None where it asks nothing."""
         self.practise(score)
-        asked = () if is_paused and self.starts(event) else self.pauses(event)
+        asked = () if self.starts(event) and is_paused else self.pauses(event)
         if asked is not None:
             self.forget()
         return asked

@@ -1,7 +1,7 @@
 """What the kit commands: two kicks ask for the count-in, two pads struck at once for a pause.
 
-Pure: hits with their own times in, whether the gesture is complete out. Whoever listens decides when it may mean
-anything: kicks never in the middle of a drill, and no single pad there at all.
+Pure: hits with their own times and the clock in, whether the gesture is complete out. Whoever listens decides when it
+may mean anything: kicks never in the middle of a drill, and no single pad there at all.
 """
 
 from collections.abc import Collection, Iterable
@@ -15,35 +15,61 @@ from station.music.score import Score
 
 TOGETHER_NS = NS_PER_S
 """Two kicks within a second, and nothing else between them, are meant (our choice)."""
+BEFORE_NS, AFTER_NS = 2 * NS_PER_S, NS_PER_S // 2
+"""So long nothing is struck before the first and after the second (our choice: whoever noodles, warms up or ends a
+song has a stroke within a bar, and goes on within a beat; `benchmarks/stray_kicks.py` measures it)."""
+AFTER_SHARE = 1.25
+"""After the second it is quiet for longer than the two lie apart, too: a third in the same pulse is a groove (our
+choice: a quarter more than the steadiest foot is late)."""
 DOUBLE_TRIGGER_NS = 60 * NS_PER_MS
 """A second kick that comes so soon is the same stroke, triggered twice (our choice: no foot repeats faster than 16
 times a second)."""
 
 
 class TwoKicks:
-    """Waits for two kicks."""
+    """Waits for two kicks that stand alone; hand it every stroke, and the clock when all until then are handed over."""
 
     def __init__(self) -> None:
-        self._kick_ns: int | None = None
+        self._last_ns: int | None = None
+        self._first_ns: int | None = None
+        self._second_ns: int | None = None
 
     def feed(self, hit: Hit) -> bool:
-        """Take a hit; returns whether it is the second of two kicks."""
-        before_ns, self._kick_ns = self._kick_ns, None
+        """Take a stroke; returns whether two kicks before it were meant."""
+        is_meant = self.advance(hit.at_ns)
         if hit.piece is not Piece.KICK:
+            self.forget()
+        elif not self._is_same_stroke(hit.at_ns):
+            self._kicked(hit.at_ns)
+        self._last_ns = hit.at_ns
+        return is_meant
+
+    def advance(self, now_ns: int) -> bool:
+        """Whether two kicks were meant, and nothing came after them until `now_ns`; it is told once."""
+        if self._first_ns is None or self._second_ns is None:
             return False
-        if before_ns is not None:
-            gap_ns = hit.at_ns - before_ns
-            if gap_ns < DOUBLE_TRIGGER_NS:
-                self._kick_ns = before_ns
-                return False
-            if gap_ns <= TOGETHER_NS:
-                return True
-        self._kick_ns = hit.at_ns
-        return False
+        after_ns = max(AFTER_NS, AFTER_SHARE * (self._second_ns - self._first_ns))
+        is_meant = now_ns - self._second_ns >= after_ns
+        if is_meant:
+            self.forget()
+        return is_meant
+
+    def _kicked(self, at_ns: int) -> None:
+        is_second = self._first_ns is not None and at_ns - self._first_ns <= TOGETHER_NS and self._second_ns is None
+        if is_second:
+            self._second_ns = at_ns
+            return
+        self.forget()
+        if self._last_ns is None or at_ns - self._last_ns >= BEFORE_NS:
+            self._first_ns = at_ns
+
+    def _is_same_stroke(self, at_ns: int) -> bool:
+        kick_ns = self._first_ns if self._second_ns is None else self._second_ns
+        return kick_ns is not None and at_ns - kick_ns < DOUBLE_TRIGGER_NS
 
     def forget(self) -> None:
-        """What was struck so far means nothing."""
-        self._kick_ns = None
+        """What was struck so far means nothing; that it was struck is remembered."""
+        self._first_ns = self._second_ns = None
 
 
 AT_ONCE_NS = 50 * NS_PER_MS

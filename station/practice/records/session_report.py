@@ -19,6 +19,8 @@ from station.core.units import NS_PER_MS, NS_PER_S, ms_from_ns
 from station.devices.mapping.device_file import own_kit
 from station.drills.lesson import Goals
 from station.engine.engine import KEYBOARD
+from station.practice.lag.lag_document import lag_document
+from station.practice.lag.session_lag import LagAnswer, SessionLag
 from station.practice.records.assigned_lessons import assigned_by
 from station.practice.records.mastery_report import passes_text
 from station.practice.records.phase_words import phase_document, phase_lines
@@ -55,8 +57,8 @@ def kit_facts(settings: Settings, device: str | None = None) -> KitFacts:
     return KitFacts(MappingProxyType(thresholds), max(settings.mask_ms, deaf_ms))
 
 
-def practice_document(result: SessionResult, settings: Settings) -> dict[str, Json]:
-    """The report of a session; computer keys have no velocity, so of them nothing is said of dynamics."""
+def practice_document(result: SessionResult, settings: Settings, lag: SessionLag | None = None) -> dict[str, Json]:
+    """The report of a session and its `lag`; computer keys have no velocity, so of them nothing is said of dynamics."""
     plan = result.plan
     document = assessment(summarise(result.score, result.performance, result.alignment, session_view(result, settings)))
     measured, tempi = measured_session(result, document["score"]), tempo_rows(result)
@@ -90,6 +92,7 @@ def practice_document(result: SessionResult, settings: Settings) -> dict[str, Js
         "assignments": [taken.id for taken in given],
         "teacher": [words for taken in given for name, words in taken.said if name == plan.lesson.name],
     }
+    document["lag"] = lag_document(lag)
     document["sticks"] = sticks_document(result.felt, plan.lesson.goals.faults)
     document["phase"] = phase_document(result.phase, plan.lesson.goals.faults)
     return document
@@ -169,10 +172,22 @@ def report_text(document: dict[str, Json]) -> str:
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
         f"{_gap_text(session)}{_figures_text(document)}{_praise_text(document)}{_passes(document)}{_tempi(session)}"
-        f"{_steps_text(map(str, steps))}{_teacher(session)}{sticks_text(document)}"
+        f"{_lag(document)}{_steps_text(map(str, steps))}{_teacher(session)}{sticks_text(document)}"
         f"{unheard_text(session['unheard'])}{_paused(session)}"
         f"\nLatency taken out: {session['latency']}.\n"
     )
+
+
+def _lag(document: dict[str, Json]) -> str:
+    """What was found of a lag, and what takes it out; nothing where there is none."""
+    lag = document.get("lag")
+    if not isinstance(lag, dict) or not lag["text"]:
+        return ""
+    asks = f"\n{_TAKE_OUT}" if lag["answer"] == LagAnswer.OPEN.value else ""
+    return f"\n{lag['text']}{asks}\n"
+
+
+_TAKE_OUT = "`station devices calibrate --by groove` takes it out for good; with --leave it counts as yours."
 
 
 def _teacher(session: dict[str, Json]) -> str:

@@ -34,6 +34,7 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.plan import (
     MAX_TEMPO_BPM,
     MIN_TEMPO_BPM,
+    PassSeries,
     Phase,
     Plan,
     PlanOptions,
@@ -104,7 +105,8 @@ class Adaptation:
 
     def session(self, latency: Latency) -> Session:
         """The next pass as a session, ready to start."""
-        return Session(self.plan, latency, feedback=self.step.feedback, message=self.words)
+        series = PassSeries(len(self.rounds), self.loops, (self.rounds[0] if self.rounds else self).step.tempo_bpm)
+        return Session(self.plan, latency, feedback=self.step.feedback, message=self.words, series=series)
 
     @property
     def words(self) -> str:

@@ -58,6 +58,20 @@ class Judging:
         """Where in the score the student is, when that much of it would have passed."""
         return self._follower.place_ns(score_ns)
 
+    def is_waiting(self, score_ns: int) -> bool:
+        """Whether the score waits for the student then."""
+        return self._follower.is_waiting(score_ns)
+
+    @property
+    def beats_behind(self) -> float:
+        """Quarters by which the student is behind the click and plays on, as far as the hits show; negative ahead."""
+        return self._follower.beats_behind
+
+    @property
+    def pace(self) -> float:
+        """How many times as fast as written the student plays, as far as the hits show."""
+        return self._follower.pace
+
     def forget_from(self, from_ns: int) -> int:
         """Forget what belongs to the score from `from_ns` on; returns how many strokes that were.
 

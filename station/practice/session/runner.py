@@ -103,9 +103,11 @@ class SessionRunner:
         return replace(update, judged=judged, commands=(*kept, *update.commands))
 
     def advance(self, now_ns: int) -> Update:
-        """Move on: wait for a student who has stopped, or begin the next pass where one is over."""
+        """Move on: wait for a student who has stopped, go on when they kick, begin the next pass where one is over."""
         session = self.session
         judged = session.advance(now_ns)
+        if self._pads is not None and self._pads.starts_by(now_ns) and session.paused and not self._is_stopped:
+            return replace(self.resume(), judged=judged)
         if session.waits and session.is_left:
             return replace(self.pause(is_asked=False), judged=judged)
         if self.over or not session.over:

@@ -2,8 +2,8 @@
 
 Who first judges the own error learns more of the same feedback (docs/sources.md), so the question comes before the
 page: only after a session that was played to its end to a click, and once a lesson until the program ends. In the
-window it is answered with a pad; left of the snare is ahead of the time, right of it behind. In the terminal, where the
-kit is no longer heard then, with a letter. Pure: a report in, sentences out.
+window it is answered with a pad, a key or the mouse; left of the snare is ahead of the time, right of it behind. In the
+terminal, where the kit is no longer heard then, with a letter. Pure: a report in, sentences out.
 """
 
 from collections.abc import Mapping
@@ -18,9 +18,7 @@ ON_TIME_MS = 10.0
 LEAST_STROKES = 16
 """Fewer strokes have no tendency worth a question (our choice: two bars of eighths)."""
 
-QUESTION = "Before you look: did you rush (hi-hat), drag (ride or floor tom), or were you on (snare)?"
-
-
+QUESTION = "Before you look: rushed, on, or dragged?"
 TYPED_QUESTION = "Before you look: did you rush (r), drag (d), or were you on (o)? Enter alone: no answer. "
 
 
@@ -32,15 +30,14 @@ class SelfEstimate(StrEnum):
     DRAGGED = "dragged"
 
 
-GUESS_OF: Mapping[Piece, SelfEstimate] = MappingProxyType(
+PADS_OF: Mapping[SelfEstimate, frozenset[Piece]] = MappingProxyType(
     {
-        Piece.HIHAT: SelfEstimate.RUSHED,
-        Piece.SNARE: SelfEstimate.ON,
-        Piece.RIDE: SelfEstimate.DRAGGED,
-        Piece.FLOOR_TOM_1: SelfEstimate.DRAGGED,
+        SelfEstimate.RUSHED: frozenset({Piece.HIHAT}),
+        SelfEstimate.ON: frozenset({Piece.SNARE}),
+        SelfEstimate.DRAGGED: frozenset({Piece.RIDE, Piece.FLOOR_TOM_1}),
     }
 )
-"""The pads that answer."""
+"""The pads that answer, from left to right as on the kit."""
 
 
 def typed_guess(line: str) -> SelfEstimate | None:

@@ -30,7 +30,7 @@ from station.practice.session.engine_state import EngineState
 from station.practice.session.event_log import Ended, PassBegan, Paused, WasUnheard, WentOn, stroke_key, text_of
 from station.practice.session.judging import Judging
 from station.practice.session.pausing import NEAR_NS, SILENT_BARS, SessionPause, Silence, TransportRun, bar_of, from_bar
-from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
+from station.practice.session.plan import TAIL_NS, PassSeries, Phase, Plan, Segment
 from station.practice.session.played_hands import PlayedHands, limbs_of
 from station.practice.session.played_phase import PhasesHeard, PlayedPhase
 from station.scoring.align import align
@@ -86,7 +86,8 @@ class Session:
     """One practice session; call `start`, then `handle` every event and `advance` the time, until `over`.
 
     `feedback` is what the student is shown while playing (judgement is the same); `message` what to say before it;
-    `backing` a track to play along to in the passes. One that `waits` judges no stroke that comes after a silence in
+    `backing` a track to play along to in the passes; `series` which of several passes it is, where each is a session of
+    its own. One that `waits` judges no stroke that comes after a silence in
     which the student has stopped: whoever runs it sees that it `is_left` and pauses.
     """
 
@@ -96,6 +97,7 @@ class Session:
     message: str = ""
     backing: PreparedTrack | None = None
     waits: bool = False
+    series: PassSeries | None = None
 
     def __post_init__(self) -> None:
         self._judging = Judging(self.plan.score, clocked=self.plan.click is not None)
@@ -112,6 +114,8 @@ class Session:
         """Where in the drill the sticks are, while they are tracked."""
         self.paused = False
         """Whether the transport stands and waits for `resume`."""
+        self.stopped = False
+        """Whether it was ended: nothing moves any more."""
         self.pauses: list[SessionPause] = []
         """The pauses after which the session went on, in order."""
 
@@ -122,6 +126,7 @@ class Session:
 
     def stop(self) -> tuple[Command, ...]:
         """The commands that end it, at the present that it knows."""
+        self.stopped = True
         kept = self.stop_listening()
         return (*kept, Annotate(text_of(Ended(self.heard.strokes, self._now_ns))), Stop())
 
@@ -257,6 +262,25 @@ class Session:
         """Whether the last bar and the tail after it have passed."""
         at_ns = self._plan_ns()
         return at_ns is not None and at_ns >= self.plan.end_ns + TAIL_NS
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether the score waits for a student without a click, who has not played on."""
+        transport_ns = self.heard.transport_ns(self._now_ns)
+        if self.plan.click is not None or self._held_ns is not None or transport_ns is None or self.over:
+            return False
+        at_ns = transport_ns - self.plan.passes_start_ns
+        return at_ns >= 0 and self._judging.is_waiting(at_ns)
+
+    @property
+    def beats_behind(self) -> float:
+        """Quarters by which the student came in behind the click and plays on; negative ahead of it."""
+        return self._judging.beats_behind
+
+    @property
+    def pace(self) -> float:
+        """How many times as fast as written the student plays; 1 by the click."""
+        return self._judging.pace
 
     def state(self) -> SessionState:
         """What is going on, as of the last `advance`."""

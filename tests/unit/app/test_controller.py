@@ -245,10 +245,14 @@ def test_the_student_is_asked_before_the_result_and_answers_with_a_pad(tmp_path:
     line = Line()
     station = station_at([line], tmp_path)
     played_early(station, line, NS_PER_S)
-    assert "did you rush" in room(station).question
+    assert "rushed, on, or dragged?" in room(station).question
     assert station.view().report is None
     line.says.append(Hit(90 * NS_PER_S, Piece.HIHAT, Zone.BOW, 90))
     station.update(90 * NS_PER_S)
+    choice = station.view().choice
+    assert choice is not None
+    assert choice.meant == 0, "it is shown at once, and counts when nothing follows"
+    station.update(91 * NS_PER_S)
     assert room(station).question == ""
     assert station.view().report is not None
     assert station.view().toast == "You said rushed, and you were 15 ms early on average: your ear is right."
@@ -256,6 +260,32 @@ def test_the_student_is_asked_before_the_result_and_answers_with_a_pad(tmp_path:
     played_early(station, line, 100 * NS_PER_S)
     assert room(station).question == ""
     assert station.view().report is not None
+
+
+def test_no_stroke_of_the_music_answers(tmp_path: Path) -> None:
+    """Whoever plays on after the end: two bars of eighths on the hi-hat with a backbeat, then a flourish."""
+    line = Line()
+    station = station_at([line], tmp_path)
+    played_early(station, line, NS_PER_S)
+    for eighth in range(16):
+        line.says.append(Hit(90 * NS_PER_S + eighth * NS_PER_S // 4, Piece.HIHAT, Zone.BOW, 90))
+        if eighth % 4 == 2:
+            line.says.append(Hit(90 * NS_PER_S + eighth * NS_PER_S // 4, Piece.SNARE, Zone.HEAD, 90))
+    line.says += [Hit(96 * NS_PER_S + i * NS_PER_S // 8, Piece.FLOOR_TOM_1, Zone.HEAD, 90) for i in range(3)]
+    station.update(99 * NS_PER_S)
+    assert room(station).question
+    assert station.view().report is None
+
+
+def test_a_question_that_is_skipped_shows_the_result(tmp_path: Path) -> None:
+    line = Line()
+    station = station_at([line], tmp_path)
+    played_early(station, line, NS_PER_S)
+    station.dispatch(Leave())
+    assert (room(station).stage, room(station).question) == (Stage.RESULT, "")
+    assert station.view().report is not None
+    station.dispatch(Leave())
+    assert room(station).stage is Stage.IDLE
 
 
 def test_who_does_not_want_to_be_asked_is_not(tmp_path: Path) -> None:

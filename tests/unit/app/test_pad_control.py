@@ -53,8 +53,10 @@ def strike(station: Controller, line: Line, at_ns: int, *pieces: Piece) -> None:
 
 
 def kicks(station: Controller, line: Line, at_ns: int) -> None:
+    """Two that stand alone, and the silence after them."""
     strike(station, line, at_ns, Piece.KICK)
     strike(station, line, at_ns + NS_PER_S // 2, Piece.KICK)
+    station.update(at_ns + 2 * NS_PER_S)
 
 
 def plays(line: Line) -> int:
@@ -79,8 +81,20 @@ def test_strokes_that_teach_command_nothing(tmp_path: Path) -> None:
     kicks(station, line, NS_PER_S)
     assert not begun(station)
     station.dispatch(GiveUp())
-    kicks(station, line, 3 * NS_PER_S)
+    kicks(station, line, 5 * NS_PER_S)
     assert begun(station)
+
+
+def test_kicks_that_belong_to_something_start_nothing(tmp_path: Path) -> None:
+    """The last bar of a groove, a kick and a crash, then the foot that rests on its pedal; and three kicks."""
+    station, line = station_with(tmp_path)
+    for eighth, piece in enumerate((Piece.KICK, Piece.HIHAT, Piece.SNARE, Piece.HIHAT, Piece.KICK, Piece.KICK)):
+        strike(station, line, NS_PER_S + eighth * NS_PER_S // 4, piece)
+    kicks(station, line, 3 * NS_PER_S)
+    for quarter in range(3):
+        strike(station, line, 10 * NS_PER_S + quarter * NS_PER_S // 2, Piece.KICK)
+    station.update(20 * NS_PER_S)
+    assert not begun(station)
 
 
 def test_two_kicks_begin_a_free_take_too(tmp_path: Path) -> None:
@@ -112,7 +126,7 @@ def test_whoever_stops_is_waited_for_and_two_kicks_go_on(tmp_path: Path) -> None
     was_paused.append(room(station).paused)
     assert was_paused == [False, True]
     assert isinstance(line.heard[-1], StopTransport)
-    assert shown(station, at(4 * BAR_NS)).hud.message.startswith("Paused")
+    assert shown(station, at(4 * BAR_NS)).hud.halt == "Paused"
     kicks(station, line, at(5 * BAR_NS))
     assert not room(station).paused
     assert isinstance(line.heard[-1], Play)

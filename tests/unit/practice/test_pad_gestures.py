@@ -17,29 +17,47 @@ K, S = Piece.KICK, Piece.SNARE
 @pytest.mark.parametrize(
     ("strokes", "asks_at"),
     [
-        ([(0, K), (500, K)], [500]),
-        ([(0, K), (1000, K)], [1000]),
+        ([(0, K), (400, K)], [900]),  # half a second after the second
+        ([(0, K), (500, K)], [1125]),  # or a quarter longer than they lie apart
+        ([(0, K), (1000, K)], [2250]),
         ([(0, K), (1001, K)], []),
-        ([(0, K), (1500, K), (2000, K)], [2000]),
+        ([(0, K), (60, K)], [560]),
+        ([(0, K), (1500, K), (2000, K)], []),  # a pedal that is tried, again and again
+        ([(0, K), (1500, K), (3500, K), (4000, K)], [4625]),
         ([(0, K), (200, S), (400, K)], []),
-        ([(0, K), (200, S), (400, K), (700, K)], [700]),
+        ([(0, K), (200, S), (400, K), (700, K)], []),
+        ([(0, K), (200, S), (2200, K), (2700, K)], [3325]),
+        ([(0, K), (200, S), (2199, K), (2700, K)], []),  # less than two seconds of silence before
         ([(0, K), (30, K)], []),  # one stroke that triggered twice
-        ([(0, K), (30, K), (500, K)], [500]),
-        ([(0, K), (400, K), (800, K)], [400]),  # the third begins anew
+        ([(0, K), (30, K), (500, K), (530, K)], [1125]),
+        ([(0, K), (400, K), (800, K)], []),  # three are a groove
+        ([(0, K), (900, K), (1900, K)], []),
+        ([(0, K), (400, K), (899, S)], []),
+        ([(0, K), (400, K), (900, S)], [900]),
         ([(0, S), (300, S)], []),
     ],
 )
-def test_two_kicks_within_a_second_and_nothing_between(strokes: list[tuple[int, Piece]], asks_at: list[int]) -> None:
-    kicks = TwoKicks()
-    asked = [at for at, piece in strokes if kicks.feed(Hit(at * NS_PER_MS, piece, Zone.HEAD, 90))]
-    assert asked == asks_at
+@pytest.mark.parametrize("frame_ms", [1, 20, 10_000])
+def test_two_kicks_that_stand_alone(strokes: list[tuple[int, Piece]], asks_at: list[int], frame_ms: int) -> None:
+    """Whoever looks seldom learns of it at the next stroke, or when they look."""
+    kicks, asked, now = TwoKicks(), 0, 0
+    for at, piece in [*strokes, (10_000, None)]:
+        while now + frame_ms <= at:
+            now += frame_ms
+            asked += kicks.advance(now * NS_PER_MS)
+            assert not asked or now >= asks_at[0]
+        if piece is not None:
+            asked += kicks.feed(Hit(at * NS_PER_MS, piece, Zone.HEAD, 90))
+    assert asked == len(asks_at)
 
 
-def test_what_was_forgotten_counts_no_more() -> None:
+def test_what_was_forgotten_counts_no_more_but_was_struck() -> None:
     kicks = TwoKicks()
     kicks.feed(Hit(0, K, Zone.HEAD, 90))
     kicks.forget()
-    assert not kicks.feed(Hit(300 * NS_PER_MS, K, Zone.HEAD, 90))
+    for at_ms in (300, 600):
+        kicks.feed(Hit(at_ms * NS_PER_MS, K, Zone.HEAD, 90))
+    assert not kicks.advance(10_000 * NS_PER_MS)
 
 
 CRASHES = frozenset({Piece.CRASH_1, Piece.CRASH_2})

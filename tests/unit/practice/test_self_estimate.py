@@ -3,7 +3,7 @@
 import pytest
 
 from station.core.pieces import Piece
-from station.practice.session.self_estimate import GUESS_OF, SelfEstimate, answered, is_worth_asking, typed_guess
+from station.practice.session.self_estimate import PADS_OF, SelfEstimate, answered, is_worth_asking, typed_guess
 
 
 def report(mean_ms: float | None = 0.0, strokes: int = 100, **session: bool) -> dict[str, object]:
@@ -55,5 +55,5 @@ def test_an_answer_can_be_typed(line: str, guess: SelfEstimate | None) -> None:
 
 
 def test_every_answer_has_a_pad() -> None:
-    assert set(GUESS_OF.values()) == set(SelfEstimate)
-    assert GUESS_OF[Piece.SNARE] is SelfEstimate.ON
+    assert set(PADS_OF) == set(SelfEstimate)
+    assert PADS_OF[SelfEstimate.ON] == {Piece.SNARE}
