@@ -65,6 +65,7 @@ class Controller:
         asked += self._chosen()
         for action in asked:
             self.dispatch(action)
+        parts.pads.offer(parts.choice() if parts.kit_commands else None, now_ns)
         if not parts.sessions.practice.is_playing:
             self._keep()
         parts.toasts.update(now_ns)
@@ -82,7 +83,6 @@ class Controller:
     def _chosen(self) -> list[Action]:
         """What the kit asks for now that nothing came after a gesture; pads choose from what is on the screen."""
         parts = self.parts
-        parts.pads.offer(parts.choice() if parts.kit_commands else None, self._now_ns)
         asked = parts.pads.advance(self._now_ns, parts.sessions.practice) if parts.kit_commands else None
         return [] if asked is None else [asked]
 

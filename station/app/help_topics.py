@@ -74,7 +74,9 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
         Topic.QUESTION: Help(
             "Say first what you believe: rushed, dragged or on. Whoever guesses before looking learns to hear it.",
             (
-                ("Answer", "with a button, or a pad: hi-hat rushed, ride or floor tom dragged, snare on"),
+                ("Answer", "after a second of silence with a pad: hi-hat rushed, snare on, ride or floor tom"
+                 " dragged; or 1 to 3"),
+                ("Not now", "or Esc: the result without an answer"),
                 ("Panels, Practice", "has a tick for it: no question any more"),
             ),
         ),
@@ -90,7 +92,9 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("Hear and see a bar", "as the teacher plays it, as you did, and as you did yesterday: the translucent"
                  " sticks are yours"),
                 ("Panels, Every hit", "each stroke over the bars; the mouse asks, a click chooses its bar"),
-                ("Once more", "or Enter, or two kicks; Esc goes back to the lessons"),
+                ("The buttons below", "what comes next: Enter or two kicks take the first, 1 to 4 any, or its pad after"
+                 " silence"),
+                ("Esc", "back to the lessons"),
             ),
         ),
         Topic.EXAM: Help(

@@ -82,8 +82,9 @@ class Settings:
     before them, a shipped one or a file, empty for the lesson's, and `hands` whose hand leads: `right`, `left`, `open`,
     empty for as that kit is built (`practice.session.leading_hand`). `view`, `mirrored`, `inset` and `viewpoints`
     are where the window looks from, `score` how it shows the score, `legend` whether a staff says which line is which
-    piece, `theme` its colours (`app.settings.view_settings`),
-    `panel_scale` how many times as large as designed its panels are, `double` whether the student is shown as a second
+    piece, `theme` its colours (`app.settings.view_settings`), `panel_scale` how many times as large as their window
+    asks for its panels are, `quality` how finely it draws, empty for what the machine holds, `double` whether the
+    student is shown as a second
     drummer, `double_beside` whether beside the demonstrator and not over them, `air_drums` whether strokes in the air
     are hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock,
     `sound_phase` whether that phase sounds the drill's strokes as it passes them, `course` names the course whose
@@ -134,6 +135,7 @@ class Settings:
     course: str = ""
     theme: str = "night"
     panel_scale: float = 1.0
+    quality: str = ""
     welcomed: bool = False
     double: bool = False
     double_beside: bool = False

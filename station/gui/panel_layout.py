@@ -74,7 +74,7 @@ class Pages:
         self._exam_stage = ExamStage.ASKED
         self.teacher = teacher_panel.TeacherPanel(dispatch, self._playback)
         self.assigned = assigned_panel.AssignedPanel(dispatch)
-        viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go)
+        viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go, lambda: viewport.quality)
         self._transport = TransportBar(dispatch, viewpoints, self._open_tools)
         self.controls = self._transport.controls
         self.table = self._table()

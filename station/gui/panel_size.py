@@ -45,7 +45,8 @@ Size = tuple[float, float]
 def fit(window: Size) -> float:
     """How many times their design size the panels of `window` are before the user asks for more or less."""
     ratio = min(length / design for length, design in zip(window, DESIGN, strict=True))
-    return max(min(ratio, _SCREEN) ** _POWER * max(ratio / _SCREEN, 1.0), SMALLEST)
+    grown: float = min(ratio, _SCREEN) ** _POWER * max(ratio / _SCREEN, 1.0)
+    return max(grown, SMALLEST)
 
 
 def panel_factor(window: Size, user: float) -> float:

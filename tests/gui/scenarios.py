@@ -14,6 +14,7 @@ import numpy as np
 from imgui_bundle import hello_imgui
 
 from station.render.files.png_file import write_png
+from tests.gui.choice_scenarios import choices
 from tests.gui.device_scenarios import calibration, devices, habits, sticks
 from tests.gui.drive import NEWCOMER, PICTURE_EVERY, SIZE, Drive, Scenario
 from tests.gui.editor_scenarios import (
@@ -35,12 +36,14 @@ from tests.gui.planned_day import planned_day
 from tests.gui.player_scenarios import graph, phase, player
 from tests.gui.practice_scenarios import drill, fault, highway, just_play, keys, practise
 from tests.gui.song_scenario import song
+from tests.gui.sound_scenario import sound
 from tests.gui.staff_scenarios import clicks, words
 from tests.gui.teacher_scenario import there_and_back
-from tests.gui.view_scenarios import legible, look, score, viewpoints, worn
+from tests.gui.view_scenarios import legible, look, resized, score, viewpoints, worn
 
 SCENARIOS: dict[str, Scenario] = {
     "practise": practise,
+    "choices": choices,
     "keys": keys,
     "just_play": just_play,
     "highway": highway,
@@ -59,6 +62,7 @@ SCENARIOS: dict[str, Scenario] = {
     "viewpoints": viewpoints,
     "score": score,
     "worn": worn,
+    "resized": resized,
     "legible": legible,
     "devices": devices,
     "calibration": calibration,
@@ -69,6 +73,7 @@ SCENARIOS: dict[str, Scenario] = {
     "phase": phase,
     "figure": figure,
     "song": song,
+    "sound": sound,
     "planned_day": planned_day,
     "exam": exam,
     "exam_in_a_small_window": exam,
@@ -88,9 +93,11 @@ SIZES = {
     "planned_day": (1280, 900),
     "whose_in_a_large_window": (1280, 720),
     "exam": (1280, 720),
+    "choices": (1280, 720),
     "player": (1280, 560),
     "phase": (1280, 720),
     "song": (1280, 800),
+    "sound": (1280, 1100),
     "there_and_back": (1280, 900),
     "legible": (1280, 720),
     "by_mouse": (1280, 720),
@@ -105,6 +112,7 @@ STUDENTS = {
     "first_minute": f"{NEWCOMER},seed=2,sd_ms=30,bias_ms=95",
     "drill": "beginner,seed=3",
     "practise": "pro,seed=4",
+    "choices": "pro,seed=4",
     "exam": "seed=1,sd_ms=4",
     "exam_in_a_small_window": "seed=1,sd_ms=4",
     "there_and_back": "intermediate,seed=2",

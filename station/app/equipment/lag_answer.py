@@ -35,9 +35,9 @@ def lag_row(lag: SessionLag, known: Latency) -> CalibrationResult:
 def _row(target: LagTarget, found: SharedLag, moments: int, before_ms: float) -> CalibrationResult:
     half_ms = (found.high_ms - found.low_ms) / 2
     estimate = LatencyEstimate(found.lag_ms, found.low_ms, found.high_ms, half_ms, moments).less(-before_ms)
-    doubts = (_HABIT,) if found.cause is LagCause.EQUIPMENT else (_HABIT, _THIN)
+    estimate = estimate.remarked(_HABIT) if found.cause is LagCause.EQUIPMENT else estimate.doubted(_THIN, _HABIT)
     what = "equipment" if target.what == "output" else "kit"
-    return CalibrationResult(what, target.name, estimate.doubted(*doubts))
+    return CalibrationResult(what, target.name, estimate)
 
 
 def with_lag_out(known: StoredCalibration, lag: SessionLag, latency: Latency, on: date) -> StoredCalibration:

@@ -50,8 +50,10 @@ class WhoPlays:
 
     def ask(self, on: bool) -> None:
         """Show the list, or put it away."""
-        if not on or self.is_open:
-            self._choice = self._choice if on else None
+        if on is self.is_open:
+            return
+        if not on:
+            self._choice = None
             return
         self._students.look_again()
         known, today = self._students.known, date.today()

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from station.cli.console import ask, is_attended, print_json, say, write
 from station.cli.options.device_option import DEVICE_FORM, DEVICE_HELP
 from station.cli.options.option_fields import choice, flag, option, unread
+from station.core.errors import BadInput
 from station.core.measured_latency import GROOVE, StoredCalibration, load_calibration, save_calibration
 from station.core.settings import Settings, load_settings
 from station.devices.device_ports import parse_device
@@ -54,6 +55,8 @@ def run(options: CalibrateOptions) -> int:
     from station.app.equipment.calibration_results import document, outdated, text, with_rows
     from station.app.equipment.latency_methods import measured
 
+    if options.leave and options.by != GROOVE:
+        raise BadInput("--leave", "", f"goes with --by {GROOVE}: what else is measured is stored or not")
     settings, before = load_settings(), load_calibration()
     if options.by == GROOVE:
         from station.app.equipment.lag_answer import last_lag

@@ -16,7 +16,7 @@ from station.render.palette import THEME_NAMES, Theme
 
 T = TypeVar("T")
 
-_HIGH, _TITLE_WIDTH = 500, 150
+_HIGH, _TITLE_WIDTH = 600, 150
 """Design pixels that the popup is high, and that its titles take beside its rows."""
 LOOK_LABEL = "Look##look"
 LEGEND_LABEL = "Name the lines of the staff##legend"
@@ -37,6 +37,12 @@ _DOUBLES = {
         "You on a kit of your own beside the demonstrator's, seen from the same place (E)",
     ),
 }
+_AUTOMATIC_TIP = "The finest that this computer holds at 60 pictures a second"
+_QUALITIES: dict[int | None, tuple[str, str]] = {
+    0: ("Swift", "Round rims; light falls corner by corner on what moves: for computers without a graphics card"),
+    1: ("Fine", "Light and soft shadows on every pixel"),
+    2: ("Finest", "The softest shadows, and the finest figure and grooves"),
+}
 _THEMES = {
     Theme.NIGHT: (THEME_NAMES[Theme.NIGHT], "Light on dark, for a dim room"),
     Theme.DAY: (THEME_NAMES[Theme.DAY], "Dark on light, for a bright room"),
@@ -50,10 +56,14 @@ _THEMES = {
 
 @dataclass(frozen=True, slots=True)
 class ViewActions:
-    """What the user does with viewpoints: `keep` the present one as a slot (from 0), `go` to a slot's."""
+    """What the user does with viewpoints: `keep` the present one as a slot (from 0), `go` to a slot's.
+
+    `quality` says at which level the picture is drawn now.
+    """
 
     keep: Callable[[int], None]
     go: Callable[[int], None]
+    quality: Callable[[], int] = lambda: 0
 
 
 def view_settings_popup(view_settings: ViewSettings, actions: ViewActions) -> ViewSettings:
@@ -72,6 +82,9 @@ def view_settings_popup(view_settings: ViewSettings, actions: ViewActions) -> Vi
         theme.soft("Your own viewpoints")
     _slots(view_settings, actions)
     view_settings = _colours_and_size(view_settings)
+    automatic = f"Automatic: {_QUALITIES[actions.quality()][0].lower()}", _AUTOMATIC_TIP
+    qualities = {None: automatic, **_QUALITIES}
+    view_settings = replace(view_settings, quality=_one_of("Quality", qualities, view_settings.quality))
     imgui.end_popup()
     return view_settings
 

@@ -17,6 +17,8 @@ from station.scoring.matching.alignment import Reference
 
 NOW = "now"
 """The take that this session's runs are of."""
+_SAME_MS = 1.0
+"""More than a report rounds (our choice)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +51,13 @@ def judged_fairly(result: SessionResult, known: StoredCalibration, earlier: Iter
     if target is None or not found.may_be_taken_out or not own.may_be_taken_out:
         return FairResult(result, lag)
     return FairResult(_later(result, -own.lag_ms), replace(lag, answer=LagAnswer.OPEN))
+
+
+def judged_as_told(result: SessionResult, left_out_ms: float) -> FairResult:
+    """A session of somebody else's, whose report says that so much was left out: it is where the strokes show it."""
+    fair = judged_fairly(result, StoredCalibration())
+    shows = fair.lag is not None and fair.is_open and abs(fair.lag.own_ms - left_out_ms) <= _SAME_MS
+    return fair if shows else FairResult(result)
 
 
 def as_it_came(fair: FairResult) -> FairResult:

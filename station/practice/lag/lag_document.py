@@ -18,7 +18,7 @@ def lag_document(lag: SessionLag | None) -> Json:
     if lag is None:
         return None
     found, target = lag.found, lag.target
-    rise = None if found.rise_ms is None else [_ms(value) for value in found.rise_ms]
+    rise: Json = None if found.rise_ms is None else [_ms(value) for value in found.rise_ms]
     apart: Json = None
     if found.apart is not None:
         apart = {

@@ -38,7 +38,7 @@ _ANSWERED = {
 
 def _everything(found: SharedLag) -> str:
     late = "late" if found.lag_ms > 0 else "early"
-    return f"Everything came {abs(found.lag_ms):.0f} ms {late} (± {(found.high_ms - found.low_ms) / 2:.0f})."
+    return f"Everything came {abs(found.lag_ms):.0f} ms {late} (±{(found.high_ms - found.low_ms) / 2:.0f})."
 
 
 def _tempi(found: SharedLag) -> str:

@@ -42,8 +42,8 @@ class SessionLag:
 
     @property
     def out_ms(self) -> float:
-        """What the judgement leaves out beyond what is known of the devices."""
-        return self.own_ms if self.answer is LagAnswer.OPEN else 0.0
+        """What the judgement leaves out of the strokes as they were captured."""
+        return self.own_ms if self.answer in (LagAnswer.OPEN, LagAnswer.TAKEN_OUT) else 0.0
 
 
 def lag_target(result: SessionResult, known: StoredCalibration) -> LagTarget | None:

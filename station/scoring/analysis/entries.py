@@ -56,13 +56,25 @@ def entries(score: Score, performance: Performance, alignment: Alignment) -> tup
         place = int(score.tempo_map.ticks_at_ns(max(int(alignment.hit_score_ns[first]), 0))) + _EARLY_TICKS
         bar_quarters = score.tempo_map.meter_at(place).bar_ticks / PPQ
         bars = quarters / bar_quarters
-        is_whole = first > _STRAYS and abs(bars - round(bars)) < _WHOLE
+        is_whole = abs(bars - round(bars)) < _WHOLE and not _is_beginning(score, performance, first, quarters)
         is_new = abs(quarters - before) >= LEAST_BEATS
         if is_new and abs(quarters) >= LEAST_BEATS and not is_whole and bars > -1 - _WHOLE:
             bar = min(int(score.tempo_map.bars_at(place)), score.bar_count - 1)
             found.append(Entry(first, bar, quarters, len(hits)))
         before = quarters
     return tuple(found)
+
+
+def _is_beginning(score: Score, performance: Performance, first: int, quarters: float) -> bool:
+    """Whether nothing was played before the run that begins with hit `first`, or before its player could be due.
+
+    In a loop of bars that are alike the first strokes of who is a bar late fit the second bar as well.
+    """
+    if first <= _STRAYS:
+        return True
+    due_ns = int(score.tempo_map.ns_at(max(round(quarters * PPQ) - PPQ // 2, 0)))
+    written, played = (int((at_ns < due_ns).sum()) for at_ns in (score.onset_ns, performance.hits["at_ns"]))
+    return played <= _STRAYS < written
 
 
 def _runs(alignment: Alignment) -> list[tuple[int, NDArray[np.int64]]]:

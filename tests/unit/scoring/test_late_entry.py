@@ -122,3 +122,25 @@ def test_a_loose_player_is_late_and_not_in_another_place() -> None:
     """90 ms behind the click throughout, the worst lean of anybody: no entry."""
     hits = [Hit(hit.at_ns + 90_000_000, hit.piece, hit.zone, 80) for hit in played(0, 2)]
     assert np.isin([one.fault for one in advise(judged(hits))], ["came_in_late"]).sum() == 0
+
+
+def test_a_bar_that_is_left_out_or_played_again_in_the_middle_is_no_entry() -> None:
+    skipped = travel(SCORE, [Leg(0, 4), Leg(5, 8)], 1, SLIPS).strokes
+    faults = {one.fault for one in advise(judged([stroke.hit for stroke in skipped]))}
+    assert "left_out_bars" in faults
+    assert "came_in_early" not in faults
+    again = travel(SCORE, [Leg(0, 4), Leg(3, 7)], 1, SLIPS).strokes
+    faults = {one.fault for one in advise(judged([stroke.hit for stroke in again]))}
+    assert "repeated_bars" in faults
+    assert "came_in_late" not in faults
+
+
+def test_who_sits_out_the_first_bar_of_a_loop_and_plays_its_passes_came_in_a_bar_late() -> None:
+    """Four times the same bar: what is played a bar late fits the bars after it, but for the first."""
+    loop = through_composed(1, 120.0, 5).repeated(4)
+    hits = [
+        Hit(int(at) + 2 * NS_PER_S, note.piece, note.zone, 80) for at, note in zip(loop.onset_ns, loop, strict=True)
+    ]
+    performance = Performance.from_hits([hit for hit in hits if hit.at_ns <= loop.length_ns + NS_PER_S])
+    (said, *_) = advise(summarise(loop, performance, align(loop, performance, clocked=True)))
+    assert said.fault in ("came_in_late", "left_out_bars")

@@ -1,10 +1,9 @@
 """The signs of judgements on notes: on time, early, late, missed, another piece, too loud, too soft.
 
 A judged note bears a shape as well as a colour: a ring on time, an arrow that points left when early and right when
-late, a barred ring when missed, a square when the wrong piece was struck, a grey ring with a question mark when nothing
-could be heard. The tick or arrow stands where the hit fell, drawn out by `TICK_ZOOM` so that a few milliseconds can be
-seen across a room. A wedge above the head that points up says too loud, one below that points down too soft. Units are
-staff spaces unless a size is given, y down.
+late, a barred ring when missed, a square when the wrong piece was struck. The tick or arrow stands where the hit fell,
+drawn out by `TICK_ZOOM` so that a few milliseconds can be seen across a room. A wedge above the head that points up
+says too loud, one below that points down too soft. Units are staff spaces unless a size is given, y down.
 """
 
 from dataclasses import replace
@@ -12,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from station.music.judgement import Label
-from station.render.palette import EARLY, GOOD, INK, INK_SOFT, LATE, MISSED, WRONG, with_opacity
+from station.render.palette import EARLY, GOOD, INK, LATE, MISSED, WRONG, with_opacity
 from station.render.text.draw_list import Colour, DrawList, TypeStyle
 from station.render.text.fonts import Face
 
@@ -28,10 +27,11 @@ and beyond a professional's own scatter of about 4 dB (HUMANS: SD 15-21 of 127).
 _WEDGE_AWAY = 1.6
 """Spaces from the head's middle to the wedge's; our choice, clear of the ring."""
 _WEDGE = 0.42
-_FIGURES = TypeStyle(1.25, INK, Face.BOLD)
-"""As large as bar numbers."""
-_FIGURES_AWAY, _FIGURES_DROP = 2.75, 0.42
-"""Spaces from the head's middle to the figures beyond the arrow, and down to their baseline."""
+_FIGURES = TypeStyle(1.15, INK, Face.BOLD, 0.5)
+_FIGURES_DROP = 1.7
+"""Spaces from the head's middle down to the figures' baseline: between the arrow and the ring of a head two spaces
+lower (our choice)."""
+_MINUS = "\N{MINUS SIGN}"
 
 
 def draw_mark(
@@ -46,9 +46,6 @@ def draw_mark(
     if label is Label.MISS:
         draw_list.ellipse(at, (1.05, 1.05), MISSED, 0.0, (0.0, 0.2, 0.0))
         draw_list.line((x - 0.75, y + 0.75), (x + 0.75, y - 0.75), 0.2, MISSED)
-    elif label is Label.UNKNOWN:
-        draw_list.ellipse(at, (1.05, 1.05), INK_SOFT, 0.0, (0.0, 0.2, 0.0))
-        draw_list.text("?", (x, y + 0.62), TypeStyle(1.7, INK_SOFT, Face.BOLD, 0.5))
     elif label is Label.WRONG_PIECE:
         draw_list.box((x - 1.0, y - 1.0), (2.0, 2.0), WRONG, None, (0.3, 0.2, 0.0))
     else:
@@ -79,13 +76,12 @@ def _draw_timing(
 
 
 def draw_asynchrony(draw_list: DrawList, asynchrony_ms: float, at: tuple[float, float]) -> None:
-    """How many milliseconds off the note at `at` was, in figures beyond its mark; nothing where that is not told."""
-    if np.isnan(asynchrony_ms):
+    """How many milliseconds early or late the note at `at` was, in figures under its arrow; nothing where on time."""
+    if not abs(asynchrony_ms) > ON_TIME_MS:
         return
-    is_late = asynchrony_ms > 0
-    x = at[0] + (_FIGURES_AWAY if is_late else -_FIGURES_AWAY)
-    style = replace(_FIGURES, colour=timing_colour(asynchrony_ms), align=0.0 if is_late else 1.0)
-    draw_list.text(f"{asynchrony_ms:+.0f}".replace("-", "\N{MINUS SIGN}"), (x, at[1] + _FIGURES_DROP), style)
+    x = at[0] + np.copysign(_FARTHEST_ARROW, asynchrony_ms)
+    style = replace(_FIGURES, colour=timing_colour(asynchrony_ms))
+    draw_list.text(f"{asynchrony_ms:+.0f}".replace("-", _MINUS), (x, at[1] + _FIGURES_DROP), style)
 
 
 def timing_colour(asynchrony_ms: float) -> Colour:

@@ -15,8 +15,9 @@ from station.render.snapshot import PENDING, Snapshot
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import DrawList
 
-MS_APART = 5.0
-"""Staff spaces to the strokes beside a note from which its mark is told in figures, too (our choice: "+123" fits)."""
+MS_APART = 4.0
+"""Staff spaces to the strokes beside a note from which its mark is told in figures, too: "+123" under its arrow stays
+clear of the next ring."""
 _CROSS, _CROSS_WIDTH = 0.42, 0.2
 
 

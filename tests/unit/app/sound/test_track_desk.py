@@ -2,7 +2,6 @@
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from station.app.actions.action import Show
@@ -18,8 +17,8 @@ from station.practice.session.plan import PlanOptions, plan_practice
 from station.sound.songs.onset_strength import RATE_HZ
 from station.sound.wav_file import write_wav
 from tests.fakes.stations import Line, store_with
+from tests.fakes.virtual_band import rock_track
 from tests.fakes.work_at_once import WorkAtOnce
-from tests.unit.sound.songs.test_beat_estimate import rock
 
 
 def station_at(folder: Path, **chosen: object) -> Controller:
@@ -31,9 +30,8 @@ def station_at(folder: Path, **chosen: object) -> Controller:
 
 def test_a_track_that_is_brought_is_listened_to_and_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    sound = rock(97.3, 1.437, length_s=20.0)
     path = tmp_path / "song.wav"
-    write_wav(np.column_stack([sound, sound]), RATE_HZ, path)
+    write_wav(rock_track(97.3, 1.437), RATE_HZ, path)
     station = station_at(tmp_path)
     station.dispatch(BringTrack(str(path)))
     station.update(1)

@@ -15,7 +15,7 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_MS, PPQ
 from station.drills.library import find_lesson
 from station.music.performance import Performance
-from station.practice.lag.fair_judgement import FairResult, as_it_came, judged_fairly
+from station.practice.lag.fair_judgement import FairResult, as_it_came, judged_as_told, judged_fairly
 from station.practice.lag.lag_document import lag_document, runs_in
 from station.practice.lag.lag_words import lag_text
 from station.practice.lag.session_lag import LagAnswer, LagTarget
@@ -66,6 +66,11 @@ def document_of(fair: FairResult) -> dict[str, Any]:
     return practice_document(fair.result, Settings(), fair.lag)
 
 
+def points_of(result: SessionResult) -> float:
+    """The score with nothing left out."""
+    return float(str(practice_document(result, Settings())["score"]))
+
+
 @pytest.mark.parametrize("late_ms", [75.0, 100.0, 150.0, -120.0])
 def test_a_lag_that_is_the_same_everywhere_is_the_equipments_and_costs_nothing(late_ms: float) -> None:
     came, on_time = played(first_groove(), equipment(late_ms)), played(first_groove(), equipment(0.0))
@@ -74,8 +79,8 @@ def test_a_lag_that_is_the_same_everywhere_is_the_equipments_and_costs_nothing(l
     assert fair.lag.found.cause is LagCause.EQUIPMENT
     assert fair.lag.answer is LagAnswer.OPEN
     assert fair.lag.found.lag_ms == pytest.approx(late_ms + HUMAN.stand_ms, abs=10)
-    score, before = document_of(fair)["score"], practice_document(came, Settings())["score"]
-    assert score >= practice_document(on_time, Settings())["score"] - 1
+    score, before = document_of(fair)["score"], points_of(came)
+    assert score >= points_of(on_time) - 1
     assert before + 20 < score, "what it was scored as it came"
 
 
@@ -152,7 +157,7 @@ def test_left_in_it_counts_as_it_came() -> None:
     assert left.lag is not None
     assert left.lag.answer is LagAnswer.LEFT
     assert np.array_equal(left.result.performance.hits["at_ns"], came.performance.hits["at_ns"])
-    assert document_of(left)["score"] == practice_document(came, Settings())["score"]
+    assert document_of(left)["score"] == points_of(came)
 
 
 def test_the_report_says_it_and_which_command_takes_it_out() -> None:
@@ -163,6 +168,17 @@ def test_the_report_says_it_and_which_command_takes_it_out() -> None:
     text = report_text(document)
     assert "most likely your equipment" in text
     assert "station devices calibrate --by groove" in text
+
+
+def test_a_teacher_leaves_out_what_the_students_report_left_out_and_no_more() -> None:
+    came = played(first_groove(), equipment(100.0))
+    fair = judged_fairly(came, NOBODY)
+    assert fair.lag is not None
+    assert document_of(judged_as_told(came, fair.lag.own_ms))["score"] == document_of(fair)["score"]
+    for claimed_ms in (0.0, 40.0, -100.0):
+        assert judged_as_told(came, claimed_ms).result is came, "the strokes do not show it"
+    on_time = played(first_groove(), equipment(0.0))
+    assert judged_as_told(on_time, 90.0).result is on_time
 
 
 def test_without_a_click_nothing_is_asked() -> None:
