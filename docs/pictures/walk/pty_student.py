@@ -66,7 +66,7 @@ class PtyStudent:
         """What they will play from now on, until the music stops."""
         plan, segment = session.plan, session.state().segment
         jump_ns = segment.start_ns if session.pauses and segment.phase is Phase.COUNT_IN else 0
-        begun_ns = zero_ns + session.heard.latency.of_output(session.heard.output) + plan.passes_start_ns - jump_ns
+        begun_ns = zero_ns + plan.passes_start_ns - jump_ns  # as if output and kit were never late
         until_ns = None
         if playing.stops is not None and session not in self._stopped:
             self._stopped.append(session)
