@@ -2,8 +2,9 @@
 
 Run from the project's root; it needs Xvfb and takes some ten seconds a page without a graphics card. Pages share a
 window where they can, driven by imgui's test engine as in `tests/gui`. What imgui has cut off or written over itself is
-told; look at each picture all the same. 1280x720 at scale 1 is what `docs/window.md` shows; look at 1920x1080 and at
-scale 2 too.
+told; look at each picture all the same. 1280x720 at scale 1 is what `docs/window.md` shows; look at 760x480, 1920x1080
+and 3840x2160 too. `--scale` is the user's own, beyond what the window's size gives (`station.gui.panel_size`): a dense
+screen needs none.
 """
 
 import argparse
@@ -12,7 +13,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from datetime import date, timedelta
+from datetime import date, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -44,12 +45,15 @@ from station.gui.panels.export_panel import EXPORT  # noqa: E402
 from station.gui.panels.figure.style_panel import FIGURE  # noqa: E402
 from station.gui.panels.hits_panel import HITS  # noqa: E402
 from station.gui.panels.import_panel import IMPORT  # noqa: E402
-from station.gui.panels.lessons_panel import FREE_LABEL  # noqa: E402
+from station.gui.panels.lessons.lesson_list import FREE_LABEL  # noqa: E402
+from station.gui.panels.lessons.who_plays import WHO_LABEL  # noqa: E402
 from station.gui.panels.phase_panel import PHASE  # noqa: E402
 from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
+from station.gui.panels.sound.sound_panel import CLICK_TAB, DRUMS_TAB, LEVELS_TAB, OUTPUT_TAB, SOUND, TRACK_TAB  # noqa: E402
 from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
 from station.practice.records.memory import Memory  # noqa: E402
+from station.practice.records.session_files import session_folder  # noqa: E402
 from station.render.files.png_file import write_png  # noqa: E402
 from station.render.gpu.moving_parts import DoublePlace  # noqa: E402
 from station.sync.air.air_file import air_path, save_air  # noqa: E402
@@ -57,6 +61,7 @@ from station.sync.air.air_zones import AirKit, AirZone  # noqa: E402
 from tests.fakes.stick_physics import Sensor, Stroke, measured, strokes_by_angle  # noqa: E402
 from tests.fakes.walker_files import write_walker  # noqa: E402
 from tests.gui.drive import NEWCOMER, Drive, Scenario, open_panel, press_view  # noqa: E402
+from tests.gui.newcomer_scenario import begin  # noqa: E402
 from tests.gui.x_server import screen  # noqa: E402
 
 Context = imgui.test_engine.TestContext
@@ -93,6 +98,16 @@ def _courses(drive: Drive, ctx: Context) -> None:
     ctx.yield_(3)
 
 
+def _who(drive: Drive, ctx: Context) -> None:
+    """Three who practised here, and the one who plays."""
+    settings = load_settings(drive.settings)
+    for name, day in (("Ann Lee", 1), ("Bea", 2), ("Cem", 9)):
+        started = datetime.now() - timedelta(days=day)
+        session_folder(settings.sessions_dir, name, "rock-1", started)
+    ctx.item_click(f"//Lessons/{WHO_LABEL}")
+    ctx.yield_(20)
+
+
 def _look(drive: Drive, ctx: Context) -> None:
     press_view(ctx, LOOK_LABEL)
     ctx.yield_(3)
@@ -110,6 +125,17 @@ def _playing(drive: Drive, ctx: Context) -> None:
         ctx.yield_()
         if drive.picture.hud.judged > ENOUGH_JUDGED:
             break
+
+
+def _first_groove(drive: Drive, ctx: Context) -> None:
+    begin(ctx)
+    ctx.yield_(60)  # 6 s: in the demonstration
+
+
+def _first_result(drive: Drive, ctx: Context) -> None:
+    begin(ctx)
+    drive.wait_for(ctx, Stage.RESULT)
+    ctx.yield_(3)
 
 
 def _result(drive: Drive, ctx: Context) -> None:
@@ -249,6 +275,23 @@ def _exported(drive: Drive, ctx: Context) -> None:
     ctx.yield_(8)
 
 
+def _sound(tab: str) -> Callable[[Drive, Context], None]:
+    def prepare(drive: Drive, ctx: Context) -> None:
+        open_panel(ctx, SOUND)
+        drive.wait_until(ctx, lambda state: state.sound.shelf is not None)
+        drive.window.pages.sound.leaf = tab
+        ctx.yield_(4)
+
+    return prepare
+
+
+def _track(drive: Drive, ctx: Context) -> None:
+    """A track whose beat was found."""
+    settings = {"track": "~/Music/slow-blues.ogg", "with_track": True, "track_bpm": 96.0, "track_start_s": 1.437}
+    drive.station.parts.store.update(lambda before: replace(before, **settings))
+    _sound(TRACK_TAB)(drive, ctx)
+
+
 def _tool(name: str) -> Callable[[Drive, Context], None]:
     return lambda drive, ctx: open_panel(ctx, name)
 
@@ -263,7 +306,10 @@ def _beside_a_result(name: str) -> Callable[[Drive, Context], None]:
 
 PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "welcome": _lessons,
+    "first-groove": _first_groove,
+    "first-result": _first_result,
     "lessons": _lessons,
+    "who": _who,
     "look": _look,
     "help": _help,
     "figure": _tool(FIGURE),
@@ -276,6 +322,11 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "which-pad": _which_pad,
     "sticks": _sticks,
     "gesture": _gesture,
+    "sound": _sound(CLICK_TAB),
+    "sound-levels": _sound(LEVELS_TAB),
+    "sound-drums": _sound(DRUMS_TAB),
+    "sound-track": _track,
+    "sound-output": _sound(OUTPUT_TAB),
     "phase": _phase,
     "calibration": _calibration,
     "figure-bars": _lanes,
@@ -291,6 +342,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
 """What is done before each picture is taken."""
 _STUDENTS = {
     "welcome": NEWCOMER,
+    **dict.fromkeys(("first-groove", "first-result"), f"{NEWCOMER},seed=2,sd_ms=30,bias_ms=95"),
     "courses": None,
     **dict.fromkeys(("playing", "question", "result", "hits", "compared", "double"), STUDENT),
 }

@@ -156,6 +156,15 @@ class Chooser:
         self._shown = wanted
         self._sessions.preview(request)
 
+    def change_student(self) -> None:
+        """Another one plays: their course is listed, the first lesson of it that they have not finished is chosen."""
+        catalog, self._shown = self._sessions.catalog, None
+        if not self._has_catalog:
+            return
+        listed = self.selection.offer(self.selection.lessons, catalog.courses(), self._store.now.course)
+        listed = replace(listed, progress=catalog.progress(), levels=catalog.levels(), search="", bars=None)
+        self.selection = listed if listed.course is None else listed.follow(listed.course)
+
     def show_anew(self) -> None:
         """Show the chosen lesson as it is to be played now, or when the result is left; raises `StationError`."""
         request = self.selection.request()

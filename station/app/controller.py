@@ -52,7 +52,7 @@ class Controller:
         events = self._heard()
         asked = [action for event in events if (action := self._handle(event)) is not None]
         parts.mapping.advance(now_ns)
-        for part in (parts.sticks, parts.sessions, parts.exam, parts.editor, parts.phase, parts.song):
+        for part in (parts.sticks, parts.sessions, parts.exam, parts.editor, parts.phase, parts.song, parts.sound):
             attempt(partial(part.advance, now_ns))
         attempt(lambda: parts.toasts.notify(parts.export.news() or parts.export.written() or ""))
         attempt(lambda: take_imported(parts))
@@ -65,6 +65,7 @@ class Controller:
         asked += self._chosen()
         for action in asked:
             self.dispatch(action)
+        parts.pads.offer(parts.choice() if parts.kit_commands else None, now_ns)
         if not parts.sessions.practice.is_playing:
             self._keep()
         parts.toasts.update(now_ns)
@@ -82,7 +83,6 @@ class Controller:
     def _chosen(self) -> list[Action]:
         """What the kit asks for now that nothing came after a gesture; pads choose from what is on the screen."""
         parts = self.parts
-        parts.pads.offer(parts.choice() if parts.kit_commands else None, self._now_ns)
         asked = parts.pads.advance(self._now_ns, parts.sessions.practice) if parts.kit_commands else None
         return [] if asked is None else [asked]
 
@@ -91,6 +91,7 @@ class Controller:
         parts, attempt = self.parts, self.parts.toasts.attempt
         parts.mapping.handle(event)
         parts.sticks.handle(event)
+        parts.sound.handle(event)
         attempt(lambda: parts.song.handle(event))
         parts.sessions.handle(event, self._now_ns)
         if parts.editor.is_open and not (parts.mapping.learns or parts.sticks.learns):

@@ -8,9 +8,10 @@ from collections.abc import Callable
 from threading import Thread
 from typing import Protocol
 
+from station.app.sound.click_flash import ClickFlash
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost, Hit
-from station.engine.messages import Command, EngineEvent, Ready, SetAirDrums, SetLevel, Sounding, Watch
+from station.engine.messages import Command, EngineEvent, Ready, SetAirDrums, SetLevel, SetPiece, Sounding, Watch
 from station.practice.headless.live import EngineLink
 
 
@@ -23,7 +24,8 @@ class RoomEngine(EngineLink, Protocol):
 
 
 WakeEngine = Callable[[], RoomEngine]
-_WAKING = "the engine is waking"
+_WAKING, SILENT, DEAD = "the engine is waking", "silent", "the engine has ended"
+"""What is said of the sound where there is no card."""
 
 
 class EngineClient:
@@ -36,6 +38,8 @@ class EngineClient:
         self.rate_hz = rate_hz
         self.alive = True
         self.sound = _WAKING
+        self.flash = ClickFlash()
+        """What is clicked, as light."""
         self.struck_ns: int | None = None
         """When the last stroke was played that was heard of."""
         self._kits: list[str] = []
@@ -73,7 +77,13 @@ class EngineClient:
 
     def stand(self, command: Command) -> None:
         """Send what holds for this engine and every later one; a dead engine gets it when it has been woken."""
-        self._standing[command.bus if isinstance(command, SetLevel) else type(command)] = command
+        match command:
+            case SetLevel(bus):
+                self._standing[bus] = command
+            case SetPiece(piece):
+                self._standing[SetPiece, piece] = command
+            case _:
+                self._standing[type(command)] = command
         if self.alive:
             self.send(command)
 
@@ -86,6 +96,7 @@ class EngineClient:
         if not self.alive:
             raise DeviceError(self.sound)
         self._engine.send(command)
+        self.flash.sent(command)
 
     def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
         """What has happened since the last call, nothing from a dead engine; its death is raised once."""
@@ -94,13 +105,14 @@ class EngineClient:
         try:
             events = self._engine.events(wait_s)
         except DeviceError:
-            self.alive, self.sound, self._kits = False, "the engine has ended", []
+            self.alive, self.sound, self._kits = False, DEAD, []
             raise
         for event in events:
             self._handle(event)
         return events
 
     def _handle(self, event: EngineEvent) -> None:
+        self.flash.handle(event)
         match event:
             case DeviceFound(_, device):
                 self._kits = [*(kit for kit in self._kits if kit != device), device]
@@ -109,7 +121,7 @@ class EngineClient:
             case Hit(at_ns):
                 self.struck_ns = at_ns
             case Ready(output, rate_hz) | Sounding(output, rate_hz):
-                self.sound = output or "silent"
+                self.sound = output or SILENT
                 self.rate_hz = rate_hz or self.rate_hz
             case _:
                 pass

@@ -29,7 +29,7 @@ from station.drills.lesson import BarCue, Lesson
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_text import plain, show
 from station.drills.writing.lesson_writer import write_lesson
-from station.practice.records.session_files import folder_name
+from station.practice.records.session_files import folder_name, student_folder
 
 FOLDER = "take-along"
 _PAPER = "a4"
@@ -266,7 +266,7 @@ def lesson_file_of(lesson: Lesson, bars: Bars) -> str:
 
 def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:
     """Where the file goes; raises `DeviceError` where there can be no folder."""
-    folder = settings.sessions_dir / folder_name(settings.student) / FOLDER
+    folder = student_folder(settings.sessions_dir, settings.student) / FOLDER
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as fault:

@@ -19,10 +19,13 @@ from station.app.phase_page import PhasePage
 from station.app.sessions.pad_control import PadControl
 from station.app.sessions.screen_choice import ScreenChoice, choice_beside
 from station.app.sessions.session_control import Launch, SessionControl
+from station.app.sessions.who_plays import WhoPlays
 from station.app.settings.preferences import Preferences
 from station.app.settings.settings_store import SettingsStore
+from station.app.settings.students import Students
 from station.app.settings.view_settings import view_settings_of
 from station.app.songs.song_page import Ear, SongPage
+from station.app.sound.sound_page import SoundPage, SoundSurroundings
 from station.app.style_editor import StyleEditor
 from station.app.teacher_desk.assigned_page import AssignedPage
 from station.app.teacher_desk.teacher_page import TeacherPage
@@ -61,7 +64,9 @@ class StationParts:
         self.sticks = SticksEditor(self.engine.forward, store, self._start_anew)
         self.toasts.attempt(self.sticks.begin)
         self.preferences = Preferences(store)
-        self.pads = PadControl(store, self.preferences, launch.plan.score)
+        self.students = Students(store)
+        self.who = WhoPlays(self.students, lambda: self.sessions.practice.session.plan.kit.pieces)
+        self.pads = PadControl(store, self.preferences, self.who, launch.plan.score)
         self.export = Exporter(processes.animate, processes.work)
         self.imports = Importer(store, processes.work)
         hear, hears, quiet = self.sessions.listen_to, self.sessions.is_listening_to, self.sessions.quiet
@@ -74,12 +79,15 @@ class StationParts:
         self.teacher = TeacherPage(
             store, self.sessions.look_at, self.sessions.catalog.lesson, processes.work, ThreadPoolExecutor(1, "returns")
         )
+        rooms = SoundSurroundings(lambda: self.chooser.selection.tempo_bpm, self._rest, notify, processes.work)
+        self.sound = SoundPage(store, self.engine, self.sessions, rooms)
         self.assigned = AssignedPage(store, ThreadPoolExecutor(1, "assignments"))
 
     def make_ready(self) -> None:
         """Let the kit be heard for what is played alone; raises `DeviceError` while it is measured."""
         self.calibration.refuse()
         self.sticks.give_up()
+        self.who.ask(on=False)
         self.preferences.learn(on=False)  # what is played from now on is no gesture to be learnt
 
     @property
@@ -90,7 +98,7 @@ class StationParts:
 
     def choice(self) -> ScreenChoice | None:
         """What is to be chosen on the screen now."""
-        return choice_beside(self.sessions.practice, self.store.now.kicks_start)
+        return self.who.choice() or choice_beside(self.sessions.practice, self.store.now.kicks_start)
 
     def _rest(self) -> Callable[[], bool]:
         """Let the engine's devices go; returns what says whether it has. Raises `DeviceError` while somebody plays."""
@@ -116,6 +124,7 @@ class StationParts:
             self.teacher,
             self.assigned,
             self.song,
+            self.sound,
             self.chooser,
         ):
             part.close()

@@ -7,12 +7,15 @@ from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_view import SticksView
 from station.app.exam_page import ExamView
 from station.app.phase_page import PhaseView
+from station.app.sound.click_flash import DARK
+from station.app.sound.sound_page import SoundView
 from station.app.station_parts import StationParts
 from station.app.teacher_desk.assigned_page import AssignedView
 from station.app.teacher_desk.teacher_page import TeacherView
 from station.app.today_page import TodayView
 from station.app.window_state import State
 from station.core.measured_latency import StoredCalibration
+from station.core.settings import NOTHING
 
 _NO_CALIBRATION = CalibrationView(StoredCalibration())
 
@@ -22,8 +25,9 @@ def state_of(parts: StationParts, now_ns: int) -> State:
     sessions, shown = parts.sessions, parts.shown
     snapshot = sessions.snapshot(now_ns) if shown.picture else None
     choice = parts.choice()
+    choice = None if choice is None else parts.pads.heard(choice, now_ns)
     return State(
-        choice=None if choice is None else parts.pads.heard(choice, now_ns),
+        choice=None if parts.who.is_open else choice,
         room=replace(sessions.room(), exam=parts.exam.is_on),
         selection=parts.chooser.selection,
         player=sessions.player.view(),
@@ -33,6 +37,7 @@ def state_of(parts: StationParts, now_ns: int) -> State:
         hands=sessions.hands,
         score=sessions.practice.session.plan.lesson.score,
         preferences=parts.preferences.now,
+        students=parts.who.view(choice),
         mapping=parts.mapping.view() if shown.devices else MappingView(),
         calibration=parts.calibration.view() if shown.devices else _NO_CALIBRATION,
         sticks=parts.sticks.view() if shown.sticks else SticksView(),
@@ -52,6 +57,8 @@ def state_of(parts: StationParts, now_ns: int) -> State:
         exam=parts.exam.view() if shown.exam or parts.exam.is_on else ExamView(),
         teacher=parts.teacher.view() if shown.teacher else TeacherView(),
         assigned=parts.assigned.view() if shown.assigned else AssignedView(),
+        sound=parts.sound.view() if shown.sound else SoundView(),
+        flash=parts.engine.flash.at(now_ns) if parts.store.now.heard == NOTHING else DARK,
         toast=parts.toasts.text,
         is_lively=sessions.is_lively(now_ns) or (shown.sticks and parts.sticks.is_lively),
     )

@@ -124,6 +124,11 @@ class TodayPage:
             case _:
                 assert_never(action)
 
+    def begin_anew(self) -> None:
+        """Another student plays: nothing that is read of the one before is shown; what they wrote is kept."""
+        self._coming.clear()
+        self._view, self._looked_at, self._known = TodayView(), None, None
+
     def close(self) -> None:
         """End the reader; what it reads is dropped."""
         self._reader.shutdown(wait=False, cancel_futures=True)

@@ -16,9 +16,12 @@ from station.app.room_state import RoomState, ShownResult, Stage
 from station.app.selection import Selection
 from station.app.sessions.demo_picture import PlayerView
 from station.app.sessions.screen_choice import ScreenChoice
+from station.app.sessions.who_plays import StudentsView
 from station.app.settings.preferences import PracticePreferences
 from station.app.settings.view_settings import ViewSettings
 from station.app.songs.song_page import SongView
+from station.app.sound.click_flash import DARK, Flash
+from station.app.sound.sound_page import SoundView
 from station.app.style_editor import StyleView
 from station.app.teacher_desk.assigned_page import AssignedView
 from station.app.teacher_desk.teacher_page import TeacherView
@@ -41,9 +44,9 @@ class State:
     files are made of, `export` what was made, `played` the capture of the last take or session, `imports` what comes
     in, `editor` the lesson that is edited, None for none, `drafts` those that were left unsaved, `today` the day's
     plan and the lesson book, `song` the one that is pinned to its sound, `exam` how far an exam is, `teacher` what
-    students sent and `assigned` what a teacher gave, each empty while nobody looks at it. `choice` is to be chosen from
-    on the screen now; `toast` is shown in passing; `is_lively` whether something moves or may at any moment, so that no
-    frame is to be spared.
+    students sent, `assigned` what a teacher gave, `sound` what sounds, each empty while nobody looks. `choice` is to be
+    chosen from on the screen now; `students` says who plays and who else may; `flash` is the click as light; `toast` is
+    shown in passing; `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
     """
 
     room: RoomState
@@ -74,8 +77,11 @@ class State:
     exam: ExamView = field(default_factory=ExamView)
     teacher: TeacherView = field(default_factory=TeacherView)
     assigned: AssignedView = field(default_factory=AssignedView)
+    sound: SoundView = field(default_factory=SoundView)
     choice: ScreenChoice | None = None
+    flash: Flash = DARK
     toast: str = ""
+    students: StudentsView = field(default_factory=StudentsView)
     is_lively: bool = True
 
     @property

@@ -7,6 +7,7 @@ written.
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -55,7 +56,7 @@ def run(options: AssessOptions) -> int:
     from station.scoring.report.assessment_document import assessment
     from station.scoring.report.pairs_table import write_pairs
 
-    if options.pairs is not None and not options.pairs.resolve().parent.is_dir():
+    if options.pairs is not None and not Path(os.path.realpath(options.pairs)).parent.is_dir():
         raise BadInput(options.pairs, "", "there is no such folder to write it in")
     score, performance = load_score_and_performance(options.score, options.performance)
     view = SummaryView(options.level or DEFAULT_LEVEL, kit=kit_facts(load_settings()))

@@ -17,6 +17,7 @@ from station.cli.practising.practice_report import leave_report
 from station.core.errors import BadInput
 from station.core.settings import Settings, with_said
 from station.drills.lesson import Lesson
+from station.practice.records.earlier_lags import fair_session
 from station.practice.records.lesson_order import first_words, followed_course, shipped_title
 from station.practice.records.memory import Memory, Remembered, following_lesson
 from station.practice.records.recovery import offer, recovered
@@ -110,8 +111,9 @@ def _live(asked: AskedPractice, options: PracticeOptions, settings: Settings) ->
         with ExitStack() as until_saved:
             played = asked.plan if remembered is None else remembered.adaptation
             outcome = practise_in_terminal(played, settings, folder.capture, until_saved, asked.backing)
+            fair = fair_session(outcome.result, settings)
             following = following_lesson(settings, asked.plan.lesson, date.today()) if remembered is None else None
-            saved = save(folder, outcome.result, practice_document(outcome.result, settings, following), remembered)
+            saved = save(folder, fair.result, practice_document(fair.result, settings, fair.lag, following), remembered)
         may_ask = settings.ask_first and outcome.is_attended and not options.json
         leave_report(folder, saved, options, settings, may_ask)
     if outcome.fault is not None:
@@ -138,8 +140,9 @@ def _is_kit_there(wanted: str) -> bool:
 
 def _recover(folder: SessionFolder, options: PracticeOptions, settings: Settings) -> int:
     """Judge a session that was cut off, and leave what it would have left; what is remembered stays as it is."""
-    result = recovered(folder.capture)
-    leave_report(folder, save(folder, result, practice_document(result, settings)), options, settings)
+    fair = fair_session(recovered(folder.capture), settings)
+    document = practice_document(fair.result, settings, fair.lag)
+    leave_report(folder, save(folder, fair.result, document), options, settings)
     return 0
 
 

@@ -10,6 +10,7 @@ from station.cli.options.option_fields import Command, group, optional_argument
 from station.cli.options.watch_options import WatchOptions
 from station.core.errors import DeviceError
 from station.core.measured_latency import load_calibration
+from station.practice.lag.first_groove import first_groove
 from station.practice.session.leading_hand import hands_of
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 
@@ -27,10 +28,13 @@ class OpenOptions:
 
 
 def run(options: OpenOptions) -> int:
-    """Open the window on the first lesson, or on the file that is named."""
+    """Open the window on the first lesson, a newcomer's on the first groove, or on the file that is named."""
     from station.drills.library import FIRST_LESSON, find_lesson
 
     store = SettingsStore()
+    if not store.now.welcomed:
+        first = first_groove(store.now, hands_of(store.now))
+        return open_window(store, first, adapt=False, watch=options.watch.watch(), file=options.file or "")
     first = plan_practice(find_lesson(FIRST_LESSON), PlanOptions(hands=hands_of(store.now), stands=store.now.stands))
     return open_window(store, first, adapt=True, watch=options.watch.watch(), file=options.file or "")
 

@@ -21,6 +21,7 @@ from station.core.toml.schema import (
     Reader,
     day,
     key_of,
+    list_of,
     members_by_label,
     needed,
     number,
@@ -33,7 +34,7 @@ from station.core.toml.toml_source import read_source
 from station.core.toml.toml_write import toml_text, toml_value
 
 FILE_NAME = "calibration.toml"
-REPORT, LOOPBACK, STRIKE, TAP = "report", "loopback", "strike", "tap"
+REPORT, LOOPBACK, STRIKE, TAP, GROOVE = "report", "loopback", "strike", "tap", "groove"
 """The ways to measure (docs/calibration.md)."""
 MOST_MS = 1_000.0
 """No latency is greater (our choice: the settings' own bound)."""
@@ -64,10 +65,11 @@ class DeviceLatency:
 
 @dataclass(frozen=True, slots=True)
 class StoredCalibration:
-    """All that was measured, by the devices' names."""
+    """All that was measured, by the devices' names; a lag of those that are `left` counts as the student's."""
 
     outputs: Mapping[str, MeasuredLatency] = field(default_factory=lambda: MappingProxyType({}))
     kits: Mapping[str, DeviceLatency] = field(default_factory=lambda: MappingProxyType({}))
+    left: frozenset[str] = frozenset()
 
     def with_output(self, name: str, measured: MeasuredLatency) -> "StoredCalibration":
         """The same with another latency for the output called `name`."""
@@ -104,8 +106,10 @@ def _kit(pads: Mapping[Piece, MeasuredLatency], **kit: Any) -> DeviceLatency:  #
     return DeviceLatency(MeasuredLatency(**kit), MappingProxyType(pads))
 
 
-def _calibration(outputs: Mapping[str, MeasuredLatency], kits: Mapping[str, DeviceLatency]) -> StoredCalibration:
-    return StoredCalibration(MappingProxyType(outputs), MappingProxyType(kits))
+def _calibration(
+    outputs: Mapping[str, MeasuredLatency], kits: Mapping[str, DeviceLatency], left: tuple[str, ...]
+) -> StoredCalibration:
+    return StoredCalibration(MappingProxyType(outputs), MappingProxyType(kits), frozenset(left))
 
 
 _MEASURED: Fields = MappingProxyType(
@@ -123,6 +127,7 @@ FIELDS: Fields = MappingProxyType(
     {
         "outputs": Field(table_of(text, _measured), {}),
         "kits": Field(table_of(text, record(_kit, {**_MEASURED, "pads": Field(_pads, {})})), {}),
+        "left": Field(list_of(text, "names of devices"), ()),
     }
 )
 CALIBRATION: Reader[StoredCalibration] = record(_calibration, FIELDS, "table")
@@ -141,6 +146,8 @@ def save_calibration(calibration: StoredCalibration, path: Path | None = None) -
         tables.append(_table(place, kit.kit))
         tables += [_table(f"{place}.pads.{word(piece)}", pad) for piece, pad in kit.pads.items()]
     head = "# What was measured by `station devices calibrate`; delete a table to forget it.\n"
+    if calibration.left:
+        head += f"left = [{', '.join(toml_text(name) for name in sorted(calibration.left))}]\n"
     write_whole(target, "\n".join([head, *tables]).encode())
     return target
 

@@ -1,8 +1,10 @@
 """How processes of ours are started."""
 
+import os
 import signal
+import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing import resource_tracker
 
 _FROM_THE_TERMINAL = [getattr(signal, name) for name in ("SIGINT", "SIGHUP") if hasattr(signal, name)]
@@ -24,3 +26,19 @@ def ctrl_c_ignored() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def silence_libraries() -> None:
+    """Let nothing but Python's own words come to standard error from now on.
+
+    The C libraries of JACK, ALSA and PortAudio print what a user can do nothing about, at any time and from threads of
+    their own; what matters of it we say ourselves.
+    """
+    if sys.stderr is None:
+        return
+    with suppress(OSError, ValueError):  # there is none, or it is closed
+        sys.stderr.flush()
+        ours = os.dup(2)
+        with open(os.devnull, "wb") as nowhere:  # noqa: PTH123 - the name of no file
+            os.dup2(nowhere.fileno(), 2)
+        sys.stderr = open(ours, "w", buffering=1, encoding="utf-8", errors="backslashreplace")  # noqa: PTH123, SIM115

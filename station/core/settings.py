@@ -20,8 +20,11 @@ from station.core.toml.schema import (
     Reader,
     checked_values,
     flag,
+    list_of,
     members_by_label,
+    needed,
     number,
+    one_of,
     record,
     shown,
     text,
@@ -40,6 +43,19 @@ LEAST_BLOCK_FRAMES = 16
 """Less is beyond any driver here (our choice); 0 leaves the size to it."""
 
 
+EVERYTHING, CLICK_ALONE, NOTHING = HEARD = ("everything", "click", "nothing")
+"""How much is heard: for a night beside others the click alone, or nothing, and the picture clicks."""
+
+
+@dataclass(frozen=True, slots=True)
+class StudentSettings:
+    """What is a student's own while another one plays: who leads, and the course that is listed."""
+
+    name: str
+    hands: str = ""
+    course: str = ""
+
+
 @dataclass(frozen=True, slots=True)
 class Settings:
     """What a user has chosen.
@@ -48,7 +64,11 @@ class Settings:
     (`devices.stick_ports`), empty for none; `output` part of the sound device's name, empty
     for the system's default; `block_frames` the size of one audio block, 0 for the driver's own choice; `rate_hz` its
     sample rate; `drums` the name or the path of the drum kit that sounds, `click` the name of the click,
-    `click_pattern` what clicks (`practice.session.cues.click_options`), `levels` of what sounds (`engine.level_words`),
+    `click_pattern` what clicks (`practice.session.cues.click_options`), `levels` of what sounds
+    (`engine.levels_option`), `heard` how much of it is heard at all: everything, the click alone, or nothing;
+    `track` a sound file to play along to, `with_track` whether sessions whose tempo stays do, `track_bpm` its tempo in
+    the lesson's own beat, 0 for the lesson's own tempo, `track_start_s` where in it the first pass begins,
+    `track_stretched` whether it is played at the tempo that is practised, not at its own,
     `guide` whether the demonstration plays along in the passes, `band_drums` whether the drums of a song's own
     recording are heard, `midi_out` part of the name of a MIDI output that gets
     it, empty for none; `own_sound` false where the kit's module sounds itself and the strokes of the student stay
@@ -61,13 +81,16 @@ class Settings:
     file, `figure` who demonstrates, a shipped drummer or a file, empty for the style's own, `stands` which kit stands
     before them, a shipped one or a file, empty for the lesson's, and `hands` whose hand leads: `right`, `left`, `open`,
     empty for as that kit is built (`practice.session.leading_hand`). `view`, `mirrored`, `inset` and `viewpoints`
-    are where the window looks from, `score` how it shows the score, `theme` its colours (`app.settings.view_settings`),
-    `panel_scale` how many times as large as designed its panels are, `double` whether the student is shown as a second
+    are where the window looks from, `score` how it shows the score, `legend` whether a staff says which line is which
+    piece, `theme` its colours (`app.settings.view_settings`), `panel_scale` how many times as large as their window
+    asks for its panels are, `quality` how finely it draws, empty for what the machine holds, `double` whether the
+    student is shown as a second
     drummer, `double_beside` whether beside the demonstrator and not over them, `air_drums` whether strokes in the air
     are hits of the air kit, `follow_phase` whether the drummer follows the student's phase and not the clock,
     `sound_phase` whether that phase sounds the drill's strokes as it passes them, `course` names the course whose
     lessons are listed, empty for all; `welcomed` whether the questions of the first start were asked
-    (`app.settings.first_start`).
+    (`app.settings.first_start`), `students` who has played here, the last one first, with what is their own
+    (`app.settings.students`), `pads_switch` whether the kit may ask who plays.
     """
 
     student: str = "student"
@@ -83,8 +106,14 @@ class Settings:
     click: str = "bar"
     click_pattern: str = ""
     levels: str = ""
+    heard: str = EVERYTHING
     guide: bool = False
     band_drums: bool = True
+    track: str = ""
+    with_track: bool = False
+    track_bpm: float = 0.0
+    track_start_s: float = 0.0
+    track_stretched: bool = True
     midi_out: str = ""
     sessions: str = ""
     thresholds: str = ""
@@ -100,17 +129,21 @@ class Settings:
     view: str = "shoulder"
     mirrored: bool = False
     inset: str = ""
-    score: str = "scrolling"
+    score: str = "paged"
+    legend: bool = True
     viewpoints: str = ""
     course: str = ""
     theme: str = "night"
     panel_scale: float = 1.0
+    quality: str = ""
     welcomed: bool = False
     double: bool = False
     double_beside: bool = False
     air_drums: bool = False
     follow_phase: bool = False
     sound_phase: bool = False
+    pads_switch: bool = True
+    students: tuple[StudentSettings, ...] = ()
 
     @property
     def threshold_of(self) -> dict[Piece, int]:
@@ -188,6 +221,9 @@ def _block(value: object) -> int:
     return frames
 
 
+_STUDENT: Fields = MappingProxyType(
+    {"name": needed(text, 'a name such as "Ann"'), "hands": Field(text, ""), "course": Field(text, "")}
+)
 _SPECIAL: Mapping[str, Reader[object]] = MappingProxyType(
     {
         "panel_scale": number(SMALLEST_PANELS, LARGEST_PANELS),
@@ -196,7 +232,11 @@ _SPECIAL: Mapping[str, Reader[object]] = MappingProxyType(
         "input_latency_ms": number(-1000, 1000),
         "output_latency_ms": number(-1000, 1000),
         "mask_ms": number(0, 100),
+        "heard": one_of(HEARD, "what is heard"),
+        "track_bpm": number(0, 400),
+        "track_start_s": number(0, 600),
         "thresholds": _threshold_text,
+        "students": list_of(record(StudentSettings, _STUDENT), '[{name = "Ann", hands = "left"}]'),
     }
 )
 """What a sound card or a person could mean; our choice, wide enough for every device on sale. The others are texts and

@@ -3,9 +3,9 @@
 A card that is missing from the start is reported once, and opened when there is one while no transport runs; one that
 stops in mid-session (unplugged, its server ended, no block asked for in a while) is tried anew every few seconds, and
 the session goes on meanwhile.
-Where a sound server took this process's sound library with it, only a new process sounds again: as soon as there is an
-output once more, the card says that this one is worn out. Where the user left the choice to the system, the sound moves
-with the system's default, while no transport runs.
+Where a sound server took this process's sound library with it, as JACK does, only a new process sounds again: as soon
+as there is an output once more, the card says that this one is worn out. Where the user left the choice to the system,
+the sound moves with the system's default, while no transport runs.
 """
 
 from collections.abc import Callable, Iterator
@@ -25,6 +25,9 @@ from station.sound.output.sound_output import Output
 STALLED_NS = 2 * NS_PER_S
 """A card that asks for nothing so long has stopped (our choice: every driver's blocks are well under a second)."""
 RETRY_NS = 3 * NS_PER_S
+SERVER_LOOK_NS = NS_PER_S // 2
+"""How long after a look for a server the next one begins: with the look, and a new engine, it is heard again within two
+seconds (our choice)."""
 LOOK_EVERY_NS = 10 * NS_PER_S
 """How often it is looked what there is to sound on while nothing plays (our choice: a look costs a quarter of a second
 of another process)."""
@@ -113,6 +116,11 @@ class Card:
             return None
         return self._output is not None and self._output.fault is None
 
+    def forget_others(self) -> None:
+        """Forget the mixers of other rates, and without a card all: their sounds are not those that are wanted."""
+        rate_hz = self.rate_hz
+        self._mixers = {rate: mixer for rate, mixer in self._mixers.items() if rate == rate_hz}
+
     def close(self) -> None:
         """Give the card back; the engine runs silent from now on."""
         if self._output is not None:
@@ -177,7 +185,7 @@ class Card:
             return
         self.is_worn_out = self.is_worn_out or self._hotplug.found() is not None
         if not self.is_worn_out and self._retry_ns is not None and now_ns >= self._retry_ns:
-            self._retry_ns = now_ns + RETRY_NS
+            self._retry_ns = now_ns + SERVER_LOOK_NS
             self._hotplug.begin()
 
     def _follow_default(self, now_ns: int) -> None:
@@ -223,8 +231,9 @@ class Card:
             self._lose(fault, self._alive_ns)
 
     def _lose(self, fault: DeviceError, now_ns: int) -> None:
+        self._server_is_gone = self._is_on_jack and self._hotplug is not None
         self.close()
-        self._retry_ns = now_ns + RETRY_NS
+        self._retry_ns = now_ns + (SERVER_LOOK_NS if self._server_is_gone else RETRY_NS)
         self._engine.notify(f"{fault}; the session goes on, silent, and looks for it again")
         self._engine.report(Sounding(None))
 

@@ -9,7 +9,7 @@ Times are session time (monotonic ns). With a mixer the transport starts with th
 without one it runs on the times that `advance` is told.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,8 +41,10 @@ from station.engine.messages import (
     SetAirDrums,
     SetBacking,
     SetLevel,
+    SetMaster,
     SetMidiOut,
     SetPiece,
+    SetSounds,
     Setting,
     Sounding,
     Started,
@@ -54,6 +56,8 @@ from station.engine.messages import (
 )
 from station.engine.midi_player import MidiOut, OpenMidiOut, no_midi_out
 from station.engine.sound_player import SoundPlayer
+from station.sound.buses import ClickVoice
+from station.sound.drum_kit import DrumKit, Frames
 from station.sound.mixer import Mixer
 from station.sound.track import load
 from station.sync.sonification.live_triggers import LiveTriggers
@@ -221,7 +225,16 @@ class Engine:
                 self._zero_ns = None
                 self._player.stop()
                 self._midi.stop()
-            case SetLevel() | SetPiece() | SetBacking() | SetMidiOut() | SetAirDrums() | TrackPhase():
+            case (
+                SetLevel()
+                | SetPiece()
+                | SetMaster()
+                | SetSounds()
+                | SetBacking()
+                | SetMidiOut()
+                | SetAirDrums()
+                | TrackPhase()
+            ):
                 self._set(command)
             case KeyHit():
                 self._strike_key(command)
@@ -246,6 +259,10 @@ class Engine:
                 self._player.set_level(command.bus, command.level, command.pan)
             case SetPiece():
                 self._player.set_piece(command.piece, command.level, command.pan)
+            case SetMaster(level):
+                self._player.set_master(level)
+            case SetSounds():  # whoever has time to read them hands them to `use_sounds`
+                pass
             case SetBacking():
                 self._set_backing(command)
             case SetMidiOut():
@@ -362,6 +379,10 @@ class Engine:
     def attach(self, mixer: Mixer | None) -> None:
         """Sound through `mixer` from now on, None for a card that has gone; only while nobody calls `render`."""
         self._player.attach(mixer)
+
+    def use_sounds(self, kit: DrumKit, clicks: Mapping[ClickVoice, Frames]) -> None:
+        """Sound what is struck and clicked from the next block on by these, of the card's rate."""
+        self._player.use_sounds(kit, clicks)
 
     def render(self, frames: int, dac_ns: int) -> NDArray[np.float32]:
         """The next block of sound: float32 (frames, 2), whose first frame is heard at session time `dac_ns`."""

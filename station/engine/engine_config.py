@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 from typing import Self
 
-from station.core.settings import Settings, setting_source
+from station.core.settings import EVERYTHING, Settings, setting_source
 from station.devices.device_ports import DeviceRequest, parse_devices
 from station.devices.stick_ports import parse_sticks
-from station.engine.levels_option import parse_levels
-from station.engine.messages import Bus, Command, SetAirDrums, SetLevel, SetMidiOut, SetPiece
+from station.engine.levels_option import SILENCED, ChannelLevel, LevelCommand, command_of, parse_levels
+from station.engine.messages import Bus, Command, SetAirDrums, SetLevel, SetMidiOut
 from station.sync.air.air_drums import AIR_AHEAD_NS
 from station.sync.air.air_file import air_path, read_air
 from station.sync.air.air_zones import AirKit
@@ -33,8 +33,8 @@ class EngineConfig:
 
     `kits` are those to listen to, none for an engine without, `sticks` the sensors on the sticks; `midi_driver` is
     "auto" or one of `station.devices.midi.midi_ports.compiled_drivers()`; `output`, `block_frames`, `rate_hz`, `drums`,
-    `click`, `own_sound`, `levels` and `midi_out` stand as in `Settings`; without `sound` no card is opened. `air` is
-    the kit that the sticks play in the air, None for none.
+    `click`, `own_sound`, `levels`, `heard` and `midi_out` stand as in `Settings`; without `sound` no card is opened.
+    `air` is the kit that the sticks play in the air, None for none.
     """
 
     kits: tuple[DeviceRequest, ...] = (DeviceRequest(""),)
@@ -47,7 +47,8 @@ class EngineConfig:
     drums: str = _CHOSEN.drums
     click: str = _CHOSEN.click
     own_sound: bool = True
-    levels: tuple[SetLevel | SetPiece, ...] = ()
+    levels: tuple[LevelCommand, ...] = ()
+    heard: str = EVERYTHING
     midi_out: str = ""
     air: AirKit | None = None
 
@@ -64,6 +65,7 @@ class EngineConfig:
             click=settings.click,
             own_sound=settings.own_sound,
             levels=parse_levels(settings.levels, setting_source("levels")),
+            heard=settings.heard,
             midi_out=settings.midi_out,
             air=read_air(air_path()) if settings.air_drums else None,
         )
@@ -72,6 +74,7 @@ class EngineConfig:
     def first_commands(self) -> tuple[Command, ...]:
         """What the engine is sent before anything else."""
         silent = () if self.own_sound else (SetLevel(Bus.STUDENT, 0.0),)
-        port = (SetMidiOut(self.midi_out),) if self.midi_out else ()
+        port = (SetMidiOut(self.midi_out),) if self.midi_out and self.heard == EVERYTHING else ()
         air = (SetAirDrums(self.air, AIR_AHEAD_NS),) if self.air is not None else ()
-        return (*self.levels, *silent, *port, *air)
+        unheard = (command_of(channel, ChannelLevel(0.0)) for channel in SILENCED[self.heard])
+        return (*self.levels, *silent, *unheard, *port, *air)

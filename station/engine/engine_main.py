@@ -16,6 +16,7 @@ from multiprocessing.connection import Connection
 
 from station.core.clock import monotonic_ns
 from station.core.errors import StationError
+from station.core.processes import silence_libraries
 from station.devices.device_ports import Watches, watch_devices
 from station.devices.mapping.device_file import own_kit
 from station.devices.mapping.stick_file import own_stick
@@ -27,9 +28,10 @@ from station.engine.engine import Engine
 from station.engine.engine_config import WORN_OUT, EngineConfig, Prepare
 from station.engine.engine_step import Runner
 from station.engine.hotplug import Hotplug
-from station.engine.messages import Command, EngineEvent, Notice, Ready
+from station.engine.messages import Command, EngineEvent, Notice, Ready, SetSounds, SoundsSet
 from station.engine.pipes import Inbox, Outbox
 from station.engine.priority import be_less_nice, be_real_time
+from station.engine.sound_loader import SoundLoader
 from station.sound.buses import ClickVoice
 from station.sound.click_sounds import DEFAULT_TIMBRE, click_sounds
 from station.sound.drum_kit import DrumKit, Frames
@@ -48,6 +50,7 @@ SWITCH_INTERVAL_S = 0.0002
 def run_engine(commands: "Connection[None, Command]", events: "Connection[list[EngineEvent], None]") -> None:
     """The child's whole life: before any command it is sent its configuration, and before that what to make ready."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches both; the parent asks the child to quit
+    silence_libraries()
     try:
         config: object = commands.recv()
         if isinstance(config, Prepare):
@@ -87,7 +90,8 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
         own_kit=own_kit,
         own_stick=own_stick,
     )
-    card = _card(engine, config, outbox) if config.sound else None
+    sounds = SoundLoader(SetSounds(config.drums, config.click), _kit, _click)
+    card = _card(engine, config, sounds, outbox) if config.sound else None
     undisturbed = card.paused if card is not None else nullcontext
     claims = ClaimedPorts()
     watches, sticks = _watches(engine, config, card, claims), _stick_watches(engine, config, claims)
@@ -108,7 +112,11 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
             if happened:
                 outbox.put(happened)
             for command in commands:
-                runner.handle(command)
+                if isinstance(command, SetSounds):
+                    sounds.ask(command)
+                else:
+                    runner.handle(command)
+            _take_sounds(engine, sounds, card)
             time.sleep(POLL_S)
     finally:
         runner.close()
@@ -116,6 +124,18 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
         sticks.close()
         outbox.put(engine.advance(monotonic_ns()))
     return runner.is_worn_out and not engine.quitting
+
+
+def _take_sounds(engine: Engine, sounds: SoundLoader, card: Card | None) -> None:
+    """Let sound what has been read."""
+    read = sounds.advance(None if card is None else card.rate_hz)
+    if read is None:
+        return
+    if read.kit is not None and read.clicks is not None:
+        engine.use_sounds(read.kit, read.clicks)
+    if card is not None and read.fault is None:
+        card.forget_others()
+    engine.report(SoundsSet(read.asked.drums, read.asked.click, read.fault))
 
 
 def _watches(engine: Engine, config: EngineConfig, card: Card | None, claims: ClaimedPorts) -> Watches:
@@ -132,11 +152,12 @@ def _stick_watches(engine: Engine, config: EngineConfig, claims: ClaimedPorts) -
     return watches
 
 
-def _card(engine: Engine, config: EngineConfig, outbox: Outbox) -> Card:
+def _card(engine: Engine, config: EngineConfig, sounds: SoundLoader, outbox: Outbox) -> Card:
     def mixer(rate_hz: int) -> Mixer:
-        if config.drums in MODELS and not is_made(config.drums, rate_hz):
-            outbox.put([Notice(f"the {config.drums} kit is being made for {rate_hz} Hz, this once; a few seconds")])
-        return Mixer(_drums(engine, config.drums, rate_hz), _clicks(engine, config.click, rate_hz))
+        drums, click = sounds.now.drums, sounds.now.click
+        if drums in MODELS and not is_made(drums, rate_hz):
+            outbox.put([Notice(f"the {drums} kit is being made for {rate_hz} Hz, this once; a few seconds")])
+        return Mixer(_drums(engine, drums, rate_hz), _clicks(engine, click, rate_hz))
 
     return Card(
         engine,
@@ -146,12 +167,12 @@ def _card(engine: Engine, config: EngineConfig, outbox: Outbox) -> Card:
     )
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=2)  # the one that was chosen, and one that is tried
 def _kit(name: str, rate_hz: int) -> DrumKit:
     return load_kit(name, rate_hz)
 
 
-@lru_cache(maxsize=1)
+@lru_cache(maxsize=4)
 def _click(timbre: str, rate_hz: int) -> dict[ClickVoice, Frames]:
     return click_sounds(rate_hz, timbre)
 

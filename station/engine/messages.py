@@ -38,13 +38,17 @@ __all__ = [
     "SetAirDrums",
     "SetBacking",
     "SetLevel",
+    "SetMaster",
     "SetMidiOut",
     "SetPiece",
+    "SetSounds",
     "Sounding",
+    "SoundsSet",
     "Started",
     "Status",
     "Stop",
     "TrackPhase",
+    "Unheard",
     "Watch",
     "WatchRawBytes",
     "WatchSensors",
@@ -106,6 +110,24 @@ class SetPiece:
     piece: Piece
     level: float
     pan: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class SetMaster:
+    """Set the level of all that sounds (0 silent, 1 full)."""
+
+    level: float
+
+
+@dataclass(frozen=True, slots=True)
+class SetSounds:
+    """Let the drum kit and the click of these names sound, as soon as they are read; `SoundsSet` says when.
+
+    What rings, rings out. Sounds that cannot be had leave those before in place.
+    """
+
+    drums: str
+    click: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -203,7 +225,7 @@ class Quit:
     """End the engine process."""
 
 
-Setting = SetLevel | SetPiece | SetBacking | SetMidiOut | SetAirDrums | TrackPhase
+Setting = SetLevel | SetPiece | SetMaster | SetSounds | SetBacking | SetMidiOut | SetAirDrums | TrackPhase
 Watch = WatchRawBytes | WatchSensors
 Command = Play | Resume | Stop | Setting | KeyHit | RecordCapture | Annotate | Watch | ReloadDevice | Quit
 
@@ -228,6 +250,15 @@ class Sounding:
 
     output: str | None
     rate_hz: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class SoundsSet:
+    """A `SetSounds` was obeyed: these sound from now on; `fault` says why they do not."""
+
+    drums: str
+    click: str
+    fault: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,6 +288,14 @@ class Notice:
 
 
 @dataclass(frozen=True, slots=True)
+class Unheard:
+    """No stroke could be heard between these session times: the engine had ended, and another took its place."""
+
+    from_ns: int
+    until_ns: int
+
+
+@dataclass(frozen=True, slots=True)
 class Status:
     """How the engine is doing; sent once a second while it runs.
 
@@ -281,4 +320,4 @@ class RawBytes:
 
 
 Heard = DeviceEvent | StickEvent | SensorSamples | RawBytes
-EngineEvent = Heard | Ready | Sounding | CaptureSaved | Started | Notice | Status
+EngineEvent = Heard | Ready | Sounding | SoundsSet | CaptureSaved | Started | Notice | Status | Unheard

@@ -9,7 +9,7 @@ moves a cue.
 """
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from math import isnan
 
@@ -22,6 +22,7 @@ from station.core.pieces import Articulation, Piece, Zone
 from station.core.units import NS_PER_S
 from station.engine.cue_queue import Cue, CueQueue, CueRun
 from station.sound.buses import Bus, ClickVoice
+from station.sound.drum_kit import DrumKit, Frames
 from station.sound.mixer import Mixer
 from station.sound.track import Track
 
@@ -37,6 +38,7 @@ class SoundPlayer:
         self._zeros: deque[int] = deque()
         self._playback = CueQueue()
         self._levels = dict.fromkeys(Bus, _FULL)
+        self._master = 1.0
         self._of_pieces: dict[Piece, Level] = {}
         self._passed_ns = 0
         self._track: Track | None = None
@@ -53,7 +55,7 @@ class SoundPlayer:
         self._track_plays = False
         if mixer is not None:
             for bus, (level, pan) in self._levels.items():
-                mixer.set_level(bus, level, pan)
+                mixer.set_level(bus, self._master * level, pan)
             for piece, (level, pan) in self._of_pieces.items():
                 mixer.set_piece(piece, level, pan)
 
@@ -96,7 +98,18 @@ class SoundPlayer:
     def set_level(self, bus: Bus, level: float, pan: float) -> None:
         """Set a bus's level and pan."""
         self._levels[bus] = level, pan
-        self._to_mixer(lambda mixer: mixer.set_level(bus, level, pan))
+        heard = self._master * level
+        self._to_mixer(lambda mixer: mixer.set_level(bus, heard, pan))
+
+    def set_master(self, level: float) -> None:
+        """Set the level of all that sounds."""
+        self._master = min(1.0, max(0.0, level))
+        for bus, (own, pan) in self._levels.items():
+            self.set_level(bus, own, pan)
+
+    def use_sounds(self, kit: DrumKit, clicks: Mapping[ClickVoice, Frames]) -> None:
+        """Sound by another kit and other clicks from the next block on; of another rate than the mixer's: ignored."""
+        self._to_mixer(lambda mixer: mixer.use(kit, clicks) if mixer.kit.rate_hz == kit.rate_hz else None)
 
     def set_piece(self, piece: Piece, level: float, pan: float) -> None:
         """Set a piece's level and pan."""

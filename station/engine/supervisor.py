@@ -4,7 +4,8 @@ A spare process waits beside the one that works, everything imported, the sounds
 working one ends unasked (killed, crashed, or worn out: its sound library went with the sound server) the spare takes
 its place within tenths of a second. It is sent what still holds: levels, MIDI output, track, the capture, which it
 continues, and the transport, whose zero stays where it was, for session time is the same in every process. What was
-heard until then has been reported; strokes of the moment between are lost, and the user reads once what happened.
+heard until then has been reported; strokes of the moment between are lost, which `Unheard` says to the ns, and the user
+reads once what happened.
 """
 
 import threading
@@ -34,13 +35,16 @@ from station.engine.messages import (
     SetAirDrums,
     SetBacking,
     SetLevel,
+    SetMaster,
     SetMidiOut,
     SetPiece,
+    SetSounds,
     Setting,
     Started,
     Status,
     Stop,
     TrackPhase,
+    Unheard,
     Watch,
     WatchRawBytes,
     WatchSensors,
@@ -100,6 +104,9 @@ class EngineSupervisor:
         self._said: list[EngineEvent] = []
         self._kits_before: set[str] = set()
         self._kits: set[str] = set()
+        self._lived_ns: deque[int] = deque([now_ns()], maxlen=2)
+        """When the engine was asked the last times and had not ended; at the last time it may have, and not said so."""
+        self._deaf_since_ns: int | None = None
         self._ending: list[threading.Thread] = []
         self._process = start()
         self._process.begin(config)
@@ -121,8 +128,10 @@ class EngineSupervisor:
 
         Raises `DeviceError` if the engine has ended for good and all that was said before was returned.
         """
+        asked_ns = self._now_ns()
         try:
             heard = self._process.events(0.0 if self._said else wait_s)
+            self._lived_ns.append(asked_ns)
         except DeviceError as fault:
             self._restart(fault)
             heard = []
@@ -134,22 +143,33 @@ class EngineSupervisor:
         self._holds.heard(event)
         match event:
             case Ready(_, rate_hz) if self._spare is None:  # not sooner: it would compete with the one that is awaited
+                if not self._kits_before:
+                    self._hears_again(self._now_ns())
                 self._spare = self._start()
                 if rate_hz is not None:
                     self._spare.prepare(Prepare(self._config.drums, self._config.click, rate_hz))
-            case DeviceFound(_, device):
+            case DeviceFound(at_ns, device):
                 self._kits.add(device)
                 if device in self._kits_before:
                     self._kits_before.discard(device)
+                    if not self._kits_before:
+                        self._hears_again(at_ns)
                     return False
             case DeviceLost(_, device):
                 self._kits.discard(device)
             case Status(at_ns) if self._kits_before:  # a second has passed: what has not come back is gone
                 self._said += [DeviceLost(at_ns, device) for device in sorted(self._kits_before)]
                 self._kits_before.clear()
+                self._hears_again(at_ns)
             case _:
                 pass
         return True
+
+    def _hears_again(self, at_ns: int) -> None:
+        """All kits that can be heard are heard again."""
+        if self._deaf_since_ns is not None:
+            self._said.append(Unheard(self._deaf_since_ns, at_ns))
+            self._deaf_since_ns = None
 
     def _hear_out(self) -> None:
         """Keep what a process that has ended said before."""
@@ -165,10 +185,14 @@ class EngineSupervisor:
     def _restart(self, fault: DeviceError) -> None:
         """Let the spare take the place of a process that has ended; raises `fault` where that happens too often."""
         now_ns = self._now_ns()
+        is_worn_out = self._process.exit_code == WORN_OUT  # it is as the world wants it, however often a server ends
         often = len(self._restarts_ns) == MOST_RESTARTS and now_ns - self._restarts_ns[0] < RESTARTS_WITHIN_NS
-        if often:
+        if often and not is_worn_out:
             raise fault
-        self._restarts_ns.append(now_ns)
+        if not is_worn_out:
+            self._restarts_ns.append(now_ns)
+        if self._deaf_since_ns is None:
+            self._deaf_since_ns = self._lived_ns[0]
         ended, self._process = self._process, self._spare or self._start()
         self._spare = None
         self._process.begin(self._config)
@@ -231,7 +255,16 @@ class _Standing:
                 self._levels[command.bus] = command
             case SetPiece():
                 self._pieces[command.piece] = command
-            case SetBacking() | SetMidiOut() | SetAirDrums() | TrackPhase() | WatchRawBytes() | WatchSensors():
+            case (
+                SetMaster()
+                | SetSounds()
+                | SetBacking()
+                | SetMidiOut()
+                | SetAirDrums()
+                | TrackPhase()
+                | WatchRawBytes()
+                | WatchSensors()
+            ):
                 self._others[type(command)] = command
             case RecordCapture():
                 self._others[RecordCapture] = command
@@ -257,7 +290,7 @@ class _Standing:
         """What a new engine is sent at `now_ns`, in order."""
         yield from self._levels.values()
         yield from self._pieces.values()
-        for kind in (SetBacking, SetMidiOut, SetAirDrums, WatchRawBytes, WatchSensors):
+        for kind in (SetMaster, SetSounds, SetBacking, SetMidiOut, SetAirDrums, WatchRawBytes, WatchSensors):
             if kind in self._others:
                 yield self._others[kind]
         record = self._others.get(RecordCapture)

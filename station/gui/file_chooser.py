@@ -36,3 +36,23 @@ class FileChooser:
             return []
         asked, self._open = self._open, None
         return list(asked.result())
+
+
+class FolderChooser:
+    """The same for a folder."""
+
+    def __init__(self, title: str) -> None:
+        self._title = title
+        self._open: dialogs.select_folder | None = None
+
+    def ask(self) -> None:
+        """Open the dialog, if it is not open."""
+        if self._open is None:
+            self._open = dialogs.select_folder(self._title, "")
+
+    def chosen(self) -> str:
+        """The folder that was chosen since it was last asked, empty for none."""
+        if self._open is None or not self._open.ready(0):
+            return ""
+        asked, self._open = self._open, None
+        return str(asked.result())

@@ -62,6 +62,12 @@ KEYS: Mapping[imgui.Key, KeyStroke] = MappingProxyType(
 """Hands rest on F and J; the feet are the thumbs."""
 
 
+GROOVE_KEYS = ", ".join(
+    next(f"{key.cap}: {piece_name(piece)}" for key in KEYS.values() if key.piece is piece)
+    for piece in (Piece.KICK, Piece.SNARE, Piece.HIHAT)
+)
+"""The keys of a first groove, in words."""
+
 COMMANDS: tuple[tuple[str, str], ...] = (
     ("Enter", "start, or the first of what comes next"),
     ("Esc", "stop, no answer, or back to the lessons; a pad is not learnt"),

@@ -33,9 +33,11 @@ from station.gui.panels.devices import devices_panel, sticks_panel
 from station.gui.panels.editor.editor_panel import EDITOR, EditorPanel
 from station.gui.panels.exam_notes import NOTES, ExamNotes
 from station.gui.panels.figure import style_panel
+from station.gui.panels.lessons.who_plays import WhoPlaysPage
 from station.gui.panels.lessons_panel import LessonsPanel
 from station.gui.panels.panel import DockSide, Panel, panels_popup
 from station.gui.panels.playback_row import PlaybackRow
+from station.gui.panels.sound import sound_panel
 from station.gui.panels.teacher import assigned_panel, teacher_panel
 from station.gui.panels.transport_bar import TransportBar
 from station.gui.panels.view_popup import ViewActions
@@ -65,15 +67,17 @@ class Pages:
         self._phase = phase_panel.PhasePanel(dispatch)
         self._today = today_panel.TodayPanel(dispatch)
         self.song = song_panel.SongPanel(dispatch)
+        self.sound = sound_panel.SoundPanel(dispatch, self.open_import)
         self._exam = exam_panel.ExamPanel(dispatch)
         self._exam_notes = ExamNotes(dispatch, viewport.canvas)
         self._exam_stage = ExamStage.ASKED
         self.teacher = teacher_panel.TeacherPanel(dispatch, self._playback)
         self.assigned = assigned_panel.AssignedPanel(dispatch)
-        viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go)
+        viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go, lambda: viewport.quality)
         self._transport = TransportBar(dispatch, viewpoints, self._open_tools)
         self.controls = self._transport.controls
         self.table = self._table()
+        self.who = WhoPlaysPage(dispatch)
         self.docking: hello_imgui.DockingParams | None = None
         """Where they are docked, once the window is made."""
 
@@ -93,6 +97,7 @@ class Pages:
             Panel(style_panel.FIGURE, right, self.figure.gui, style_panel.ABOUT, help=style_panel.HELP),
             Panel(practice_panel.PRACTICE, right, self._practice.gui, practice_panel.ABOUT, help=practice_panel.HELP),
             Panel(devices_panel.DEVICES, right, self._devices.gui, devices_panel.ABOUT, help=devices_panel.HELP),
+            Panel(sound_panel.SOUND, right, self.sound.gui, sound_panel.ABOUT, help=sound_panel.HELP),
             Panel(sticks_panel.STICKS, right, self._sticks.gui, sticks_panel.ABOUT, help=sticks_panel.HELP),
             Panel(import_panel.IMPORT, right, self._import_gui, import_panel.ABOUT, help=import_panel.HELP),
             Panel(export_panel.EXPORT, right, self._export.gui, export_panel.ABOUT, help=export_panel.HELP),
@@ -125,6 +130,10 @@ class Pages:
         """Show the panel that pins a part to a band's sound."""
         self._docked(song_panel.SONG).is_visible = True
 
+    def open_track(self) -> None:
+        """Show the track that is played along to."""
+        self.sound.leaf = sound_panel.TRACK_TAB
+
     def open_teacher(self) -> None:
         """Show the panel of what students sent."""
         self._to_front(teacher_panel.TEACHER)
@@ -140,7 +149,7 @@ class Pages:
 
     def poll(self) -> None:
         """Take what the system's dialogs have brought."""
-        for asks in (self.imports, self.song, self.teacher, self.assigned):
+        for asks in (self.imports, self.song, self.sound, self.teacher, self.assigned):
             asks.poll()
 
     def show(self, state: State, is_welcomed: bool) -> None:
@@ -165,6 +174,7 @@ class Pages:
             exam=self.is_open(exam_panel.EXAM),
             teacher=self.is_open(teacher_panel.TEACHER),
             assigned=self.is_open(assigned_panel.ASSIGNMENTS),
+            sound=self.is_open(sound_panel.SOUND),
         )
 
     # --- drawing -----------------------------------------------------------------------------------------------------

@@ -1,7 +1,7 @@
 """The look of the panels: the same night, ink and orange as the pictures, in the same typeface.
 
 A theme dyes them as it dyes the pictures (`render.palette`); sizes are design pixels, grown by the screen's density and
-by the user's own scale.
+by the factor that the window's size and the user ask for (`panel_size`).
 """
 
 from bisect import bisect_left
@@ -10,6 +10,7 @@ from contextlib import contextmanager
 
 from imgui_bundle import hello_imgui, imgui, implot
 
+from station.gui.tooltip_place import tooltip_place
 from station.render import palette
 from station.render.palette import Theme
 from station.render.text.draw_list import Colour
@@ -19,9 +20,12 @@ FONT_SIZE = 17.0
 LARGE_FONT_SIZE = 26.0
 _ICONS, _ICON_SIZE = "fonts/fontawesome-webfont.ttf", 15.0
 """The signs' file among imgui-bundle's, and their size beside letters."""
-_TOOLTIP_WIDTH = 420.0
-"""Design pixels; our choice: some sixty letters, a good line to read."""
+_TOOLTIP_WIDTH, _TOOLTIP_GAP, _TOOLTIP_FAR = 420.0, 6.0, 330.0
+"""Design pixels; our choice: some sixty letters, a good line to read; a finger's breadth from what it explains; and how
+far a panel's edge may be for it to stand outside, the width of the lessons' list."""
 _ROUND, _LESS_ROUND = 10.0, 7.0
+_WHOLE_TAB = 170.0
+"""Design pixels of the longest tab with its cross: tabs that have no room are scrolled, not shortened."""
 _NARROW = 300.0
 """Design pixels: a slider beside a label and two buttons would have less than a hundred (our choice)."""
 _PANEL = palette.PAPER
@@ -45,11 +49,22 @@ class _Current:
 
     theme = Theme.NIGHT
     scale = 1.0
+    times_docked = 0
 
 
 def choose(theme: Theme, scale: float) -> None:
     """What `apply` shall show: the colours of `theme`, panels `scale` times as large as designed."""
     _Current.theme, _Current.scale = theme, scale
+
+
+def docked_anew() -> None:
+    """The panels get their first places again: what has fitted itself into one does so once more."""
+    _Current.times_docked += 1
+
+
+def times_docked() -> int:
+    """How often the panels got their first places again."""
+    return _Current.times_docked
 
 
 def chosen() -> Theme:
@@ -84,6 +99,7 @@ def apply() -> None:
     style.window_border_size = 0.0
     style.scrollbar_size = points(12)
     style.grab_min_size = points(12)
+    style.tab_min_width_shrink = points(_WHOLE_TAB)
     for slot, colour in _colours().items():
         style.set_color_(slot, _vec(colour))
     _apply_to_plots()
@@ -221,6 +237,17 @@ def checkbox(label: str, value: bool) -> tuple[bool, bool]:
     return bool(changed), bool(value)
 
 
+def radio_button(label: str, is_on: bool) -> bool:
+    """One choice of several; its words are broken where the panel ends, and choose it too. Returns whether it was."""
+    inner, words = imgui.get_style().item_inner_spacing.x, label.partition("##")[0]
+    if imgui.get_frame_height() + inner + imgui.calc_text_size(words).x <= imgui.get_content_region_avail().x:
+        return bool(imgui.radio_button(label, is_on))
+    pressed = bool(imgui.radio_button(f"##{label}", is_on))
+    imgui.same_line(0.0, inner)
+    imgui.text_wrapped(words)
+    return pressed or bool(imgui.is_item_clicked())
+
+
 def first_lines(text: str, lines: int) -> str:
     """As much of `text` as so many lines of the panel's width hold, with dots where it goes on."""
     wrap = imgui.get_content_region_avail().x
@@ -251,8 +278,25 @@ def one_line(text: str, width: float) -> str:
 def tooltip(text: str) -> None:
     """Explain the control that was drawn last, while it is looked at; one that is typed or dragged in is understood."""
     hovered = imgui.HoveredFlags_.delay_normal | imgui.HoveredFlags_.allow_when_disabled
-    if imgui.is_item_hovered(hovered) and not imgui.is_item_active() and imgui.begin_tooltip():
-        imgui.push_text_wrap_pos(points(_TOOLTIP_WIDTH))
+    if not imgui.is_item_hovered(hovered) or imgui.is_item_active():
+        return
+    low, high, screen = imgui.get_item_rect_min(), imgui.get_item_rect_max(), imgui.get_io().display_size
+    padding = imgui.get_style().window_padding
+    width = min(points(_TOOLTIP_WIDTH), screen.x - 2 * padding.x)
+    words = imgui.calc_text_size(text, False, width)
+    size = words.x + 2 * padding.x, words.y + 2 * padding.y
+    panel = imgui.internal.get_current_window().root_window.rect()
+    place = tooltip_place(
+        (low.x, low.y, high.x, high.y),
+        (panel.min.x, panel.min.y, panel.max.x, panel.max.y),
+        size,
+        (screen.x, screen.y),
+        points(_TOOLTIP_GAP),
+        points(_TOOLTIP_FAR),
+    )
+    imgui.set_next_window_pos(imgui.ImVec2(*place))
+    if imgui.begin_tooltip():
+        imgui.push_text_wrap_pos(padding.x + width)
         imgui.text(text)
         imgui.pop_text_wrap_pos()
         imgui.end_tooltip()
@@ -299,7 +343,7 @@ def fit_height(height: float) -> None:
 
 
 def points(pixels: float) -> float:
-    """Design pixels in the window's own, which grow with the screen's density and the user's scale."""
+    """Design pixels in the window's own, which grow with the screen's density and with the panels (`panel_size`)."""
     return pixels * float(hello_imgui.dpi_window_size_factor()) * _Current.scale
 
 

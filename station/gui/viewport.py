@@ -4,14 +4,13 @@ It keeps where one looks from; how the picture is shown follows the look of each
 in two steps: `begin` draws all that moves, the longest part, and what it returns the rest, which may know of strokes
 that were heard meanwhile.
 
-The quality is measured: the first frames are drawn at the lowest, and where they take far less than a frame's time the
-next level is tried. While somebody plays nothing is rebuilt.
+The quality is what the user has fixed, or what the machine holds (`render.quality_choice`). While somebody plays
+nothing is rebuilt.
 """
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from statistics import median
 from time import perf_counter
 
 import moderngl
@@ -25,24 +24,23 @@ from station.core.errors import DeviceError
 from station.core.named_view import NamedView
 from station.gui import theme
 from station.gui.flat_canvas import FlatCanvas
+from station.gui.panel_size import WORDS
 from station.render.camera import Camera
 from station.render.framing import Stage, named, stage_of
 from station.render.gpu.gl import GL_VERSION, RenderTarget
-from station.render.painter import Area, Arrangement, Painter
+from station.render.hud import FreeLine, band_height, corners, free_line
+from station.render.notation.screen.score_place import halves
+from station.render.painter import Area, Arrangement, Painter, form_of
 from station.render.palette import NIGHT, themed
 from station.render.quality import QUALITIES
+from station.render.quality_choice import QualityChoice, first_choice
 from station.render.report.report_layout import ReportPage, page_for
 from station.render.report.report_picture import report_shapes, report_sheet
-from station.render.snapshot import Snapshot
+from station.render.snapshot import Hud, Snapshot
 
 _GONE = "GL_UNKNOWN_ERROR"
 """What moderngl calls GL_CONTEXT_LOST (KHR_robustness), which OpenGL 3.3 has no number for yet."""
 _LOST = "the graphics driver has lost the window: start the station again; what was played is kept"
-_MEASURED_FRAMES = 12
-_FAST_MS, _VERY_FAST_MS = 6.0, 2.0
-"""A machine that draws the lowest level so fast can afford the middle and the highest at 60 Hz (our choice)."""
-_MEASURED = replace(QUALITIES[0], is_layered=False)
-"""What is measured draws everything anew, as the higher levels do."""
 _MIN_TEXT_SIZE = 0.9
 """How large a result's letters are at the least, of the panels' own (our choice)."""
 _LEAST_AREA = 16
@@ -57,14 +55,17 @@ class Viewport:
     """Draws with the window's own OpenGL context, which it takes over at the first frame."""
 
     def __init__(self, quality: int | None, view_settings: ViewSettings) -> None:
-        self._wanted = quality
+        self._fixed = quality
+        self._choice = QualityChoice()
+        self.may_rebuild = True
+        """Whether the quality may change now: nobody plays."""
         self._painter: Painter | None = None
         self._ctx: moderngl.Context | None = None
         self._target: RenderTarget | None = None
         self.canvas = FlatCanvas(self._ready)
         """What panels draw notation with."""
         self._samples = 0
-        self._times_ms: list[float] = []
+        self._words: tuple[Hud, tuple[int, int], float] | None = None
         self._page: tuple[ShownResult, ReportPage, NDArray[np.void]] | None = None
         self.view_settings = view_settings
         self._stage: Stage | None = None
@@ -133,12 +134,16 @@ class Viewport:
         screen, whole = self.clear()
         painter.theme = self.view_settings.theme
         if min(area[2:]) < _LEAST_AREA:
+            self._words = None
             return lambda _: None
         self._follow_stage(stage_of(snapshot))
         began = perf_counter()
         target = self._target_for(painter, ctx, whole)
         is_rough = self.camera != self._seen_from
-        arrangement = Arrangement(self._inset, self.view_settings.score, is_rough, self.view_settings.double)
+        look, letters = self.view_settings, _letters()
+        arrangement = Arrangement(self._inset, look.score, is_rough, look.double, look.legend, letters)
+        form = form_of(snapshot, look.score) if with_score else None
+        self._words = corners(snapshot.hud), halves(area[2:], form).scene[2:], letters
         self._seen_from = self.camera
         with self._watched():
             rest = painter.begin(snapshot, target.framebuffer, area, self.camera, with_score, arrangement)
@@ -155,6 +160,13 @@ class Viewport:
 
         return finish
 
+    def free_line(self) -> FreeLine | None:
+        """Where the band above the room has no words, in pixels of the picture; None where there is no band."""
+        if self._painter is None or self._words is None or not band_height(*self._words):
+            return None
+        hud, size, letters = self._words
+        return free_line(hud, self._painter.atlas, size, letters)
+
     def _follow_stage(self, stage: Stage) -> None:
         """Frame another kit or player; where the user has turned the picture only another side turns it back."""
         before, self._stage = self._stage, stage
@@ -165,6 +177,7 @@ class Viewport:
     def draw_report(self, report: ShownResult, area: Area) -> None:
         """Draw a result in place of the room; raises `DeviceError` if OpenGL fails."""
         ctx, painter = self._ready()
+        self._words = None
         _, whole = self.clear()
         painter.theme = self.view_settings.theme
         if min(area[2:]) < _LEAST_AREA:
@@ -212,11 +225,14 @@ class Viewport:
                 self._ctx = moderngl.create_context(require=GL_VERSION)
             except Exception as fault:
                 raise DeviceError(f"the window has no OpenGL 3.3: {fault}") from fault
-            self._painter = Painter(self._ctx, _MEASURED if self._wanted is None else QUALITIES[self._wanted])
+            self._choice = first_choice(self._ctx.info["GL_RENDERER"], len(QUALITIES))
+            self._painter = Painter(self._ctx, QUALITIES[self.quality])
         return self._ctx, self._painter
 
     def _target_for(self, painter: Painter, ctx: moderngl.Context, whole: tuple[int, int]) -> RenderTarget:
         """Where the picture is made: off the screen, with as many samples a pixel as the quality asks for."""
+        if self._target is not None and self._target.size != whole:
+            self._choice = replace(first_choice(ctx.info["GL_RENDERER"], len(QUALITIES)), level=self._choice.level)
         if self._target is None or self._target.size != whole or self._samples != painter.quality.samples:
             self._drop_target()
             self._samples = painter.quality.samples
@@ -225,13 +241,24 @@ class Viewport:
             self._target.framebuffer.clear(*themed(NIGHT, painter.theme), depth=1.0)
         return self._target
 
+    @property
+    def quality(self) -> int:
+        """The level at which the picture is drawn: the one that was fixed, or that the machine holds."""
+        fixed = self.view_settings.quality if self._fixed is None else self._fixed
+        return self._choice.level if fixed is None else fixed
+
     def _measure(self, began: float) -> None:
-        if self._wanted is not None or self._ctx is None or len(self._times_ms) >= _MEASURED_FRAMES:
+        """Let the choice know what the picture took, where it asks, and draw the next as it says."""
+        if self._ctx is None or self._painter is None:
             return
-        self._ctx.finish()
-        self._times_ms.append((perf_counter() - began) * 1000)
-        if len(self._times_ms) == _MEASURED_FRAMES and self._painter is not None:
-            self._painter.draw_at(QUALITIES[quality_for(median(self._times_ms[2:]))])
+        took_ms = None
+        if self._choice.wants_time:
+            self._ctx.finish()
+            took_ms = (perf_counter() - began) * 1000
+        if self._fixed is None and self.view_settings.quality is None:
+            self._choice = self._choice.drawn(took_ms, self.may_rebuild)
+        if self._painter.quality is not QUALITIES[self.quality]:
+            self._painter.draw_at(QUALITIES[self.quality])
 
     def _draw_report(self, report: ShownResult, painter: Painter, ctx: moderngl.Context, area: Area) -> None:
         text_size = theme.points(_MIN_TEXT_SIZE) * imgui.get_io().display_framebuffer_scale.y
@@ -243,8 +270,6 @@ class Viewport:
         painter.printer.draw(self._page[2], report_sheet(area[2:], page))
 
 
-def quality_for(lowest_ms: float) -> int:
-    """The quality for a machine that draws a frame of the lowest in `lowest_ms`."""
-    if lowest_ms <= _VERY_FAST_MS:
-        return 2
-    return 1 if lowest_ms <= _FAST_MS else 0
+def _letters() -> float:
+    """How large the picture's words are beside the panels', in pixels a design pixel (`hud.scale`)."""
+    return theme.points(WORDS) * float(imgui.get_io().display_framebuffer_scale.y)

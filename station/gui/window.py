@@ -13,7 +13,8 @@ from imgui_bundle import hello_imgui, imgui, implot
 from station.app.actions.action import Notify, Show
 from station.app.actions.file_actions import Import
 from station.app.actions.practice_actions import Begin, Leave, Pause, StrikeKey
-from station.app.actions.settings_actions import FinishFirstStart
+from station.app.actions.settings_actions import AskWhoPlays, FinishFirstStart
+from station.app.actions.sound_actions import BringTrack
 from station.app.controller import Controller
 from station.app.help_topics import topic_of
 from station.app.room_state import RoomState, Stage
@@ -24,18 +25,21 @@ from station.core.errors import DeviceError
 from station.drills.songs.song_folder import SOUND_ENDINGS
 from station.gui import theme
 from station.gui.display import MonitorWatch
+from station.gui.draw_flash import draw_flash
 from station.gui.draw_toasts import ABOVE_RESULT, draw_toast
 from station.gui.file_drop import FileDrop, file_drop
 from station.gui.keyboard_kit import pressed
 from station.gui.panel_layout import Pages
+from station.gui.panel_size import Size, panel_factor, shares
 from station.gui.panels.choice_panel import band_height, choice_keys, draw_choice
 from station.gui.panels.editor.editor_keys import editor_keys
-from station.gui.panels.help_window import help_window
+from station.gui.panels.help_window import HelpWindow
 from station.gui.panels.welcome_page import WelcomePage
 from station.gui.player_keys import player_keys
 from station.gui.viewport import Viewport
-from station.gui.window_frame import Calls, WindowOptions, central_area, runner, splits
+from station.gui.window_frame import Calls, WindowOptions, central_area, logical_size, runner, splits
 from station.practice.exchange.parcel import Kind, kind_by_name
+from station.practice.lag.first_groove import FIRST_GROOVE
 from station.render.snapshot import Snapshot
 
 _NO_WINDOW = "no window can be opened: is there a screen, and OpenGL? `station practice --headless` needs neither"
@@ -58,8 +62,10 @@ class Window:
         self.pages = Pages(controller.dispatch, self.viewport)
         settings = self.state.settings
         self.welcome = None if settings.welcomed else WelcomePage(FirstAnswers.of(settings))
-        self._shown_theme = self.state.view_settings.theme, self.state.view_settings.scale
-        self._show_help = False
+        look, size = self.state.view_settings, (float(options.size[0]), float(options.size[1]))
+        self._worn = look.theme, panel_factor(size, look.scale)
+        self._docked_for = self._sized_for = size, self._worn[1]
+        self._show_help, self._help_window = False, HelpWindow()
         self._frame_ms = 0.0
         self._drawn: Snapshot | None = None
         self.frames = 0
@@ -70,9 +76,9 @@ class Window:
         self._to_open = [options.opens] if options.opens else []
         calls = Calls(self._opened, self._before_frame, self._background, self._over_all, self._swapped, self._leaving)
         windows = [page.window(lambda: self.state) for page in self.pages.table]
-        self.params = runner(options, calls, windows, self.state.view_settings.scale)
+        self.params = runner(options, calls, windows, shares(*self._docked_for))
         self.pages.docking = self.params.docking_params
-        theme.choose(*self._shown_theme)
+        theme.choose(*self._worn)
 
     def run(self) -> None:
         """Show the window until it is closed; raises `DeviceError` where no window can be had, or OpenGL ends."""
@@ -106,6 +112,7 @@ class Window:
         self.state = self._controller.view()
         snapshot = self.state.snapshot
         self.viewport.follow(self.state.view_settings, None if snapshot is None else snapshot.view)
+        self.viewport.may_rebuild = self.state.room.stage is not Stage.PLAYING
         self._wear()
         self.pages.show(self.state, self.welcome is None)
         self.params.fps_idling.enable_idling = not self.state.is_lively
@@ -122,12 +129,21 @@ class Window:
             return
         dropped, self._to_open = self._to_open, []
         for path in dropped:
-            self._controller.dispatch(Import(path))
+            if self._is_track(path):
+                self._controller.dispatch(BringTrack(path))
+            else:
+                self._controller.dispatch(Import(path))
         for path in dropped:
             self._page_of(path)()
 
+    def _is_track(self, path: str) -> bool:
+        """A sound becomes the track where it is dropped on the page of sounds, a song's sound anywhere else."""
+        return Path(path).suffix.lower() in SOUND_ENDINGS and self.pages.sound.is_seen
+
     def _page_of(self, path: str) -> Callable[[], None]:
         """What shows the page where a file that was dropped is found again."""
+        if self._is_track(path):
+            return self.pages.open_track
         if Path(path).suffix.lower() in SOUND_ENDINGS:
             return self.pages.open_song
         match kind_by_name(path):
@@ -147,15 +163,24 @@ class Window:
             self._controller.dispatch(shown)
 
     def _wear(self) -> None:
-        """Show the panels in the colours and the size that were chosen; larger ones dock anew."""
-        view_settings = self.state.view_settings
-        if (view_settings.theme, view_settings.scale) != self._shown_theme:
-            if view_settings.scale != self._shown_theme[1]:
-                self.params.docking_params.docking_splits = splits(view_settings.scale)
-                self.params.docking_params.layout_reset = True
-            self._shown_theme = view_settings.theme, view_settings.scale
-            theme.choose(*self._shown_theme)
+        """Show the panels in the colours and the size that were chosen, and that the window's own size asks for."""
+        view_settings, size = self.state.view_settings, logical_size()
+        factor = self._worn[1] if size is None else panel_factor(size, view_settings.scale)
+        if (view_settings.theme, factor) != self._worn:
+            self._worn = view_settings.theme, factor
+            theme.choose(*self._worn)
             theme.apply()
+        if size is not None:
+            self._dock_for(size, factor)
+
+    def _dock_for(self, size: Size, factor: float) -> None:
+        """Dock anew what another size gives another place, once the window is no longer dragged larger or smaller."""
+        before, self._sized_for = self._sized_for, (size, factor)
+        if before == self._sized_for and shares(size, factor) != shares(*self._docked_for):
+            self._docked_for = size, factor
+            self.params.docking_params.docking_splits = splits(shares(size, factor))
+            self.params.docking_params.layout_reset = True
+            theme.docked_anew()
 
     def _leaving(self) -> None:
         if self._drop is not None:
@@ -209,14 +234,17 @@ class Window:
             draw_choice(self.state.choice, central_area(self.params.docking_params), self._controller.dispatch)
         if not io.want_capture_mouse:
             self.viewport.steer(io)
+        self.pages.who.gui(self.state.students)
+        draw_flash(self.state.flash, central_area(self.params.docking_params))
         if self._show_help:
             self._help()
         else:
-            draw_toast(self.state.toast, central_area(self.params.docking_params), self.state.shows_result)
+            draw_toast(self.state.toast, central_area(self.params.docking_params), self.viewport.free_line())
 
     def _ask(self, page: WelcomePage) -> None:
         """The questions of the first start, until they are answered or put aside."""
-        begun = page.gui()
+        plays_at_once = self.state.selection.card is not None and self.state.selection.card.name == FIRST_GROOVE
+        begun = page.gui(self.state.room, plays_at_once)
         if begun is not None:
             self._controller.dispatch(FinishFirstStart(page.answers if begun else None))
             self.welcome = None
@@ -252,6 +280,9 @@ class Window:
         if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
             imgui.internal.close_popup_to_level(0, restore_focus_to_window_under_popup=True)
             return True
+        if self.state.students.asks:
+            self._controller.dispatch(AskWhoPlays(on=False))
+            return True
         is_closed, self._show_help = self._show_help, False
         return is_closed
 
@@ -269,7 +300,7 @@ class Window:
     def _help(self) -> None:
         is_open = [page for page in self.pages.tools if self.pages.is_open(page.name)]
         topic = topic_of(self.state.room, self.state.selection.free, self.state.editor is not None)
-        self._show_help = help_window(topic, is_open, self._frame_ms)
+        self._show_help = self._help_window.gui(topic, is_open, self._frame_ms)
 
 
 def run_window(controller: Controller, options: WindowOptions | None = None) -> None:

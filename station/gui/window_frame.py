@@ -11,6 +11,7 @@ from imgui_bundle import hello_imgui, imgui
 from station.gui import theme
 from station.gui.display import Screen
 from station.gui.glfw_screen import glfw_screen
+from station.gui.panel_size import Size
 from station.gui.panels.panel import DockSide
 from station.render.painter import Area
 from station.render.snapshot import Snapshot
@@ -65,9 +66,9 @@ class Calls:
 
 
 def runner(
-    options: WindowOptions, calls: Calls, windows: Sequence[hello_imgui.DockableWindow], scale: float
+    options: WindowOptions, calls: Calls, windows: Sequence[hello_imgui.DockableWindow], shares: Size
 ) -> hello_imgui.RunnerParams:
-    """What hello_imgui runs: a window with `windows` docked in it, whose panels are `scale` times their plain size."""
+    """What hello_imgui runs: a window with `windows` docked in it, in places as large as `splits` makes them."""
     params = hello_imgui.RunnerParams()
     params.app_window_params.window_title = TITLE
     params.app_window_params.window_geometry.size = options.size
@@ -91,7 +92,7 @@ def runner(
     callbacks.after_swap = calls.swapped
     docking = params.docking_params
     docking.layout_condition = hello_imgui.DockingLayoutCondition.application_start
-    docking.docking_splits = splits(scale)
+    docking.docking_splits = splits(shares)
     docking.dockable_windows = [*windows]
     if options.tests is not None:
         params.use_imgui_test_engine = True
@@ -116,14 +117,23 @@ def _use_opengl_3_3(params: hello_imgui.RunnerParams) -> None:
     params.renderer_backend_options.open_gl_options = gl
 
 
-def splits(scale: float) -> list[hello_imgui.DockingSplit]:
-    """Where panels dock; the larger they are, the more of the window they take."""
+def splits(shares: Size) -> list[hello_imgui.DockingSplit]:
+    """Where panels dock; the larger they are, the more of the window they take (`panel_size.shares`)."""
+    grown = {imgui.Dir.left: shares[0], imgui.Dir.right: shares[0], imgui.Dir.down: shares[1]}
     made = [
-        hello_imgui.DockingSplit(_DOCK, str(side), way, min(share * scale, most)) for side, way, share, most in _SPLITS
+        hello_imgui.DockingSplit(_DOCK, str(side), way, min(share * grown[way], most))
+        for side, way, share, most in _SPLITS
     ]
     for split in (split for split in made if split.new_dock in _WITHOUT_TABS):
         split.node_flags = imgui.DockNodeFlags_.auto_hide_tab_bar
     return made
+
+
+def logical_size() -> Size | None:
+    """The window's size in logical pixels (`panel_size`); None before there is one."""
+    width, height = imgui.get_io().display_size
+    density = float(hello_imgui.dpi_window_size_factor())
+    return (width / density, height / density) if min(width, height) > 1.0 and density > 0.0 else None
 
 
 def central_area(docking: hello_imgui.DockingParams) -> Area:

@@ -23,6 +23,8 @@ class Label(IntEnum):
     """Live only: a verdict on a note is taken back, and the note is still to be played, or has no hit."""
     PLAYED_AGAIN = 6
     """A hit of an attempt at a passage that does not count: the student began again, or played a bar twice."""
+    UNKNOWN = 7
+    """A note without a hit, of a moment in which no stroke could be heard: nobody knows whether it was played."""
 
 
 OF_LONE_HITS = frozenset({Label.EXTRA, Label.IGNORED, Label.PLAYED_AGAIN})
@@ -50,8 +52,8 @@ class Judgement:
 class Matching:
     """A whole alignment as arrays: one label a note (n,) and a hit (m,), and each one's partner or −1.
 
-    `hit_of_note` (n,) and `note_of_hit` (m,) are inverse to each other; notes are MATCH, MISS or WRONG_PIECE,
-    hits MATCH, WRONG_PIECE or one of `OF_LONE_HITS`.
+    `hit_of_note` (n,) and `note_of_hit` (m,) are inverse to each other; notes are MATCH, MISS, WRONG_PIECE
+    or UNKNOWN, hits MATCH, WRONG_PIECE or one of `OF_LONE_HITS`.
     """
 
     hit_of_note: NDArray[np.int64]
@@ -60,6 +62,6 @@ class Matching:
     hit_label: NDArray[np.uint8]
 
     def count(self, label: Label) -> int:
-        """How many notes (for MISS, MATCH, WRONG_PIECE) or hits (for `OF_LONE_HITS`) bear `label`."""
+        """How many notes (for MISS, MATCH, WRONG_PIECE, UNKNOWN) or hits (for `OF_LONE_HITS`) bear `label`."""
         labels = self.hit_label if label in OF_LONE_HITS else self.note_label
         return int(np.count_nonzero(labels == label))

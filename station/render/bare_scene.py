@@ -13,7 +13,7 @@ from station.motion.kit.kit import Kit
 from station.render.framing import named
 from station.render.gpu.bone_palette import BoneFrame
 from station.render.gpu.gl import RenderTarget, standalone_context
-from station.render.painter import SCORE_SHARE
+from station.render.notation.screen.score_place import SHARES, ScoreForm
 from station.render.quality import Quality
 from station.render.scene import Scene
 from station.render.snapshot import Snapshot
@@ -27,7 +27,7 @@ class BareScene:
         with self._ctx:
             self._target = RenderTarget(self._ctx, size, quality.samples)
             self._scene = Scene(self._ctx, kit, figure, quality)
-        score = round(size[1] * SCORE_SHARE)
+        score = round(size[1] * SHARES[ScoreForm.SCROLLING])
         self._area = (0, score, size[0], size[1] - score)
 
     @property

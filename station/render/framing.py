@@ -1,7 +1,7 @@
 """Where the camera of a named view stands to show a kit and who plays it, whatever their size.
 
 A wide view is a direction, and points that must be seen: of the pieces, and of the body with its sticks raised. The
-camera goes back from them just so far that all lie within the picture, the pieces below the title. How far follows in
+camera goes back from them just so far that all lie within the picture. Titles have a band above it. How far follows in
 closed form: that a point (x, y, z) in the camera's axes lies left of the picture's right edge, x − eₓ ≤ r t (e_z − z)
 with t the tangent of half the angle of view, is linear in the place e of the eye, and so are the other edges. What fits
 a picture of `NARROW` fits wider ones as it is, and narrower ones because they widen their angle.
@@ -167,13 +167,10 @@ class _Wide:
 
 
 _WIDE = {
-    NamedView.FRONT: _Wide(70 * _DEG, 16 * _DEG, 0.66, 0.76, 0.93, is_whole=True),
-    NamedView.SHOULDER: _Wide(-56 * _DEG, 38 * _DEG, 0.78, 0.68, 0.93),
-    NamedView.TOP: _Wide(-90 * _DEG, 88 * _DEG, 0.80, 0.90, 0.96),
+    NamedView.FRONT: _Wide(70 * _DEG, 16 * _DEG, 0.66, 0.95, 0.97, is_whole=True),
+    NamedView.SHOULDER: _Wide(-56 * _DEG, 38 * _DEG, 0.78, 0.95, 0.97),
+    NamedView.TOP: _Wide(-90 * _DEG, 88 * _DEG, 0.80, 0.95, 0.97),
 }
-"""Titles are in the corners of the upper sixth: pieces stay below, a head may stand between them."""
-
-
 _FRONT_AZIMUTHS = [angle * _DEG for angle in (70, 60, 80, 52, 90, 100)]
 """From where the front is seen: the first from which no piece is before the face, else where least of one is."""
 _FREE = 1.5
@@ -221,8 +218,8 @@ _OWN_HEAD_M = 0.14
 _PITCHES = np.linspace(-70, -25, 31) * _DEG
 _LEAST_RAD, _WIDEST_RAD = 0.9, 1.6
 """Angles of view between which a picture looks as eyes see (our choice)."""
-_EYES_LOW, _EYES_HIGH = -1.1, 0.74
-"""Between which shares of the picture the rims lie: those next to the player may be cropped, none under the title."""
+_EYES_LOW, _EYES_HIGH = -1.1, 0.93
+"""Between which shares of the picture the rims lie: those next to the player may be cropped."""
 _ABOVE_M = 0.12
 """So high at least over the middle of the highest piece the camera is, that a small player's sees it (our choice)."""
 

@@ -1,4 +1,4 @@
-"""Paints a snapshot: scene above, score below, words over the scene. The window and the off-screen picture share it."""
+"""Paints a snapshot: words above, the scene under them, the score below. Window and off-screen picture share it."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -19,8 +19,9 @@ from station.render.gpu.edge_smoothing import EdgeSmoother
 from station.render.gpu.gl import RenderTarget, give_back
 from station.render.gpu.moving_parts import DoublePlace, frames_of
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
-from station.render.notation.screen.score_view import ScoreForm, ScorePlace, ScoreView, shows_staff
-from station.render.palette import INK_FAINT, NIGHT, Theme, over_picture, themed
+from station.render.notation.screen.score_place import ScoreForm, halves
+from station.render.notation.screen.score_view import ScoreView
+from station.render.palette import INK_FAINT, NIGHT, PAPER, Theme, over_picture, themed
 from station.render.quality import QUALITIES, Quality
 from station.render.scene import Scene
 from station.render.snapshot import Hud, Snapshot
@@ -30,8 +31,6 @@ from station.render.text.draw_list import SHAPE_DTYPE
 Area = tuple[int, int, int, int]
 """Left, lower, width, height in pixels from the lower left corner, as OpenGL counts."""
 
-SCORE_SHARE = 0.30
-"""The score's share of the picture's height."""
 INSET_SHARE = 0.36
 """The second picture's share of the scene's width or height, whichever is less (our choice: hands at arm's length)."""
 _STILL_SAMPLES = 4
@@ -54,14 +53,17 @@ def inset_area(scene: Area) -> Area:
 class Arrangement:
     """What else a picture has: the camera of a second, small picture in its corner, and the score's form.
 
-    `is_rough`: the camera moves, so that at the lowest quality the room may be drawn more simply. `double`: where the
-    student's double is, where the snapshot has one.
+    `has_legend`: beside a staff stands which piece is which. `is_rough`: the camera moves, so that at the lowest
+    quality the room may be drawn more simply. `double`: where the student's double is, where the snapshot has one.
+    `letters` is how large the words are, as `hud.scale` has it.
     """
 
     inset: Camera | None = None
     form: ScoreForm = ScoreForm.SCROLLING
     is_rough: bool = False
     double: DoublePlace = DoublePlace.NOWHERE
+    has_legend: bool = False
+    letters: float | None = None
 
 
 class Painter:
@@ -79,9 +81,9 @@ class Painter:
         self._still, self._worded, self._inset_still = CachedLayer(ctx), CachedLayer(ctx), CachedLayer(ctx)
         self._smoother, self._inset_smoother = EdgeSmoother(ctx), EdgeSmoother(ctx)
         self._inset: RenderTarget | None = None
-        self._lines = _Kept(lambda words, size: hud.hud_lines(words, self.atlas, size))
-        self._calls = _Kept(lambda words, size: hud.hud_calls(words, self.atlas, size))
-        self._named = (0, 0), np.empty(0, SHAPE_DTYPE)
+        self._lines = _Kept(lambda words, page: hud.hud_lines(words, self.atlas, page.size, page.letters))
+        self._calls = _Kept(lambda words, page: hud.hud_calls(words, self.atlas, page.size, page.letters))
+        self._named = _Page((0, 0)), np.empty(0, SHAPE_DTYPE)
         self._played: tuple[Kit, Figure] | None = None
 
     def draw_at(self, quality: Quality) -> None:
@@ -117,17 +119,17 @@ class Painter:
         """
         self.printer.theme = self.theme
         left, low, width, height = area
-        score_height = round(height * SCORE_SHARE) if with_score else 0
-        scene_area = (left, low + score_height, width, height - score_height)
-        place = ScorePlace(0.0, float(scene_area[3]), float(width), float(score_height), self._score.reach(snapshot))
+        cut = halves((width, height), form := form_of(snapshot, arrangement.form) if with_score else None)
+        page = _page(snapshot.hud, cut.scene[2:], arrangement.letters)
+        scene_area = (left + cut.scene[0], low + height - cut.scene[3], cut.scene[2], cut.scene[3] - page.band)
+        paper = None if form is None else self._score.paper(snapshot, cut.score, form, arrangement.has_legend)
         scene = self._scene_of(snapshot)
         camera = camera or named(NamedView.SHOULDER, stage_of(snapshot))
         frames = frames_of(snapshot, arrangement.double, self.theme)
         places = _side_by_side(scene_area, len(frames))
         scene.set(frames[0])
 
-        is_staff = shows_staff(snapshot, arrangement.form)
-        corners, words = hud.corners(snapshot.hud), (width, height - score_height)
+        corners = hud.corners(snapshot.hud)
 
         def each(draw: Callable[[moderngl.Framebuffer, Camera, Area], None], into: moderngl.Framebuffer) -> None:
             for frame, window in zip(frames[::-1], places[::-1], strict=True):  # the demonstrator's stays set
@@ -137,9 +139,9 @@ class Painter:
         def lay(into: moderngl.Framebuffer, draw: Callable[[moderngl.Framebuffer, Camera, Area], None]) -> None:
             each(draw, into)
             self._ctx.viewport = area
-            if with_score:
-                self._score.draw_paper(place, (width, height), is_staff)
-            self._draw_veil((width, height), words[1])
+            if paper is not None:
+                self._score.draw_paper(snapshot, paper, (width, height))
+            self._fill_band(page, (width, height))
 
         def lay_still(into: moderngl.Framebuffer) -> None:
             into.clear(*themed(NIGHT, self.theme), depth=1.0)
@@ -149,11 +151,11 @@ class Painter:
             self._still.under(into, key, lay_still, 0 if arrangement.is_rough else _STILL_SAMPLES)
             into.use()
             self._ctx.viewport = area
-            self._lay_lines(self._lines.of(corners, words), (width, height))
+            self._lay_lines(self._lines.of(corners, page), (width, height))
 
         if self.quality.is_layered:
-            shown = scene.shows_figure, len(frames)
-            key = (scene, camera, area, with_score and place, is_staff, shown, self.theme, arrangement.is_rough)
+            drawn = scene, camera, area, page.band, paper, scene.shows_figure, len(frames)
+            key = (drawn, self.theme, arrangement.is_rough)
             self._worded.under(target, (key, corners), lay_words)
             each(partial(_draw_moving, scene, self._smoother), target)
         else:
@@ -169,37 +171,38 @@ class Painter:
             if arrangement.inset is not None:
                 self._draw_inset(scene, target, arrangement.inset, places[0])
             self._ctx.viewport = area
-            if with_score:
-                self._score.draw(newest, place, (width, height), arrangement.form)
-            self._print_words(newest.hud, (width, height), words, len(frames) > 1)
+            if paper is not None:
+                self._score.draw(newest, paper, (width, height))
+            self._print_words(newest.hud, (width, height), page, len(frames) > 1)
 
         return finish
 
-    def _print_words(self, shown: Hud, size: tuple[int, int], words: tuple[int, int], has_names: bool) -> None:
-        """Print what stands over the picture; the upper lines lie below what moves where that is drawn in layers."""
+    def _print_words(self, shown: Hud, size: tuple[int, int], page: "_Page", has_names: bool) -> None:
+        """Print what stands over the picture, and in its band where that is not kept with what stands still."""
         self.printer.theme = over_picture(self.theme)
         if has_names:
-            self.printer.draw(self._names(words), Transform(size))
+            self.printer.draw(self._names(page), Transform(size))
         if not self.quality.is_layered:
-            self.printer.draw(self._lines.of(hud.corners(shown), words), Transform(size))
-        self.printer.draw(self._calls.of(shown, words), Transform(size))
+            self.printer.draw(self._lines.of(hud.corners(shown), page), Transform(size))
+        self.printer.draw(self._calls.of(shown, page), Transform(size))
 
-    def _draw_veil(self, size: tuple[int, int], height: int) -> None:
-        """What darkens the scene, `height` pixels high, behind the upper lines."""
-        self.printer.theme = over_picture(self.theme)
-        self.printer.fill((0.0, 0.0, float(size[0]), hud.VEIL_HEIGHT * hud.scale(height)), hud.VEIL, Transform(size))
-        self.printer.theme = self.theme
+    def _fill_band(self, page: "_Page", size: tuple[int, int]) -> None:
+        """The paper of the upper lines, above the scene."""
+        if page.band:
+            self.printer.theme = over_picture(self.theme)
+            self.printer.fill((0.0, 0.0, float(page.size[0]), float(page.band)), (PAPER, PAPER), Transform(size))
+            self.printer.theme = self.theme
 
     def _lay_lines(self, lines: NDArray[np.void], size: tuple[int, int]) -> None:
-        """Print the upper lines where nothing that moves comes before them."""
+        """Print the upper lines."""
         self.printer.theme = over_picture(self.theme)
-        self.printer.draw_before_all(lines, Transform(size))
+        self.printer.draw(lines, Transform(size))
         self.printer.theme = self.theme
 
-    def _names(self, size: tuple[int, int]) -> NDArray[np.void]:
+    def _names(self, page: "_Page") -> NDArray[np.void]:
         """Who is who in two pictures side by side."""
-        if size != self._named[0]:
-            self._named = size, hud.name_shapes(self.atlas, (float(size[0]), float(size[1])))
+        if page != self._named[0]:
+            self._named = page, hud.name_shapes(self.atlas, page.size, page.band, page.letters)
         return self._named[1]
 
     def _draw_inset(self, scene: Scene, target: moderngl.Framebuffer, camera: Camera, scene_area: Area) -> None:
@@ -245,17 +248,30 @@ class Painter:
         return self._scene
 
 
+@dataclass(frozen=True, slots=True)
+class _Page:
+    """Where words stand: scene and `band` together have `size` pixels; `letters` as in `Arrangement`."""
+
+    size: tuple[int, int]
+    letters: float | None = None
+    band: int = 0
+
+
+def _page(words: Hud, size: tuple[int, int], letters: float | None) -> _Page:
+    return _Page(size, letters, hud.band_height(words, size, letters))
+
+
 class _Kept:
-    """Remembers the last shapes that `made` of words for a scene of a size."""
+    """Remembers the last shapes that `made` of words for a page."""
 
-    def __init__(self, made: Callable[[Hud, tuple[float, float]], NDArray[np.void]]) -> None:
+    def __init__(self, made: Callable[[Hud, _Page], NDArray[np.void]]) -> None:
         self._made = made
-        self._last = (Hud(), (0, 0)), np.empty(0, SHAPE_DTYPE)
+        self._last = (Hud(), _Page((0, 0))), np.empty(0, SHAPE_DTYPE)
 
-    def of(self, words: Hud, size: tuple[int, int]) -> NDArray[np.void]:
-        """The shapes, made anew only if the words or the size are others."""
-        if (words, size) != self._last[0]:
-            self._last = (words, size), self._made(words, (float(size[0]), float(size[1])))
+    def of(self, words: Hud, page: _Page) -> NDArray[np.void]:
+        """The shapes, made anew only if the words or the page are others."""
+        if (words, page) != self._last[0]:
+            self._last = (words, page), self._made(words, page)
         return self._last[1]
 
 
@@ -268,6 +284,11 @@ def _draw_moving(scene: Scene, smoother: EdgeSmoother, into: moderngl.Framebuffe
 def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:
     """Whether both are the very same, or alike in all that is drawn."""
     return (one[0] is other[0] and one[1] is other[1]) or one == other
+
+
+def form_of(snapshot: Snapshot, form: ScoreForm) -> ScoreForm:
+    """How the snapshot's score is shown: what nobody has written rolls by, below the room."""
+    return form if snapshot.strip is None else ScoreForm.SCROLLING
 
 
 def _side_by_side(scene: Area, count: int) -> list[Area]:

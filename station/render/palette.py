@@ -16,6 +16,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.pieces import Piece
 from station.render.text.draw_list import Colour
 
 
@@ -83,6 +84,27 @@ _INSTEAD: tuple[tuple[Colour, str, str, str], ...] = (
     (WRONG, "87569D", "FFC9F4", "CDAAED"),
 )
 """What stands for each colour of the night."""
+_OF_PIECES: tuple[tuple[tuple[Piece, ...], str, str, str, str], ...] = (
+    # by night, by day, in high contrast, for the colour-blind
+    ((Piece.KICK,), "A253FF", "7928C7", "23A6F5", "9875CB"),
+    ((Piece.SNARE,), "FDB7E9", "BA4263", "C48694", "F878AC"),
+    ((Piece.HIHAT, Piece.HIHAT_PEDAL), "33FFB0", "0D74A5", "05FFAB", "0CEDFF"),
+    ((Piece.RIDE, Piece.RIDE_2), "B0FF7B", "1C046F", "A8FF7E", "A2F205"),
+    ((Piece.CRASH_1, Piece.CRASH_2, Piece.SPLASH, Piece.CHINA), "E9F709", "D03109", "F8DE1F", "FDCB8C"),
+    ((Piece.TOM_1, Piece.TOM_2), "6C81D0", "2600FF", "AEBDE4", "666DFC"),
+    ((Piece.TOM_3, Piece.TOM_4), "20B500", "1B000C", "E87C10", "2FB316"),
+    ((Piece.FLOOR_TOM_1, Piece.FLOOR_TOM_2), "AD6B87", "661D58", "9C9A60", "A97757"),
+    ((Piece.COWBELL, Piece.TAMBOURINE, Piece.CLAP, Piece.PERCUSSION), "8B9157", "710A08", "FEFFFF", "FFFFE5"),
+)
+"""The colours of pieces, wherever one tells them apart: sought as the themes' signals are, for names to be read in."""
+_PIECE_COLOURS = {piece: _hex(night) for pieces, night, *_ in _OF_PIECES for piece in pieces}
+
+
+def piece_colour(piece: Piece) -> Colour:
+    """The colour of a piece; those of one kind share it, and lanes and lines tell them apart."""
+    return _PIECE_COLOURS[piece]
+
+
 _COLUMNS = {Theme.DAY: 1, Theme.CONTRAST: 2, Theme.APART: 3}
 
 
@@ -91,7 +113,10 @@ def _key(colour: Colour) -> int:
     return r << 16 | g << 8 | b
 
 
-_ROWS = sorted(_INSTEAD, key=lambda row: _key(row[0]))
+_ROWS = sorted(
+    (*_INSTEAD, *((_hex(night), day, contrast, apart) for _, night, day, contrast, apart in _OF_PIECES)),
+    key=lambda row: _key(row[0]),
+)
 _KEYS = np.array([_key(row[0]) for row in _ROWS])
 _RGB = {
     theme: np.array([[*bytes.fromhex(str(row[column]))] for row in _ROWS], np.uint8)

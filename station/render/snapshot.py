@@ -84,6 +84,8 @@ class Hud:
     `phase` in words such as "Demonstration" or "Pass 2 of 4"; `bar` and `beat` from 1, None while nothing runs; `beats`
     a bar; `count_in` the number to show large, None outside a count-in; `right`, `judged` this pass's counts; `message`
     a sentence for the user; `cue` with `cue_age_s` since it came; `say` the words of the lesson's teacher.
+    `tempo_words` explain the tempo, `reason` why the pass is as it is. While nothing moves `halt` is the word to show
+    large, such as "Paused", and `way_on` how to go on.
     """
 
     title: str = ""
@@ -100,6 +102,10 @@ class Hud:
     cue: TimingCue = TimingCue.NONE
     cue_age_s: float = 0.0
     say: str = ""
+    tempo_words: str = ""
+    reason: str = ""
+    halt: str = ""
+    way_on: str = ""
 
 
 def no_marks(score: Score) -> NDArray[np.void]:
@@ -181,8 +187,10 @@ class Snapshot:
     the rows of `score`; nobody writes to it after it was put here. `limbs` (n,) of `Limb` shows the sticking, None what
     the score says. Written tempi count beats of `beat_ticks`; `spelling` is how a take is written. `pose` None draws
     the kit alone. Where there is a `strip`, it stands in place of the score. `double` is the student beside the
-    demonstrator, for those who want to see it. `view` is from where the lesson's teacher wants it to be seen, None
-    where they leave it to whoever looks.
+    demonstrator, for those who want to see it. `comes_again`: after the score's end its first bars come once more, in
+    this picture's score or in the next one's; `before` is the score that was played before this one, None where none
+    was. `is_replay`: what was played is heard again, to be studied. `view` is from where the lesson's teacher wants it
+    to be seen, None where they leave it to whoever looks.
     """
 
     score: Score
@@ -200,4 +208,7 @@ class Snapshot:
     spelling: TakeSpelling | None = None
     strip: Strip | None = None
     double: StudentShown | None = None
+    comes_again: bool = False
+    before: Score | None = None
+    is_replay: bool = False
     view: NamedView | None = None

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from station.core.pieces import Limb
+from station.music.judgement import Label
 from station.practice.session.session import SessionResult
 from station.scoring.matching.right import right_notes
 
@@ -50,10 +51,11 @@ def heat_map(result: SessionResult) -> HeatMap:
     if not len(score):
         return HeatMap({})
     bars = np.asarray(result.plan.practised_bars, np.int32)[score.bar] + 1
+    known = result.alignment.note_label != Label.UNKNOWN
     right = right_notes(score, result.alignment, result.plan.level.windows)
     cells: dict[tuple[int, Limb], HeatCell] = {}
     for limb in LIMBS:
-        mine = score.notes["limb"] == limb
+        mine = known & (score.notes["limb"] == limb)
         for bar in np.unique(bars[mine]).tolist():
             here = mine & (bars == bar)
             cells[bar, limb] = HeatCell(int(right[here].sum()), int(here.sum()))

@@ -94,5 +94,7 @@ def _judged(dot: np.void) -> str:
         return "missed"
     if label is Label.EXTRA:
         return "not written"
+    if label is Label.UNKNOWN:
+        return "unknown, for nothing could be heard"
     when = "on time" if round(late_ms) == 0 else f"{abs(late_ms):.0f} ms {'late' if late_ms > 0 else 'early'}"
     return f"{when}, on a wrong pad" if label is Label.WRONG_PIECE else when

@@ -11,6 +11,7 @@ from station.drills.lesson import BarCue
 from station.motion.drummer import Drummer
 from station.motion.style.automation_lanes import in_passes
 from station.music.judgement import Label
+from station.practice.now.tempo_now import tempo_at
 from station.practice.records.save_session import SessionRecord
 from station.practice.records.session_files import DRUMMER_NAME, PICTURE_NAME
 from station.practice.session.session import SessionResult
@@ -46,7 +47,6 @@ def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) 
     """The last pass of a session, half into its first bar, every note with its judgement; raises `DeviceError`."""
     plan = result.plan
     numbers = bar_numbers(plan.lesson.sections, plan.first_bar, plan.section.bar_count, plan.passes)
-    tempo_map = result.score.tempo_map
     tempo_map, last = result.score.tempo_map, plan.pass_starts[-1]
     begin_s, end_s = tempo_map.seconds_at([tempo_map.bar_start(last), tempo_map.bar_start(last + 1)]).tolist()
     snapshot = picture_of(drummer_of(result, demonstrator), (begin_s + end_s) / 2)
@@ -61,9 +61,9 @@ def draw_session(result: SessionResult, path: Path, demonstrator: Demonstrator) 
     hud = Hud(
         title=plan.lesson.title,
         phase="1 pass played" if plan.passes == 1 else f"{plan.passes} passes played",
-        beats_a_minute=plan.beats_a_minute,
+        beats_a_minute=tempo_at(tempo_map, tempo_map.bar_start(last), plan.lesson.beat_ticks),
         right=right,
-        judged=len(result.score),
+        judged=len(result.score) - result.alignment.count(Label.UNKNOWN),
     )
     shown = replace(
         snapshot,
@@ -83,7 +83,8 @@ def picture_of(drummer: Drummer, at_s: float, words: ScoreWords = NO_WORDS) -> S
     if 0 <= at_s * NS_PER_S < score.length_ns:
         place = score.tempo_map.position_at(int(score.tempo_map.ticks_at(at_s)))
         beats = score.tempo_map.meter_at(score.tempo_map.bar_start(place.bar)).beats
-        hud = replace(hud, bar=place.bar + 1, beat=place.beat + 1, beats=beats)
+        tempo = tempo_at(score.tempo_map, int(score.tempo_map.ticks_at(at_s)), words.beat_ticks)
+        hud = replace(hud, bar=place.bar + 1, beat=place.beat + 1, beats=beats, beats_a_minute=tempo)
     pose, limbs = drummer.pose(at_s), drummer.assignment.limbs
     return Snapshot(
         score,

@@ -4,6 +4,7 @@ import numpy as np
 
 from station.core.units import NS_PER_S
 from station.music.judgement import Label
+from station.practice.now.tempo_now import tempi_in_words
 from station.practice.records.stick_words import stick_lines
 from station.practice.session.session import SessionResult
 from station.render.report.result_facts import ResultFacts, ResultWords, result_facts
@@ -26,9 +27,9 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
     passes = "1 pass" if plan.passes == 1 else f"{plan.passes} passes"
     words = ResultWords(
         title=plan.lesson.title,
-        subtitle=f"{passes} of {bars} at {round(plan.beats_a_minute, 3):g} bpm{stopped}{_standing(document)}",
+        subtitle=f"{passes} of {bars} at {tempi_in_words(plan, result.score)}{stopped}{_standing(document)}",
         points=float(points) if isinstance(points, float | int) else None,
-        advice=tuple(map(str, steps)),
+        advice=(*_lag_words(document), *map(str, steps)),
         technique=(*stick_lines(document), *technique_lines(document)),
         first_bar=plan.first_bar,
         starts=plan.pass_starts,
@@ -41,6 +42,12 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         np.asarray(result.performance.hits["at_ns"][extra] / NS_PER_S),
         words,
     )
+
+
+def _lag_words(document: dict[str, Json]) -> tuple[str, ...]:
+    """What was found of a lag: before all advice, for it says what the score leaves out."""
+    lag = document.get("lag")
+    return (str(lag["text"]),) if isinstance(lag, dict) and lag["text"] else ()
 
 
 def _standing(document: dict[str, Json]) -> str:

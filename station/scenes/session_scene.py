@@ -11,15 +11,19 @@ import numpy as np
 
 from station.core.events import Hit
 from station.core.pieces import Limb
-from station.core.units import NS_PER_MS, NS_PER_S, PPQ
+from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.mastery.feedback_fading import Feedback
 from station.engine.engine import KEYBOARD
 from station.motion.drummer import Drummer
 from station.motion.style.style import Style
 from station.music.judgement import Judgement, Label
+from station.music.score import Score
+from station.practice.now.directions_now import direction_of
+from station.practice.now.entry_now import entry_words
+from station.practice.now.tempo_now import session_tempo
+from station.practice.now.whereabouts import Doing, whereabouts
 from station.practice.session.plan import Phase, Plan
 from station.practice.session.session import Session, SessionResult
-from station.practice.session.session_place import direction_of, place_of
 from station.render.snapshot import ExtraHit, Hud, SeenStrike, Snapshot, TimingCue, mark, no_marks
 from station.scenes.curves import ScoreCurves, played_of_marks, played_of_result
 from station.scenes.demonstrator import Demonstrator
@@ -37,6 +41,9 @@ CUE_SHOWN_NS = 1200 * NS_PER_MS
 
 CUE_OF_LEAN = {-1: TimingCue.EARLY, 0: TimingCue.ON_TIME, 1: TimingCue.LATE}
 """The cue of a stroke that leans so (`Windows.lean`)."""
+_WAITED_FOR = "play on: the score goes on with you"
+MARKS_OF = {Feedback.TIMING: "", Feedback.PADS: ", early and late not shown", Feedback.NONE: ", blind: no marks"}
+"""What is said of a pass in which marks are held back on purpose: else it looks as if nothing was heard."""
 _CUE_OF = {Label.MISS: TimingCue.MISSED, Label.WRONG_PIECE: TimingCue.WRONG_PIECE}
 
 
@@ -49,11 +56,14 @@ class SessionView:
         demonstrator: Demonstrator | None = None,
         before: "SessionView | None" = None,
         demonstrates: bool = True,
+        goes_on: bool = False,
     ) -> None:
         """`before` is the view that was shown last: its drummer sits there while this one's is made.
 
-        Where nobody `demonstrates` they sit still, and hands are those that the score writes.
+        Where nobody `demonstrates` they sit still, and hands are those that the score writes. Where practice `goes_on`
+        more passes follow those of the plan.
         """
+        self._goes_on = goes_on
         self.plan, self._demonstrates = plan, demonstrates
         self._demonstrator = demonstrator or Demonstrator()
         self._sits = None if before is None else before.sitting
@@ -110,18 +120,18 @@ class SessionView:
         for verdict in session.shown(session.verdicts.values()):
             mark(self._marks, verdict, loudness=not _by_key(verdict, session.hits))
 
-    def snapshot(self, session: Session, now_ns: int, message: str = "") -> Snapshot:
-        """The picture at session time `now_ns`."""
+    def snapshot(self, session: Session, now_ns: int, way_on: str = "") -> Snapshot:
+        """The picture at session time `now_ns`; `way_on` says how to go on out of a pause."""
         state = session.state()
         if state.transport_ns is None:
-            return self._ready(message)
+            return self._ready(session)
         part, position_s = self._part_at(state.transport_ns)
         if not part.is_ready and self._sits is not None:
             return replace(
                 self._waiting(part, self._sits),
                 position_s=position_s,
                 strikes=strikes(session.heard.recent, now_ns),
-                hud=self._hud(session, now_ns, message or _why(session)),
+                hud=self._hud(session, now_ns, way_on),
             )
         drummer = part.drummer(self._demonstrator.style)
         double, drummer_s = None, position_s if self._demonstrates else WAITING_S
@@ -140,10 +150,12 @@ class SessionView:
             marks=self._marks if part is self._passes else None,
             extras=self._extras(session) if part is self._passes and session.feedback is not Feedback.NONE else (),
             strikes=strikes(session.heard.recent, now_ns),
-            hud=self._hud(session, now_ns, message or _why(session)),
+            hud=self._hud(session, now_ns, way_on),
             bar_numbers=part.bar_numbers,
             beat_ticks=self.plan.lesson.beat_ticks,
             double=double,
+            comes_again=self._comes_again(part),
+            before=self._before(part),
             view=direction_of(session).view,
         )
 
@@ -172,12 +184,13 @@ class SessionView:
         part = self._passes if transport_ns >= self.plan.demonstrations_end_ns else self._demonstration
         return part, part.position_s(transport_ns)
 
-    def _ready(self, message: str) -> Snapshot:
+    def _ready(self, session: Session) -> Snapshot:
         """The picture before anything runs: the drummer waits, the score stands at its first bar."""
         part, plan, drummer = self._demonstration, self.plan, self._sits
         if drummer is None or part.is_ready:
             drummer = part.drummer(self._demonstrator.style)
-        hud = Hud(plan.lesson.title, "Ready", beats_a_minute=plan.beats_a_minute, message=message)
+        tempo = session_tempo(session)
+        hud = Hud(plan.lesson.title, whereabouts(session).words, beats_a_minute=tempo.now, tempo_words=tempo.words)
         return replace(self._waiting(part, drummer), hud=hud)
 
     def _waiting(self, part: SessionPart, drummer: Drummer) -> Snapshot:
@@ -191,7 +204,17 @@ class SessionView:
             limbs=part.score.notes["limb"],
             bar_numbers=part.bar_numbers,
             beat_ticks=self.plan.lesson.beat_ticks,
+            comes_again=self._comes_again(part),
+            before=self._before(part),
         )
+
+    def _comes_again(self, part: SessionPart) -> bool:
+        """Whether the bars of `part` are played once more after it: passes follow a demonstration."""
+        return part is not self._passes or self._goes_on
+
+    def _before(self, part: SessionPart) -> Score | None:
+        """What was played before `part`."""
+        return self._demonstration.score if part is self._passes and part is not self._demonstration else None
 
     def _extras(self, session: Session) -> tuple[ExtraHit, ...]:
         hits = [session.hits[index] for index in session.extras()]
@@ -199,37 +222,32 @@ class SessionView:
 
     # --- words -------------------------------------------------------------------------------------------------------
 
-    def _hud(self, session: Session, now_ns: int, message: str) -> Hud:
+    def _hud(self, session: Session, now_ns: int, way_on: str) -> Hud:
         plan, segment = self.plan, session.state().segment
-        bar, beat = place_of(session)
+        where, tempo = whereabouts(session), session_tempo(session)
+        is_counted_in = where.doing is Doing.COUNT_IN
         right, judged = self._counts(session, segment.index) if segment.phase is Phase.PASS else (0, 0)
         age_ns = now_ns - self._cue_ns
         return Hud(
             title=plan.lesson.title,
-            phase=plan.words(segment),
-            bar=bar,
-            beat=beat,
-            beats=_beats_of(plan, bar),
-            bar_count=max(plan.lesson.score.bar_count, bar or 0),
-            beats_a_minute=self._beats_a_minute(session),
-            count_in=beat if segment.phase is Phase.COUNT_IN else None,
+            phase=where.words + (MARKS_OF[session.feedback] if segment.phase is Phase.PASS else ""),
+            bar=where.bar,
+            beat=where.beat,
+            beats=_beats_of(plan, where.bar),
+            bar_count=max(plan.lesson.score.bar_count, where.bar or 0),
+            beats_a_minute=tempo.now,
+            count_in=where.beat if is_counted_in else None,
             right=right,
             judged=judged,
-            message=message,
+            message=session.message if is_counted_in else entry_words(session) if where.doing is Doing.PASS else "",
             cue=self._cue if age_ns < CUE_SHOWN_NS else TimingCue.NONE,
             cue_age_s=age_ns / NS_PER_S,
             say=direction_of(session).say,
+            tempo_words=tempo.words,
+            reason="" if is_counted_in else session.message,
+            halt=where.halt,
+            way_on=way_on if where.doing is Doing.PAUSED else _WAITED_FOR if where.doing is Doing.WAITING else "",
         )
-
-    def _beats_a_minute(self, session: Session) -> float:
-        """The tempo where the music is; before and after it the one that it begins with."""
-        state, plan = session.state(), self.plan
-        if state.transport_ns is None or state.segment.phase not in (Phase.DEMONSTRATION, Phase.PASS):
-            return plan.beats_a_minute
-        music, start_ns = plan.music_of(state.segment)
-        tempo_map = music.tempo_map
-        tick = int(tempo_map.ticks_at_ns(max(state.transport_ns - start_ns, 0)))
-        return tempo_map.bpm_at(tick) * PPQ / plan.lesson.beat_ticks
 
     def _counts(self, session: Session, pass_index: int) -> tuple[int, int]:
         """Notes right and notes judged of one pass, of those whose marks are shown."""
@@ -264,11 +282,6 @@ def _beats_of(plan: Plan, bar: int | None) -> int:
     """How many beats the lesson's `bar`, from 1, has as it is practised; None: the first."""
     tempo_map = plan.section.tempo_map
     return tempo_map.meter_at(tempo_map.bar_start(0 if bar is None else bar - 1 - plan.first_bar)).beats
-
-
-def _why(session: Session) -> str:
-    """The reason for the pass, while it is counted in."""
-    return session.message if session.state().segment.phase is not Phase.PASS else ""
 
 
 def cue_of(verdict: Judgement, windows: Windows) -> TimingCue:

@@ -107,6 +107,12 @@ class Mixer:
         """Bring the playing track to `position`, the frames since its start that the next block should begin with."""
         self._tracks.keep_at(position)
 
+    def use(self, kit: DrumKit, clicks: Mapping[ClickVoice, Frames]) -> None:
+        """Sound what begins from now on by this kit and these clicks; what rings, rings out."""
+        assert kit.rate_hz == self.kit.rate_hz, "a kit is read for the card's rate"
+        self.kit, self._clicks = kit, clicks
+        self._turns.clear()
+
     def set_level(self, bus: Bus, level: float, pan: float = 0.0) -> None:
         """Set the level (0 silent, 1 full) and balance (−1 left … 1 right) of `bus`, from the next block on."""
         self._levels.set(bus, level, pan)

@@ -15,24 +15,29 @@ from imgui_bundle import hello_imgui, imgui
 from numpy.typing import NDArray
 
 from station.app.actions.practice_actions import Dismiss, EndSession
+from station.app.controller import Controller
 from station.app.room_state import RoomState, Stage
 from station.app.settings.settings_store import SettingsStore
 from station.app.window_state import State
+from station.core.clock import Clock
 from station.core.settings import Settings, save_settings
 from station.core.units import ns_from_ms
 from station.drills.library import find_lesson
 from station.gui.display import Rectangle
 from station.gui.glfw_screen import glfw_screen
 from station.gui.panels.choice_panel import CHOICE, label_of
+from station.gui.panels.lessons.lesson_list import LIST
+from station.gui.panels.lessons_panel import EDIT_LABEL, OPTIONS, TURN_LABEL
 from station.gui.panels.panel import PANELS_LABEL
 from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.window import Window
 from station.gui.window_frame import WindowOptions
+from station.practice.lag.first_groove import FIRST_GROOVE, FIRST_TIME
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.render.snapshot import Snapshot
-from station.simulation.student_spec import parse_spec
+from station.simulation.student_spec import StudentSpec, parse_spec
 from tests.gui.legible import present_faults
-from tests.gui.room import station
+from tests.gui.room import DirectEngine, station
 from tests.gui.screen_shot import screen_shot
 
 STEP_NS = ns_from_ms(100)
@@ -43,6 +48,7 @@ PICTURE_EVERY = 25
 """Without a graphics card the picture takes nine tenths of a frame; a test of the panels sees it now and then."""
 NEWCOMER = "newcomer"
 """Not a student's spec: nobody has answered the questions of the first start yet."""
+OPTIONAL = imgui.test_engine.TestOpFlags_.no_error
 TIMEOUT_S = 600.0  # the parent's own limit is what ends a run that hangs
 
 Scenario = Callable[["Drive", imgui.test_engine.TestContext], None]
@@ -77,12 +83,15 @@ class Drive:
     def __init__(
         self, sessions: Path, student: str | None, picture_every: int = PICTURE_EVERY, size: tuple[int, int] = SIZE
     ) -> None:
-        spec = None if student in (None, NEWCOMER) else parse_spec(str(student))
+        is_new = student is not None and student.startswith(NEWCOMER)
+        said = (student or "").removeprefix(NEWCOMER).removeprefix(",")
+        spec = parse_spec(said) if said else None
         self.picture_every = picture_every
-        settings = Settings(sessions=str(sessions), welcomed=student != NEWCOMER)
+        settings = Settings(sessions=str(sessions), welcomed=not is_new)
         self.settings = save_settings(settings, sessions / "settings.toml")
         store = SettingsStore(self.settings)
-        self.station, self.engine, self.clock = station("rock-1", PlanOptions(), store, spec, STEP_NS)
+        first = (FIRST_GROOVE, FIRST_TIME) if is_new else ("rock-1", PlanOptions())
+        self.station, self.engine, self.clock = self.made(*first, store, spec)
         options = WindowOptions(size, quality=0, remember_layout=False, tests=self._register)
         options = replace(
             options, picture_every=picture_every, shown=self._frame_is_shown, screen=self._monitors_are_asked_for
@@ -96,6 +105,12 @@ class Drive:
         self.faults: list[str] = []
         """What cannot be read of the panels as they were looked at last."""
         self._scenarios: Sequence[Scenario] = ()
+
+    def made(
+        self, lesson: str, options: PlanOptions, store: SettingsStore, student: StudentSpec | None
+    ) -> tuple[Controller, DirectEngine, Clock]:
+        """The station that opens on `lesson`, its engine and its clock: here a played one."""
+        return station(lesson, options, store, student, STEP_NS)
 
     @property
     def seen(self) -> dict[str, object]:
@@ -232,11 +247,39 @@ class Drive:
     def choose(self, ctx: imgui.test_engine.TestContext, passes: int) -> None:
         """Take `LESSON` from the list and set its passes."""
         lesson = find_lesson(LESSON)
-        ctx.set_ref("//Lessons")
+        to_list(ctx)
         ctx.item_input_value("##search", lesson.title.split(":")[0])
         ctx.item_click(f"**/###{LESSON}")
+        to_options(ctx)
         ctx.item_input_value("##passes", passes)
+        ctx.set_ref("//Lessons")
         self.engine.plan = plan_practice(lesson, PlanOptions(lesson.tempo_bpm, passes))
+
+
+def to_options(ctx: imgui.test_engine.TestContext) -> None:
+    """Refer to the options of the chosen lesson from now on, which a low panel shows in place of the list."""
+    ctx.set_ref("//Lessons")
+    if ctx.item_exists(TURN_LABEL) and ctx.window_info(f"//Lessons/{OPTIONS}", OPTIONAL).window is None:
+        ctx.item_click(TURN_LABEL)
+        ctx.yield_(2)
+    shown = ctx.window_info(f"//Lessons/{OPTIONS}").window
+    assert shown is not None, "the options are shown"
+    ctx.set_ref(shown)
+
+
+def to_edit(ctx: imgui.test_engine.TestContext) -> None:
+    """Refer to where the editor is opened, which is among the options of a low panel."""
+    ctx.set_ref("//Lessons")
+    if not ctx.item_exists(EDIT_LABEL):
+        to_options(ctx)
+
+
+def to_list(ctx: imgui.test_engine.TestContext) -> None:
+    """Show the list again, which a low panel may have turned over."""
+    ctx.set_ref("//Lessons")
+    if ctx.window_info(f"//Lessons/{LIST}", OPTIONAL).window is None:
+        ctx.item_click(TURN_LABEL)
+        ctx.yield_(2)
 
 
 def press_view(ctx: imgui.test_engine.TestContext, label: str) -> None:

@@ -19,8 +19,9 @@ from station.gui.panels.editor.editor_toolbar import (
     SAVE_AS_LABEL,
     STEP_LABEL,
 )
-from station.gui.panels.lessons_panel import EDIT_LABEL, NEW_LABEL, RESUME_LABEL, UNSAVED
-from tests.gui.drive import Drive
+from station.gui.panels.lessons.lesson_list import RESUME_LABEL, UNSAVED
+from station.gui.panels.lessons_panel import ADD_LABEL, EDIT_LABEL, NEW_LABEL
+from tests.gui.drive import Drive, to_edit
 from tests.gui.key_chord import chord
 
 Test = imgui.test_engine.TestContext
@@ -64,7 +65,8 @@ def choose_step(ctx: Test, step: GridStep) -> None:
 def two_empty_bars(drive: Drive, ctx: Test) -> None:
     """A new lesson from the list, with a second bar, written in sixteenths."""
     ctx.set_ref("//Lessons")
-    ctx.item_click(f"**/{NEW_LABEL}")
+    ctx.item_click(ADD_LABEL)
+    ctx.item_click(f"//$FOCUSED/{NEW_LABEL}")
     ctx.yield_(3)
     ctx.set_ref("//Editor")
     choose_step(ctx, GridStep.SIXTEENTHS)
@@ -253,7 +255,7 @@ def closes_by_escape(drive: Drive, ctx: Test) -> None:
 def changes_what_plays(drive: Drive, ctx: Test) -> None:
     """A copy of a lesson that ships plays on while it is changed; the drummer and the sound follow."""
     drive.choose(ctx, passes=1)
-    ctx.set_ref("//Lessons")
+    to_edit(ctx)
     ctx.item_click(EDIT_LABEL)
     ctx.yield_(3)
     seen = drive.seen

@@ -20,6 +20,9 @@ from station.gui import theme
 _VERTEX = np.dtype([("at", "<f4", 2), ("uv", "<f4", 2), ("colour", "<u4")])
 _SLACK = 1.0
 """Pixels that a letter's soft edge may lose."""
+_SOFT = 0.5
+"""Pixels of a letter's rectangle on each side that its soft edge alone has: they are whole pixels, letters are not.
+An l or a ; of 14 pixels is two wide, and shares one with an f or a k before it."""
 _MOST_SHARED = 0.35
 """How much of a letter another may cover: neighbours touch by less."""
 _RECTANGLE = np.array([0, 1, 2, 0, 2, 3])
@@ -134,6 +137,7 @@ def _cut(seen: Letters, font: Font) -> Iterator[str]:
 def _covered(seen: Letters, font: Font) -> Iterator[str]:
     text, _ = font.read(seen.uv)
     at = np.concatenate([np.maximum(seen.at[:, :2], seen.clip[:, :2]), np.minimum(seen.at[:, 2:], seen.clip[:, 2:])], 1)
+    at += np.array([_SOFT, _SOFT, -_SOFT, -_SOFT])
     area = np.prod(np.maximum(at[:, 2:] - at[:, :2], 0.0), axis=1)
     for index in np.flatnonzero(area > 0).tolist():
         rest = at[index + 1 :]

@@ -4,10 +4,15 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
+from station.app.sessions.who_plays import QUESTION
 from station.core.settings import load_settings
 from station.gui.panels.import_panel import IMPORT, IMPORT_LABEL, PASTE_LABEL, SOURCE_LABEL
+from station.gui.panels.lessons.lesson_list import FREE_LABEL
+from station.gui.panels.lessons.who_plays import NEW_NAME, WHO_LABEL
+from station.gui.panels.lessons_panel import ADD_LABEL
 from station.gui.panels.lessons_panel import IMPORT_LABEL as OPEN_IMPORT_LABEL
-from tests.gui.drive import Drive, open_panel
+from station.gui.widgets.level_choice import LEVEL_LABEL
+from tests.gui.drive import Drive, open_panel, to_list, to_options
 from tests.gui.dropped_files import drop_files
 
 
@@ -28,6 +33,54 @@ def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         drive.seen[f"chosen in {kept or 'none'}"] = drive.state.selection.card and drive.state.selection.card.name
 
 
+def whose(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """Another student is written down and plays, a pad lets the first one play again; Start is always at one place."""
+    (Path(drive.state.settings.sessions_dir) / "Cem" / "mastery").mkdir(parents=True)
+    drive.choose(ctx, passes=3)
+    places = drive.seen["start"] = [place_of_start(ctx)]
+    to_options(ctx)
+    ctx.item_click(LEVEL_LABEL)
+    ctx.item_click("//$FOCUSED/###studio")
+    ctx.yield_(2)
+    drive.seen["levels"] = [str(drive.state.selection.level)]
+    ctx.item_click(f"//Lessons/{WHO_LABEL}")
+    ctx.yield_(2)
+    drive.seen["unread"] = drive.unread(ctx)
+    ctx.set_ref(f"//{QUESTION}")
+    ctx.item_input_value(NEW_NAME, "  Bea   Bell ")
+    drive.wait_until(ctx, lambda state: not state.students.asks)
+    ctx.yield_(2)
+    drive.seen["plays"] = [drive.state.settings.student]
+    drive.seen["levels"].append(str(drive.state.selection.level))  # type: ignore[attr-defined] # a list
+    places.append(place_of_start(ctx))
+    drive.engine.play_bytes("b0 40 7f")  # a foot switch: the kit asks
+    drive.wait_until(ctx, lambda state: state.students.hears)
+    drive.seen["listed"] = [[line.name, line.pad] for line in drive.state.students.lines]
+    drive.engine.play_bytes("99 32 50")  # the high tom is the second student's
+    drive.wait_until(ctx, lambda state: not state.students.asks)
+    ctx.yield_(2)
+    drive.seen["plays"].append(drive.state.settings.student)  # type: ignore[attr-defined] # a list
+    drive.seen["levels"].append(str(drive.state.selection.level))  # type: ignore[attr-defined] # a list
+    to_list(ctx)
+    ctx.item_input_value("##search", "")
+    for name in ("", "##free"):
+        choose_row(ctx, name)
+        places.append(place_of_start(ctx))
+
+
+def choose_row(ctx: imgui.test_engine.TestContext, name: str) -> None:
+    """Press a line of the list, empty for the first lesson."""
+    to_list(ctx)
+    ctx.item_click(f"**/{FREE_LABEL}" if name else "**/###rock-1")
+    ctx.yield_(3)
+
+
+def place_of_start(ctx: imgui.test_engine.TestContext) -> list[float]:
+    """Where Start is on the screen: left, top, right, bottom."""
+    whole = ctx.item_info("//Lessons/Start##start").rect_full
+    return [whole.min.x, whole.min.y, whole.max.x, whole.max.y]
+
+
 def imports(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Music comes in by a typed path, by what is dropped, as GLFW hands it over, and by what was copied."""
     folder = Path.cwd()
@@ -35,7 +88,8 @@ def imports(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     for name in ("typed", "dropped", "copied"):
         (folder / f"{name}.tab").write_text(tab.format(name.title()))
     ctx.set_ref("//Lessons")
-    ctx.item_click(OPEN_IMPORT_LABEL)
+    ctx.item_click(ADD_LABEL)
+    ctx.item_click(f"//$FOCUSED/{OPEN_IMPORT_LABEL}")
     ctx.yield_(3)
     ctx.set_ref(f"//{IMPORT}")
     ctx.item_input_value(SOURCE_LABEL, str(folder / "typed.tab"))

@@ -7,21 +7,26 @@ from imgui_bundle import imgui
 from station.app.actions.settings_actions import SetView
 from station.app.room_state import Stage
 from station.gui.panels.export_panel import EXPORT, PLAYED_LABEL
-from station.gui.panels.lessons_panel import ADAPT_LABEL, FILM_LABEL, FREE_LABEL, LEVEL_LABEL, LISTEN_LABEL
-from station.gui.panels.lessons_panel import LESSON_LABEL as TAKE_LESSON_LABEL
+from station.gui.panels.lessons.lesson_list import FREE_LABEL
+from station.gui.panels.lessons.lesson_options import ADAPT_LABEL, FILM_LABEL, LISTEN_LABEL
+from station.gui.panels.lessons.lesson_options import LESSON_LABEL as TAKE_LESSON_LABEL
 from station.gui.panels.playback_row import STOP_LABEL as HITS_STOP
 from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
+from station.gui.widgets.level_choice import LEVEL_LABEL
 from station.music.formats.format_table import read_part
-from station.render.notation.screen.score_view import ScoreForm
-from tests.gui.drive import MOST_FRAMES, TIMEOUT_S, Drive, open_panel
+from station.render.notation.screen.score_place import ScoreForm
+from tests.gui.drive import MOST_FRAMES, TIMEOUT_S, Drive, open_panel, to_list, to_options
 
 
 def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A whole session, from the list to the results and back."""
     drive.choose(ctx, passes=1)
     drive.seen["suggested"] = str(drive.state.selection.level)
-    ctx.combo_click(f"{LEVEL_LABEL}/judged as advanced")
+    to_options(ctx)
+    ctx.item_click(LEVEL_LABEL)
+    ctx.item_click("//$FOCUSED/###advanced")
     ctx.yield_(2)
+    ctx.set_ref("//Lessons")
     ctx.item_click("Start##start")
     drive.seen["started"] = drive.room.stage.name
     drive.seen["frames"] = drive.wait_for(ctx, Stage.RESULT)
@@ -57,7 +62,7 @@ def keys(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A free take on the keys, and the take heard again."""
-    ctx.set_ref("//Lessons")
+    to_list(ctx)
     ctx.item_click(f"**/{FREE_LABEL}")
     ctx.item_click("Start##start")
     ctx.yield_(8)
@@ -71,6 +76,7 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.key_press(imgui.Key.escape)
     ctx.yield_(3)
     drive.seen["after"] = drive.room.stage.name
+    to_options(ctx)
     ctx.item_click(LISTEN_LABEL)
     ctx.yield_(2)
     drive.seen["listening"] = drive.room.listening
@@ -98,8 +104,8 @@ def just_play(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     assert written is not None
     drive.seen["midi"] = [note.piece.name for note in read_part(written.path).score]
     open_panel(ctx, EXPORT)
-    ctx.set_ref("//Lessons")
-    ctx.item_click(f"**/{TAKE_LESSON_LABEL}")
+    to_options(ctx)
+    ctx.item_click(TAKE_LESSON_LABEL)
     drive.seen["lesson"] = drive.imported(ctx, "Just play")
 
 
@@ -119,7 +125,9 @@ def highway(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """A bar of the result's heat map is clicked, and practised alone."""
     drive.choose(ctx, passes=1)
+    to_options(ctx)
     ctx.item_uncheck(ADAPT_LABEL)
+    ctx.set_ref("//Lessons")
     ctx.item_click("Start##start")
     drive.wait_for(ctx, Stage.RESULT)
     drive.answer(ctx)

@@ -25,7 +25,7 @@ from station.devices.mapping.stick_file import own_stick
 from station.drills.library import find_lesson
 from station.engine.engine import Engine
 from station.engine.latency_measurement import Devices
-from station.engine.messages import Command, EngineEvent, KeyHit, Play, Ready
+from station.engine.messages import Command, EngineEvent, KeyHit, Play, Ready, SetSounds, SoundsSet
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.simulation.student_spec import StudentSpec
 from station.simulation.virtual_student import play
@@ -72,6 +72,8 @@ class DirectEngine:
             raise DeviceError(self.refuses)
         self.sent.append(command)
         self._engine.handle(command)
+        if isinstance(command, SetSounds):
+            self._told.append(SoundsSet(command.drums, command.click))
         if isinstance(command, Play) and self.strokes:
             zero_ns = self._clock.now_ns() + command.start_in_ns
             self._waiting = [(zero_ns + at, data) for at, data in self.strokes]

@@ -30,15 +30,16 @@ from tests.gui.editor_scenarios import (
 from tests.gui.exam_scenario import exam
 from tests.gui.figure import figure
 from tests.gui.interruption_scenarios import closes, lost, unplugged
-from tests.gui.lesson_list_scenarios import imports, search
-from tests.gui.newcomer_scenario import newcomer
+from tests.gui.lesson_list_scenarios import imports, search, whose
+from tests.gui.newcomer_scenario import first_minute, newcomer
 from tests.gui.planned_day import planned_day
 from tests.gui.player_scenarios import graph, phase, player
 from tests.gui.practice_scenarios import drill, fault, highway, just_play, keys, practise
 from tests.gui.song_scenario import song
+from tests.gui.sound_scenario import sound
 from tests.gui.staff_scenarios import clicks, words
 from tests.gui.teacher_scenario import there_and_back
-from tests.gui.view_scenarios import legible, look, score, viewpoints, worn
+from tests.gui.view_scenarios import legible, look, resized, score, viewpoints, worn
 
 SCENARIOS: dict[str, Scenario] = {
     "practise": practise,
@@ -52,12 +53,16 @@ SCENARIOS: dict[str, Scenario] = {
     "unplugged": unplugged,
     "lost": lost,
     "newcomer": newcomer,
+    "first_minute": first_minute,
     "search": search,
+    "whose": whose,
+    "whose_in_a_large_window": whose,
     "imports": imports,
     "look": look,
     "viewpoints": viewpoints,
     "score": score,
     "worn": worn,
+    "resized": resized,
     "legible": legible,
     "devices": devices,
     "calibration": calibration,
@@ -68,6 +73,7 @@ SCENARIOS: dict[str, Scenario] = {
     "phase": phase,
     "figure": figure,
     "song": song,
+    "sound": sound,
     "planned_day": planned_day,
     "exam": exam,
     "exam_in_a_small_window": exam,
@@ -85,11 +91,13 @@ SCENARIOS: dict[str, Scenario] = {
 }
 SIZES = {
     "planned_day": (1280, 900),
+    "whose_in_a_large_window": (1280, 720),
     "exam": (1280, 720),
     "choices": (1280, 720),
     "player": (1280, 560),
     "phase": (1280, 720),
     "song": (1280, 800),
+    "sound": (1280, 1100),
     "there_and_back": (1280, 900),
     "legible": (1280, 720),
     "by_mouse": (1280, 720),
@@ -101,6 +109,7 @@ SIZES = {
 """Of windows, in pixels; the words' is so high that two dozen fields are seen: the test engine finds no others."""
 STUDENTS = {
     "newcomer": NEWCOMER,
+    "first_minute": f"{NEWCOMER},seed=2,sd_ms=30,bias_ms=95",
     "drill": "beginner,seed=3",
     "practise": "pro,seed=4",
     "choices": "pro,seed=4",

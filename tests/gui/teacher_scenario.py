@@ -21,7 +21,7 @@ from station.gui.panels.teacher.take_part import (
 )
 from station.gui.panels.teacher.teacher_panel import CHECK_LABEL, GIVE_TAB, LIST_LABEL, RETURNS_TAB, TEACHER
 from station.practice.session.plan import PlanOptions, plan_practice
-from tests.gui.drive import Drive, open_panel
+from tests.gui.drive import Drive, open_panel, to_options
 from tests.gui.dropped_files import drop_files
 
 TITLE, LESSON = "Week 3", "rock-1"
@@ -90,8 +90,9 @@ class ThereAndBack:
         self.seen["due"] = drive.state.assigned.rows[0].due
         lesson = find_lesson(LESSON)
         self._press(ASSIGNMENTS, f"{lesson.title}##{LESSON}")
-        ctx.set_ref("//Lessons")
+        to_options(ctx)
         ctx.item_input_value("##passes", 2)
+        ctx.set_ref("//Lessons")
         drive.engine.plan = plan_practice(lesson, PlanOptions(lesson.tempo_bpm, 2))
         ctx.item_click("Start##start")
         drive.wait_for(ctx, Stage.RESULT)

@@ -9,12 +9,14 @@ from station.app.actions.settings_actions import SetView
 from station.app.settings.view_settings import view_settings_of
 from station.core.named_view import NamedView
 from station.core.settings import load_settings
+from station.gui.display import Rectangle
 from station.gui.keyboard_kit import VIEW_KEYS
 from station.gui.panels.player_controls import MORE_LABEL
 from station.gui.panels.transport_bar import VIEW_LABEL
+from station.gui.panels.view_popup import LEGEND_LABEL
 from station.render.camera import VIEW_NAMES
 from tests.fakes.stick_physics import FINE_HZ, Sensor, measured
-from tests.gui.drive import Drive
+from tests.gui.drive import MOST_FRAMES, Drive
 from tests.gui.key_chord import chord
 
 
@@ -94,10 +96,10 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 
 def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
-    """The score's three forms by key and in the popup."""
+    """The score's four forms by key and in the popup, and the names of the staff's lines."""
     ctx.mouse_move_to_pos(imgui.ImVec2(600, 200))
     forms = []
-    for _ in range(3):
+    for _ in range(4):
         ctx.key_press(imgui.Key.n)
         ctx.yield_(2)
         forms.append(drive.window.viewport.view_settings.score.name)
@@ -105,10 +107,12 @@ def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref("//Transport")
     ctx.item_click("Look##look")
     ctx.yield_(2)
-    ctx.item_click("//$FOCUSED/Pages##Score")
+    ctx.item_click("//$FOCUSED/Falling##Score")
+    ctx.item_uncheck(f"//$FOCUSED/{LEGEND_LABEL}")
     ctx.yield_(2)
-    drive.seen["chosen"] = drive.window.viewport.view_settings.score.name
-    drive.seen["kept"] = load_settings(drive.settings).score
+    chosen, kept = drive.window.viewport.view_settings, load_settings(drive.settings)
+    drive.seen["chosen"] = [chosen.score.name, chosen.legend]
+    drive.seen["kept"] = [kept.score, kept.legend]
 
 
 def worn(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -151,6 +155,41 @@ def behind_buttons(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     drive.seen["speed"] = drive.state.player.player.speed_percent
     ctx.popup_close_all()
+
+
+def resized(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
+    """The window is made larger and small again while it is open: letters, places of panels, what is read, the help."""
+    assert drive.monitors is not None
+    for width, height in ((1280, 720), (760, 480)):
+        drive.monitors.move(Rectangle(0, 0, width, height))
+        for _ in range(MOST_FRAMES):
+            ctx.yield_()
+            if imgui.get_io().display_size.x == width:
+                break
+        ctx.yield_(6)
+        size = drive.seen[f"{width}"] = {}
+        size["letters"] = imgui.get_style().font_scale_main
+        size["lessons"] = _width_of(ctx, "//Lessons") / width
+        size["unread"] = drive.unread(ctx)
+        ctx.key_press(imgui.Key.f1)
+        ctx.yield_(3)
+        ctx.item_click("//Help/##leaves/Keys")
+        for scale in (1.0, 2.5, 0.75):
+            drive.station.dispatch(SetView(replace(drive.state.view_settings, scale=scale)))
+            ctx.yield_(6)
+            help_window = ctx.window_info("//Help").window
+            assert help_window is not None
+            size[f"help {scale:g}"] = _inside(help_window, width, height)
+            size["unread"] += [line for line in drive.unread(ctx) if line.startswith("Help")]
+        drive.station.dispatch(SetView(replace(drive.state.view_settings, scale=1.0)))
+        ctx.key_press(imgui.Key.f1)
+        ctx.yield_(3)
+
+
+def _inside(window: imgui.internal.Window, width: int, height: int) -> bool:
+    """Whether the whole of it is seen."""
+    low, high = window.pos, (window.pos.x + window.size.x, window.pos.y + window.size.y)
+    return bool(min(low.x, low.y) >= -1 and high[0] <= width + 1 and high[1] <= height + 1)
 
 
 def _width_of(ctx: imgui.test_engine.TestContext, panel: str) -> float:

@@ -5,6 +5,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -23,24 +24,36 @@ from station.render.camera import Camera
 from station.render.framing import named
 from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.gpu.moving_parts import DoublePlace
-from station.render.notation.screen.score_view import AFTER_S, BEFORE_S, ScoreForm, ScorePlace, lead_spaces
+from station.render.hud import band_height
+from station.render.notation.screen.score_place import SHARES, ScoreForm, ScorePlace
+from station.render.notation.screen.score_view import lead_spaces
+from station.render.notation.screen.time_span import BEHIND_SHARE, MOST_AHEAD_S
 from station.render.notation.staff import PLACES, height
 from station.render.notation.staff_rows import staff_rows
-from station.render.painter import SCORE_SHARE, Arrangement, Painter
+from station.render.painter import Arrangement, Painter
 from station.render.palette import BRAND, MISSED, Theme
 from station.render.picture import PictureMaker, Shot, draw_png
 from station.render.quality import QUALITIES, Quality
 from station.render.report.report_layout import page_for
 from station.render.report.report_picture import draw_report_png
 from station.render.report.result_facts import ResultWords, result_facts
-from station.render.snapshot import Hud, LimbParting, SeenStrike, Snapshot, StudentShown, TimingCue, no_marks
+from station.render.snapshot import (
+    BarNumbers,
+    Hud,
+    LimbParting,
+    SeenStrike,
+    Snapshot,
+    StudentShown,
+    TimingCue,
+    no_marks,
+)
 from tests.unit.render.scores import rock, score_of
 from tests.unit.render.test_png_file import decode
 
 pytestmark = pytest.mark.gl
 
 SIZE = (640, 360)
-SCORE_TOP = SIZE[1] - round(SIZE[1] * SCORE_SHARE)
+SCORE_TOP = SIZE[1] - round(SIZE[1] * SHARES[ScoreForm.SCROLLING])
 Picture = NDArray[np.uint8]
 Draw = Callable[..., Picture]
 
@@ -261,8 +274,8 @@ def place_of(score: Score) -> ScorePlace:
 
 PLACE = place_of(SCORE)
 CLEF = lead_spaces(SCORE) * PLACE.space
-PER_S = (SIZE[0] - CLEF) / (BEFORE_S + AFTER_S)
-LINE_X = CLEF + BEFORE_S * PER_S
+LINE_X = CLEF + BEHIND_SHARE * (SIZE[0] - CLEF)
+PER_S = (SIZE[0] - LINE_X) / MOST_AHEAD_S  # two bars at 120
 
 
 def near(colour: tuple[float, float, float, float], picture: Picture, tolerance: int = 60) -> NDArray[np.bool_]:
@@ -270,7 +283,7 @@ def near(colour: tuple[float, float, float, float], picture: Picture, tolerance:
     return np.asarray(np.abs(picture.astype(float) - wanted).max(axis=2) < tolerance)
 
 
-def test_the_play_line_stands_in_the_middle_of_the_music(draw: Draw) -> None:
+def test_the_play_line_leaves_most_of_the_width_to_what_comes(draw: Draw) -> None:
     score = draw(at(-3.0))[SCORE_TOP + 4 :]
     columns = np.flatnonzero(near(BRAND, score).mean(axis=0) > 0.8)
     assert len(columns)
@@ -285,7 +298,7 @@ def test_a_note_is_at_the_play_line_when_it_is_due(draw: Draw, position_s: float
     row = round(place.middle_line + height(PLACES[Piece.SNARE].step) * place.space)
     snapshot = Snapshot(score, position_s, KIT, FIGURE)
     clef = lead_spaces(score) * place.space
-    line_x = clef + BEFORE_S * (SIZE[0] - clef) / (BEFORE_S + AFTER_S)
+    line_x = clef + BEHIND_SHARE * (SIZE[0] - clef)
     beside = round(line_x + 0.4 * place.space)  # the head's right half, clear of the line itself
     assert draw(snapshot)[row, beside].min() > 170
     assert draw(replace(snapshot, position_s=position_s - 0.2))[row, beside].min() < 170
@@ -320,8 +333,7 @@ def test_early_and_late_differ_in_shape_too(draw: Draw) -> None:
 @pytest.mark.parametrize(
     ("hud", "box"),
     [
-        (Hud(title="Rock"), np.s_[5:45, 5:120]),
-        (Hud(beats_a_minute=120.0), np.s_[5:45, 520:635]),
+        (Hud(message="Ready", say="Rock"), np.s_[50:250, 200:440]),
         (Hud(count_in=4), np.s_[80:190, 270:370]),
         (Hud(cue=TimingCue.EARLY), np.s_[200:252, 260:380]),
         (Hud(message="Play when you are ready"), np.s_[50:90, 200:440]),
@@ -333,6 +345,25 @@ def test_words_stand_in_their_places(draw: Draw, hud: Hud, box: tuple[slice, sli
     assert changed[box].any()
     changed[box] = False
     assert not changed.any(), "and nowhere else"
+
+
+@pytest.mark.parametrize("quality", QUALITIES[:2])
+@pytest.mark.parametrize("size", [(640, 360), (300, 420)])
+def test_no_drum_ever_lies_under_the_title(quality: Quality, size: tuple[int, int]) -> None:
+    """The band has the same pixels from wherever one looks, however near: paper (11141B) and letters."""
+    hud = Hud("Rock 2: the kick moves", "Pass 1 of 4", 2, 3, 4, 2, 84.0)
+    ctx = standalone_context()
+    with ctx:
+        painter, target = Painter(ctx, quality), RenderTarget(ctx, size, quality.samples)
+        bands = []
+        for view, mirrored, zoom in product(NamedView, (False, True), (1.0, 2.5)):
+            camera = replace(named(view), mirrored=mirrored).zoomed(zoom)
+            painter.draw(at(0.5, hud=hud), target.framebuffer, (0, 0, *size), camera)
+            above = size[1] - round(size[1] * SHARES[ScoreForm.SCROLLING])
+            bands.append(target.read()[: band_height(hud, (size[0], above))])
+    assert bands[0].shape[0] > 20
+    assert (np.abs(bands[0].astype(int) - (0x11, 0x14, 0x1B)).max(axis=2) < 4).mean() > 0.6
+    assert all(np.array_equal(band, bands[0]) for band in bands)
 
 
 # --- files and faults -------------------------------------------------------------------------------------------------
@@ -418,3 +449,46 @@ def test_views_show_different_pictures(draw: Draw) -> None:
     for i, one in enumerate(pictures):
         for other in pictures[i + 1 :]:
             assert np.abs(one[:SCORE_TOP].astype(int) - other[:SCORE_TOP]).mean() > 5
+
+
+@pytest.mark.parametrize("form", ScoreForm)
+def test_what_a_score_keeps_is_made_anew_when_marks_or_bars_change(form: ScoreForm) -> None:
+    """The same snapshot looks the same, whatever was drawn before; a missed note is seen at once, then gone again."""
+    marks = no_marks(SCORE)
+    marks["label"][:6] = Label.MISS
+    with standalone_context() as ctx:
+        painter, target = Painter(ctx, QUALITIES[0]), RenderTarget(ctx, SIZE)
+
+        def drawn(snapshot: Snapshot) -> Picture:
+            arrangement = Arrangement(form=form, has_legend=True)
+            painter.draw(replace(snapshot, pose=None), target.framebuffer, (0, 0, *SIZE), arrangement=arrangement)
+            return target.read().copy()
+
+        plain, marked = drawn(at(1.0)), drawn(at(1.0, marks=marks))
+        longer = Snapshot(rock(6), 7.0, KIT, FIGURE)
+        drawn(longer)
+        again = drawn(at(1.0))
+    assert np.array_equal(plain, again)
+    assert near(MISSED, marked, 40).sum() > near(MISSED, plain, 40).sum() + 20
+
+
+def test_the_line_that_comes_next_stands_beside_the_one_that_is_played(draw: Draw) -> None:
+    """Four bars of sixteenths, two to a line: heads on both rows; after the second line is begun the first is gone."""
+    notes = [Note(k * 107520 // 4, Piece.SNARE) for k in range(16 * 8)]
+    score = Score.from_notes(notes, SCORE.tempo_map)
+    with standalone_context() as ctx:
+        painter, target = Painter(ctx, QUALITIES[0]), RenderTarget(ctx, SIZE)
+
+        def rows(position_s: float) -> list[Picture]:
+            arrangement = Arrangement(form=ScoreForm.PAGED)
+            snapshot = Snapshot(score, position_s, KIT, FIGURE, bar_numbers=BarNumbers(0, 8, 1))
+            painter.draw(snapshot, target.framebuffer, (0, 0, *SIZE), arrangement=arrangement)
+            paper = target.read()[SIZE[1] - round(SIZE[1] * SHARES[ScoreForm.PAGED]) :].copy()
+            return [paper[: len(paper) // 2, 80:], paper[len(paper) // 2 :, 80:]]
+
+        first, second = rows(2.0), rows(6.0)
+    for row in (*first, *second):
+        assert (row.min(axis=2) > 200).sum() > 300, "heads, stems and beams on both rows"
+    assert np.abs(first[0].astype(int) - second[0]).max() > 100, "another line, and no play line"
+    lines = [near(BRAND, row).mean(axis=0).max() > 0.8 for row in (*first, *second)]
+    assert lines == [True, False, False, True]

@@ -14,6 +14,7 @@ from station.app.actions.player_actions import PlayerAction
 from station.app.actions.practice_actions import ChoiceAction, PracticeAction
 from station.app.actions.settings_actions import SettingsAction
 from station.app.actions.song_actions import SongAction
+from station.app.actions.sound_actions import SoundAction
 from station.app.actions.style_actions import StyleAction
 from station.app.actions.teacher_actions import AssignedAction, TeacherAction
 from station.app.actions.today_actions import TodayAction
@@ -37,6 +38,7 @@ class Show:
     exam: bool = False
     teacher: bool = False
     assigned: bool = False
+    sound: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +63,7 @@ Action = (
     | EditorAction
     | TodayAction
     | SongAction
+    | SoundAction
     | ExamAction
     | TeacherAction
     | AssignedAction

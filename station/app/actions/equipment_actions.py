@@ -129,7 +129,14 @@ class ForgetMeasured:
     """Forget what was measured."""
 
 
-CalibrationAction = Measure | CancelMeasuring | KeepMeasured | ForgetMeasured
+@dataclass(frozen=True, slots=True)
+class AnswerLag:
+    """Whether the lag that the result leaves out is taken out for good, or counts as the student's."""
+
+    take_out: bool
+
+
+CalibrationAction = Measure | CancelMeasuring | KeepMeasured | ForgetMeasured | AnswerLag
 
 
 @dataclass(frozen=True, slots=True)

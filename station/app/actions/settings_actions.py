@@ -46,6 +46,20 @@ class LearnPause:
 
 
 @dataclass(frozen=True, slots=True)
+class PlayAs:
+    """Let the student of that name play, a new one where nobody is called so."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class AskWhoPlays:
+    """Show the list of students, or put it away."""
+
+    on: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Embody:
     """Let another drummer demonstrate: a name or a file, empty for the style's own."""
 
@@ -67,4 +81,4 @@ class LeadWith:
 
 
 KeptSetting = FinishFirstStart | SetView | KeepViewpoint | SetPreferences | LearnPause | PutUp | LeadWith
-SettingsAction = Embody | KeptSetting
+SettingsAction = Embody | PlayAs | AskWhoPlays | KeptSetting

@@ -19,6 +19,8 @@ from station.core.measured_latency import StoredCalibration, load_calibration, s
 if TYPE_CHECKING:
     from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
     from station.app.equipment.latency_methods import MeasureRequest
+    from station.practice.lag.session_lag import SessionLag
+    from station.practice.session.device_latency import Latency
 
 _ENDED = "the measurement ended without a result"
 
@@ -220,6 +222,17 @@ class Calibration:
     def trusted(self) -> bool:
         """Whether nothing speaks against any of that."""
         return all(row.estimate.trusted for row in self.worth)
+
+    def answer_lag(self, lag: "SessionLag", latency: "Latency", take_out: bool) -> str:
+        """Subtract a `lag` that was found with `latency` taken out, or ask no more of it; returns what to show."""
+        from station.app.equipment.lag_answer import with_lag_left, with_lag_out
+
+        before = load_calibration(self._path)
+        assert lag.target is not None, "only what is nobody's own is offered"
+        after = with_lag_out(before, lag, latency, date.today()) if take_out else with_lag_left(before, lag.target)
+        path = save_calibration(after, self._path)
+        done = f"{lag.found.lag_ms:.0f} ms are taken out from now on" if take_out else "left: it counts as yours"
+        return f"{done} ({lag.target.name}, in {path}; Devices changes it)"
 
     def keep(self) -> str:
         """Subtract it from now on; returns what to show. Raises `StationError` if the file refuses."""

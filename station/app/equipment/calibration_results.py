@@ -9,7 +9,7 @@ from datetime import date
 from types import MappingProxyType
 
 from station.core.labels import piece_name
-from station.core.measured_latency import DeviceLatency, MeasuredLatency, StoredCalibration
+from station.core.measured_latency import GROOVE, TAP, DeviceLatency, MeasuredLatency, StoredCalibration
 from station.core.pieces import Piece, word
 from station.engine.latency_measurement import Devices
 from station.sound.calibration.latency_estimate import LatencyEstimate
@@ -17,8 +17,8 @@ from station.sound.calibration.stream_report import StreamReport
 from station.sound.calibration.taps import Taps
 
 SCHEMA = "drum-station/calibrate/1"
-TAPPED = "tap"
-"""The way of measuring in whose result kit, output and habit are one."""
+TAPPED = (TAP, GROOVE)
+"""The ways of measuring in whose result kit, output and habit are one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ def outdated(before: StoredCalibration, rows: list[CalibrationResult]) -> list[s
     """The outputs whose latency was tapped, once a kit is measured: what they have was partly the kit's."""
     if not any(row.what == "kit" for row in rows):
         return []
-    return [name for name, known in before.outputs.items() if known.by == TAPPED]
+    return [name for name, known in before.outputs.items() if known.by in TAPPED]
 
 
 def _measured(row: CalibrationResult, by: str, on: date) -> MeasuredLatency:
@@ -78,7 +78,7 @@ def rows_of_taps(
     kit, output = before.kits.get(devices.kit or ""), before.outputs.get(devices.output or "")
     known_ms = kit.of_pad(piece).latency_ms if kit is not None else 0.0
     total = CalibrationResult("together", devices.kit or "", found.total)
-    if kit is not None and output is not None and output.by != TAPPED:
+    if kit is not None and output is not None and output.by not in TAPPED:
         return total, CalibrationResult("habit", devices.kit or "", found.habit(known_ms + output.latency_ms))
     return total, CalibrationResult("equipment", devices.output or "", found.equipment.less(known_ms))
 

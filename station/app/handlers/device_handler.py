@@ -4,12 +4,14 @@ from typing import assert_never
 
 from station.app.actions.action import Show
 from station.app.actions.equipment_actions import (
+    AnswerLag,
     CalibrationAction,
     CancelMeasuring,
     ForgetMeasured,
     KeepMeasured,
     Measure,
 )
+from station.app.sessions.lag_answered import judged_again
 from station.app.station_parts import StationParts
 from station.core.measured_latency import load_calibration
 from station.practice.session.device_latency import latency_of
@@ -31,9 +33,26 @@ def measure(parts: StationParts, action: CalibrationAction) -> str | None:
             parts.calibration.look_up()
         case ForgetMeasured():
             parts.calibration.drop()
+        case AnswerLag(take_out):
+            return _answer_lag(parts, take_out)
         case _:
             assert_never(action)
     return None
+
+
+def _answer_lag(parts: StationParts, take_out: bool) -> str | None:
+    """Take a lag out or leave it in, and judge the result that is shown again; returns a line for the user."""
+    last = parts.sessions.practice.last_result
+    saved = last.saved
+    if last.lag_ms is None or saved is None or saved.fair is None or saved.fair.lag is None:
+        return None
+    line = parts.calibration.answer_lag(saved.fair.lag, saved.result.latency, take_out)
+    latency = latency_of(parts.store.now, load_calibration())
+    parts.sessions.trust(latency)
+    judged = judged_again(saved, parts.store.now, latency if take_out else None)
+    last.put(judged)
+    parts.calibration.look_up()
+    return line if judged.fault is None else str(judged.fault)
 
 
 def show(parts: StationParts, action: Show) -> None:
@@ -46,5 +65,9 @@ def show(parts: StationParts, action: Show) -> None:
         parts.preferences.learn(on=False)
     if action.catalog or action.today or action.teacher or action.assigned:
         parts.chooser.offer_all()
+    if action.sound and not before.sound:
+        parts.sound.look()
+    if before.sound and not action.sound:
+        parts.sound.leave()
     if action.devices and not before.devices:
         parts.calibration.look_up()

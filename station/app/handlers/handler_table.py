@@ -12,8 +12,9 @@ from station.app.actions.file_actions import FileAction, ImportAction
 from station.app.actions.phase_actions import PhaseAction
 from station.app.actions.player_actions import PlayerAction
 from station.app.actions.practice_actions import ChoiceAction, PracticeAction
-from station.app.actions.settings_actions import Embody, KeptSetting
+from station.app.actions.settings_actions import AskWhoPlays, Embody, KeptSetting, PlayAs
 from station.app.actions.song_actions import PinAction, SaveSong
+from station.app.actions.sound_actions import SoundAction
 from station.app.actions.style_actions import StyleAction
 from station.app.actions.teacher_actions import SendReturn, TakeUp, TeacherAction
 from station.app.actions.today_actions import BookAction, StartBlock
@@ -21,6 +22,7 @@ from station.app.handlers.device_handler import measure, show
 from station.app.handlers.file_handler import bring_in, keep_song, write_file
 from station.app.handlers.practice_handler import begin_block, choose, edit, practise, sit_exam
 from station.app.handlers.settings_handler import embody, keep_setting, restyle
+from station.app.handlers.student_handler import ask_who_plays, play_as
 from station.app.station_parts import StationParts
 
 Handler = Callable[[Any], str | None]
@@ -40,6 +42,8 @@ def handlers_of(parts: StationParts) -> dict[type, Handler]:
         (PhaseAction, parts.phase.act),
         (StyleAction, partial(restyle, parts)),
         (Embody, partial(embody, parts)),
+        (PlayAs, partial(play_as, parts)),
+        (AskWhoPlays, partial(ask_who_plays, parts)),
         (KeptSetting, partial(keep_setting, parts)),
         (MappingAction, parts.mapping.act),
         (StickAction, parts.sticks.act),
@@ -48,6 +52,7 @@ def handlers_of(parts: StationParts) -> dict[type, Handler]:
         (FileAction, partial(write_file, parts)),
         (PinAction, parts.song.act),
         (SaveSong, partial(keep_song, parts)),
+        (SoundAction, parts.sound.act),
         (TeacherAction, parts.teacher.act),
         (SendReturn, parts.assigned.send),
         (TakeUp, lambda action: parts.chooser.take_up(action.lesson)),

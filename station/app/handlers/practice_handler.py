@@ -80,6 +80,7 @@ def edit(parts: StationParts, action: EditorAction) -> None:
     if not was_open and parts.sessions.practice.stage is not Stage.IDLE:
         raise DeviceError("end the session first: the editor takes its place")
     if not was_open:
+        parts.who.ask(on=False)
         _leave_look(parts)
     parts.editor.act(action)
     if was_open and not parts.editor.is_open:

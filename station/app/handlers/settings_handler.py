@@ -15,10 +15,11 @@ from station.app.actions.settings_actions import (
     SetView,
 )
 from station.app.actions.style_actions import StyleAction
-from station.app.settings.first_start import answered, student_level
+from station.app.settings.first_start import answered, play_along, student_level
 from station.app.settings.view_settings import ViewSettings, with_view_settings
 from station.app.station_parts import StationParts
 from station.core.errors import StationError
+from station.practice.lag.first_groove import FIRST_GROOVE
 
 
 def keep_setting(parts: StationParts, action: KeptSetting) -> str | None:
@@ -30,6 +31,7 @@ def keep_setting(parts: StationParts, action: KeptSetting) -> str | None:
             if answers is not None:
                 parts.toasts.attempt(lambda: parts.engine.stand(student_level(store.now)))
                 parts.chooser.show_anew()
+                return _begin_first(parts)
         case SetView(view_settings):
             _set_view(parts, replace(view_settings, viewpoints=parts.view_settings.viewpoints))
         case KeepViewpoint(slot, camera):
@@ -48,6 +50,16 @@ def keep_setting(parts: StationParts, action: KeptSetting) -> str | None:
         case _:
             assert_never(action)
     return None
+
+
+def _begin_first(parts: StationParts) -> str:
+    """Let a newcomer hear the first groove at once, where that is what the station was opened on; what to do then."""
+    if parts.chooser.lesson_name != FIRST_GROOVE:
+        return ""
+    parts.toasts.attempt(parts.store.write)  # nothing is written while somebody plays
+    parts.make_ready()
+    parts.chooser.begin()
+    return play_along(parts.engine.kits)
 
 
 def _set_view(parts: StationParts, view_settings: ViewSettings) -> None:

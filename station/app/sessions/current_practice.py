@@ -67,6 +67,11 @@ class CurrentPractice:
         report = self.last_result.report
         return report.student if report is not None and self.stage is Stage.RESULT else ""
 
+    @property
+    def lag_ms(self) -> float | None:
+        """The lag that the shown result leaves out until its student has said whose it is."""
+        return self.last_result.lag_ms if self.stage is Stage.RESULT and not self._sender else None
+
     # --- one after the other -----------------------------------------------------------------------------------------
 
     def show(self, session: LessonSession | None) -> None:
@@ -121,9 +126,10 @@ class CurrentPractice:
         self.fault = saved.fault
         if saved.fault is not None:
             self._notify(str(saved.fault))
+        is_open = saved.fair is not None and saved.fair.is_open  # one question at a time
         if self.next_block is not None and saved.steps:
             saved = saved.leading_to(self.next_block)
-        self.last_result.keep(saved, settings.ask_first and saved.marks is None)
+        self.last_result.keep(saved, settings.ask_first and saved.marks is None and not is_open)
         self.stage = Stage.RESULT
 
     def veto(self) -> None:
@@ -156,6 +162,11 @@ class CurrentPractice:
         self.session, self.stage = session, Stage.IDLE
         self.is_free, self._was_free = self._was_free, False
 
+    def put_away(self, free: FreeSession) -> None:
+        """Forget the last result and the last take; nobody plays, and takes are `free`'s from now on."""
+        assert not self.is_playing, "whoever asks has looked"
+        self.last_result, self.free = LastResult(), free
+
     # --- what is seen ------------------------------------------------------------------------------------------------
 
     def state_in(self, state: RoomState) -> RoomState:
@@ -167,6 +178,7 @@ class CurrentPractice:
             free=self.is_free,
             question=self.last_result.question,
             student=self._sender,
+            lag_ms=self.lag_ms,
         )
         return state if self.is_free else self.session.state_in(state)
 

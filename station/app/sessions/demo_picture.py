@@ -2,13 +2,15 @@
 
 from dataclasses import dataclass
 
-from station.core.units import NS_PER_S, PPQ
+from station.core.units import NS_PER_S
 from station.drills.directions import NO_DIRECTION, Direction, direction_at
 from station.drills.lesson import Lesson
 from station.motion.drummer import Drummer
 from station.music.score import Score
 from station.practice.demonstration.song_cues import CountIn
 from station.practice.demonstration.song_player import SongPlayer, SongStep
+from station.practice.now.tempo_now import demonstration_tempo
+from station.practice.now.whereabouts import demonstration_place
 from station.render.snapshot import BarNumbers, Hud, Snapshot
 from station.scenes.score_words import bar_numbers
 
@@ -73,16 +75,18 @@ def _direction(view: PlayerView) -> Direction:
 
 def _hud(view: PlayerView, counting: Counting, direction: Direction) -> Hud:
     player, place, song = view.player, view.player.place(view.now_ns), view.player.song
-    speed = "" if player.speed_percent == 100 else f" at {player.speed_percent} %"
-    quarters = song.tempo_map.bpm_at(song.tick_at(view.position_ns))
+    tempo = demonstration_tempo(
+        song.tempo_map, song.tick_at(view.position_ns), view.lesson.beat_ticks, player.speed_percent
+    )
     return Hud(
         title=view.lesson.title,
-        phase="Count-in" if counting.left_ns else f"Demonstration{speed}",
+        phase=demonstration_place(place, player.speed_percent, bool(counting.left_ns)).words,
         count_in=None if counting.count_in is None else counting.count_in.beat(counting.left_ns),
         bar=place.bar + 1,
         beat=place.beat + 1,
         beats=song.tempo_map.meter_at(song.tempo_map.bar_start(place.bar)).beats,
         bar_count=song.bar_count,
-        beats_a_minute=quarters * PPQ / view.lesson.beat_ticks * player.speed_percent / 100,
+        beats_a_minute=tempo.now,
+        tempo_words=tempo.words,
         say="" if counting.left_ns else direction.say,
     )

@@ -20,6 +20,7 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import TempoMap
 from station.practice.headless.live import EngineLink, begin, end
+from station.practice.now.whereabouts import replay_place
 from station.practice.records.save_session import SessionFolder
 from station.practice.session.cues.click_options import parse_click
 from station.practice.session.cues.listening import Listening
@@ -164,7 +165,7 @@ class FreeSession:
     def _hud(self, at_ns: int | None, is_heard: bool) -> Hud:
         click, strokes = self._play.click, len(self._play.hits if self._take is None else self._take)
         counted = f"{strokes} stroke{'' if strokes == 1 else 's'}"
-        words = f"Listening back to {counted}" if is_heard else f"Recording: {counted}"
+        words = replay_place(counted).words if is_heard else f"Recording: {counted}"
         if not self.runs and not is_heard:
             words = f"{counted} kept" if self._take is not None else "Ready"
         place = None

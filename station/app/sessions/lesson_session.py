@@ -21,9 +21,14 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.exam.rubric import Marks
 from station.drills.mastery.agenda import Turn
+from station.drills.mastery.feedback_fading import Feedback
 from station.engine.messages import Command, EngineEvent
 from station.practice.exam.exam_take import exam_runner
 from station.practice.headless.live import begin, end
+from station.practice.lag.fair_judgement import FairResult
+from station.practice.lag.first_groove import FIRST_GROOVE
+from station.practice.now.whereabouts import place_of
+from station.practice.records.earlier_lags import fair_session
 from station.practice.records.memory import following_lesson
 from station.practice.records.next_steps import steps_in
 from station.practice.records.previous_session import find_previous
@@ -33,7 +38,6 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Phase, Plan
 from station.practice.session.runner import SessionRunner, Update
 from station.practice.session.session import Session, SessionResult
-from station.practice.session.session_place import place_of
 from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
@@ -41,7 +45,8 @@ from station.scenes.session_scene import SessionView
 from station.sound.track import PreparedTrack
 from station.sync.drill.drummed_model import is_soon_made
 
-PAUSED = "Paused: two kicks, or Go on"
+KICKS_ON, GO_ON = "two kicks, Backspace or Go on", "Backspace or Go on"
+"""How a paused session goes on; kicks ask for nothing where the settings say so."""
 
 
 def _say_nothing(_: str) -> None:
@@ -70,9 +75,10 @@ class LessonSession:
         asked = laid.plan if laid.followed is None else laid.followed.adaptation
         self._runner = SessionRunner(asked, latency) if laid.sitting is None else exam_runner(asked, latency)
         seen = None if before is None else before.view
-        self.view: SessionView = SessionView(self.plan, demonstrator, seen, demonstrates=laid.sitting is None)
+        self.view: SessionView = self._seen_with(seen, demonstrates=laid.sitting is None)
         self._folder: SessionFolder | None = None
         self._following: PhaseFollowing | None = None
+        self._way_on = KICKS_ON
         self._leads = False  # whether the drummer goes by the student's phase
 
     @property
@@ -95,12 +101,14 @@ class LessonSession:
         sitting = self.sitting
         folder = SessionFolder.make(None, settings, self.plan.lesson.name) if sitting is None else sitting.folder
         self.session.backing, self.session.waits = track, settings.auto_pause and sitting is None
+        if self.plan.lesson.name == FIRST_GROOVE:  # what is early or late is not known before its end: equipment may be
+            self.session.feedback = Feedback.PADS
         try:
             begin(self._engine, self._runner, folder.capture)
         except StationError:
             folder.discard()
             raise
-        self._folder = folder
+        self._folder, self._way_on = folder, KICKS_ON if settings.kicks_start else GO_ON
         self.view.make_ahead()
         self._leads = settings.follow_phase and sitting is None
         if self._leads:
@@ -158,8 +166,14 @@ class LessonSession:
             self._see_next_pass()
 
     def _see_next_pass(self) -> None:
-        self.view = SessionView(self.plan, self._demonstrator, self.view)
+        self.view = self._seen_with(self.view)
         self.view.make_ahead()
+
+    def _seen_with(self, before: SessionView | None, demonstrates: bool = True) -> SessionView:
+        """The pictures of the newest pass, after those of `before`."""
+        adaptation = None if self._followed is None else self._followed.adaptation
+        goes_on = adaptation is not None and len(adaptation.rounds) + 1 < adaptation.loops
+        return SessionView(self.plan, self._demonstrator, before, demonstrates, goes_on)
 
     def _send(self, commands: Sequence[Command]) -> None:
         for command in commands:
@@ -185,7 +199,7 @@ class LessonSession:
 
     def snapshot(self, now_ns: int) -> Snapshot:
         """The picture at `now_ns`."""
-        return self.view.snapshot(self.session, now_ns, PAUSED if self.paused else "")
+        return self.view.snapshot(self.session, now_ns, self._way_on)
 
     def curves(self) -> ScoreCurves | None:
         """What the graph shows of it, nothing of an exam."""
@@ -227,13 +241,13 @@ class LessonSession:
             self._following.end()
         assert self._folder is not None, "it was begun"
         result = self._runner.finish()
-        saved = save(
-            self._folder, result, practice_document(result, settings, self._following_lesson(settings)), self._followed
-        )
+        fair = fair_session(result, settings) if self.sitting is None else FairResult(result)
+        document = practice_document(fair.result, settings, fair.lag, self._following_lesson(settings))
+        saved = save(self._folder, fair.result, document, self._followed)
         marks, refused = self._marked(result)
         fault = saved.fault or refused or fault
         steps = steps_in(saved.document) if marks is None else ()
-        return SavedSession(result, self._report(saved, self._folder), fault, marks, steps)
+        return SavedSession(fair.result, self._report(saved, self._folder), fault, marks, fair, steps)
 
     def _following_lesson(self, settings: Settings) -> Turn | None:
         """What to turn to after practice that has not followed the student; theirs knows it itself."""

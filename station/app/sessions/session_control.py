@@ -332,6 +332,14 @@ class SessionControl:
             self.catalog.learnt()
             self.practice.leave(self._new_session(PreparedSession(self.practice.session.plan)))
 
+    def put_away(self) -> None:
+        """Another student plays: nothing of the one before is waited for, shown or heard any more."""
+        self._waiting = None
+        self._playback.quiet()
+        self.player.halt()
+        self.dismiss()
+        self.practice.put_away(FreeSession(self._store, self._latency))
+
     def rest(self) -> list[str]:
         """Let the engine's devices go; returns the kits that it had. Raises `DeviceError` while somebody plays."""
         if self.practice.is_playing:

@@ -90,7 +90,7 @@ class SessionPreparation:
 
     def _click_of(self, request: SessionRequest, lesson: Lesson) -> ClickPattern | None:
         """What clicks; raises `BadInput` for a tempo that cannot rise with a track."""
-        if request.rise is not None and (self._request is not None or lesson.band is not None):
+        if request.rise is not None and (self._request is not None or lesson.band is not None or self._has_own_track):
             raise BadInput("the tempo", "", "cannot rise with a track, which has one tempo")
         if not request.click:
             return None
@@ -108,7 +108,12 @@ class SessionPreparation:
 
     def needs_track(self, plan: Plan) -> bool:
         """Whether it is played along to a track."""
-        return self._request is not None or plan.lesson.band is not None
+        return self._request is not None or plan.lesson.band is not None or self._has_own_track
+
+    @property
+    def _has_own_track(self) -> bool:
+        """Whether the settings have a track for sessions that bring none."""
+        return bool(self._store.now.track) and self._store.now.with_track
 
     def track(self, plan: Plan, rate_hz: int) -> PreparedTrack | None:
         """The track to play along to, None while it is being made ready; raises `BadInput`, `DeviceError`."""
@@ -117,7 +122,10 @@ class SessionPreparation:
             from station.practice.session.backing_track import Backing
 
             self._backing = Backing(self._request)
-        self._backing.ask(plan, rate_hz, self._store.now.band_drums)
+        from station.practice.session.backing_track import track_request
+
+        settings = self._store.now
+        self._backing.ask(plan, rate_hz, settings.band_drums, track_request(settings))
         return self._backing.ready()
 
     def click(self) -> ClickPattern:

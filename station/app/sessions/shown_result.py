@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from station.app.room_state import ShownResult
 from station.core.errors import StationError
 from station.drills.exam.rubric import Marks
+from station.practice.lag.fair_judgement import FairResult
 from station.practice.records.next_steps import NextStep, with_block
 from station.practice.records.previous_session import NONE_KEPT, PreviousSession
 from station.practice.session.session import SessionResult
@@ -19,13 +20,15 @@ from station.scoring.report.assessment_document import Json
 class SavedSession:
     """What a session that is over leaves: its `result`, the `report` of it, and what went wrong, if anything did.
 
-    `marks` are those of an exam, `steps` what comes next, the best first, none of an exam or of another student.
+    `marks` are those of an exam, `fair` is how it was judged where a lag was looked for, `steps` what comes next, the
+    best first, none of an exam or of another student.
     """
 
     result: SessionResult
     report: ShownResult
     fault: StationError | None = None
     marks: Marks | None = None
+    fair: FairResult | None = None
     steps: tuple[NextStep, ...] = ()
 
     def leading_to(self, block: NextStep) -> "SavedSession":

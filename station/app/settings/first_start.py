@@ -8,6 +8,7 @@ changed later; nothing here is asked twice.
 
 from dataclasses import dataclass, replace
 
+from station.app.engine_client import DEAD, SILENT
 from station.core.settings import Settings
 from station.engine.engine_config import EngineConfig
 from station.engine.messages import Bus, SetLevel
@@ -33,6 +34,22 @@ class FirstAnswers:
         """What the settings say before anything was asked; raises `BadInput` for hands that nobody has."""
         named = "" if settings.student == _NOBODY else settings.student
         return cls(named, not settings.own_sound, hands_of(settings) or Hands.RIGHT)
+
+
+def found_lines(kits: str, sound: str, keys: str) -> tuple[str, str]:
+    """What a newcomer plays on and hears, and in each case what to do; `keys` says which of the computer's play."""
+    kit = f"Kit: {kits}. Strikes that light up another drum? The Devices page learns a pad from one stroke."
+    if not kits:
+        kit = f"No kit yet: plug it in now, or play on the computer's keys ({keys})."
+    if sound in (SILENT, DEAD):
+        return kit, "No sound: plug in headphones or a loudspeaker; `station doctor` says what is in the way."
+    return kit, f"Sound: {sound}. Wireless headphones are late: what they add is found while you play."
+
+
+def play_along(kits: str) -> str:
+    """What a newcomer is told as the first groove begins."""
+    with_what = f"on {kits}" if kits else "with the computer's keys: F1 shows them"
+    return f"Listen first: the drummer plays it once. Then it is your turn, {with_what}."
 
 
 def answered(settings: Settings, answers: FirstAnswers | None) -> Settings:

@@ -21,9 +21,10 @@ _SWITCHES = {
 
 @dataclass(frozen=True, slots=True)
 class PracticePreferences:
-    """The settings `kicks_start`, `auto_pause`, `ask_first` and `guide`, and the words of `pause`."""
+    """The settings `kicks_start`, `pads_switch`, `auto_pause`, `ask_first` and `guide`, and the words of `pause`."""
 
     kicks_start: bool = True
+    pads_switch: bool = True
     auto_pause: bool = True
     ask_first: bool = True
     guide: bool = False
@@ -33,7 +34,12 @@ class PracticePreferences:
     def of(cls, settings: Settings) -> "PracticePreferences":
         """What the settings say."""
         return cls(
-            settings.kicks_start, settings.auto_pause, settings.ask_first, settings.guide, tuple(settings.pause.split())
+            settings.kicks_start,
+            settings.pads_switch,
+            settings.auto_pause,
+            settings.ask_first,
+            settings.guide,
+            tuple(settings.pause.split()),
         )
 
     def within(self, settings: Settings) -> Settings:
@@ -42,6 +48,7 @@ class PracticePreferences:
         return replace(
             settings,
             kicks_start=self.kicks_start,
+            pads_switch=self.pads_switch,
             auto_pause=self.auto_pause,
             ask_first=self.ask_first,
             guide=self.guide,

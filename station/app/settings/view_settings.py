@@ -1,8 +1,8 @@
 """Where the user looks from: a named view, mirrored or not, a second picture, eight viewpoints; and how it is shown.
 
-That is the score's form, the colours, and how large the panels are. It is kept in the settings as words: `view`,
-`inset`, `score` and `theme` by name, `viewpoints` as `1=x,y,z,azimuth,height,distance,angle` for each that is kept
-(metres and degrees), apart by spaces.
+That is the score's form, the colours, how large the panels are, and how finely is drawn. It is kept in the settings as
+words: `view`, `inset`, `score`, `theme` and `quality` by name, `viewpoints` as `1=x,y,z,azimuth,height,distance,angle`
+for each that is kept (metres and degrees), apart by spaces.
 """
 
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from station.core.named_view import NamedView
 from station.core.settings import LARGEST_PANELS, SMALLEST_PANELS, Settings, settings_path
 from station.render.camera import Camera
 from station.render.gpu.moving_parts import DoublePlace
-from station.render.notation.screen.score_view import ScoreForm
+from station.render.notation.screen.score_place import ScoreForm
 from station.render.palette import Theme
 
 SLOTS = 8
@@ -25,6 +25,8 @@ INSETS = (None, NamedView.HANDS, NamedView.FEET)
 _FARTHEST_M = 10.0
 """No viewpoint in the settings lies farther out: the room is smaller (`camera`)."""
 
+QUALITY_WORDS = ("swift", "fine", "finest")
+"""The levels of `render.quality.QUALITIES`."""
 SCALE_STEP = 0.25
 """How much larger or smaller the panels grow at a time (our choice: a step can be seen, and 1 is one of them)."""
 
@@ -36,18 +38,21 @@ Viewpoints = tuple[Camera | None, ...]
 class ViewSettings:
     """The view, whether left and right are swapped, what the `inset` shows, the score's form, the viewpoints kept.
 
-    `theme` is the colours, `scale` how many times as large as designed the panels are, `double` where the student's
-    double is.
+    `legend` is whether a staff says which line is which piece, `theme` the colours, `scale` how many times as large as
+    the window asks for the panels are, `double` where the student's double is, `quality` a row of
+    `render.quality.QUALITIES`, None for the highest that the machine holds.
     """
 
     view: NamedView = NamedView.SHOULDER
     mirrored: bool = False
     inset: NamedView | None = None
-    score: ScoreForm = ScoreForm.SCROLLING
+    score: ScoreForm = ScoreForm.PAGED
     viewpoints: Viewpoints = (None,) * SLOTS
     theme: Theme = Theme.NIGHT
     scale: float = 1.0
     double: DoublePlace = DoublePlace.NOWHERE
+    legend: bool = True
+    quality: int | None = None
 
     def keeping(self, slot: int, camera: Camera) -> "ViewSettings":
         """With `camera` as the viewpoint `slot`, from 0."""
@@ -85,6 +90,8 @@ def view_settings_of(settings: Settings) -> ViewSettings:
         (DoublePlace.BESIDE if settings.double_beside else DoublePlace.OVER)
         if settings.double
         else DoublePlace.NOWHERE,
+        settings.legend,
+        QUALITY_WORDS.index(_known("quality", settings.quality, QUALITY_WORDS)) if settings.quality else None,
     )
 
 
@@ -96,8 +103,10 @@ def with_view_settings(settings: Settings, view_settings: ViewSettings) -> Setti
         mirrored=view_settings.mirrored,
         inset="" if view_settings.inset is None else view_settings.inset.name.lower(),
         score=view_settings.score.name.lower(),
+        legend=view_settings.legend,
         theme=str(view_settings.theme),
         panel_scale=view_settings.scale,
+        quality="" if view_settings.quality is None else QUALITY_WORDS[view_settings.quality],
         double=view_settings.double is not DoublePlace.NOWHERE,
         double_beside=view_settings.double is DoublePlace.BESIDE,
         viewpoints=" ".join(

@@ -90,6 +90,10 @@ class AssignedPage:
         """Something came: read the folders when the page is seen."""
         self._known = None
 
+    def begin_anew(self) -> None:
+        """Another student plays: nothing that is read of the one before is shown."""
+        self._known, self._looking, self._view, self._told = None, None, AssignedView(), ""
+
     def advance(self, today: date, stage: Stage) -> None:
         """Take what was read; look again where the day, the student or what goes on has changed.
 

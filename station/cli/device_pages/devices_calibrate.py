@@ -11,15 +11,17 @@ from typing import TYPE_CHECKING
 from station.cli.console import ask, is_attended, print_json, say, write
 from station.cli.options.device_option import DEVICE_FORM, DEVICE_HELP
 from station.cli.options.option_fields import choice, flag, option, unread
-from station.core.measured_latency import load_calibration, save_calibration
+from station.core.errors import BadInput
+from station.core.measured_latency import GROOVE, StoredCalibration, load_calibration, save_calibration
 from station.core.settings import Settings, load_settings
 from station.devices.device_ports import parse_device
 
 if TYPE_CHECKING:
     from station.app.equipment.calibration_results import CalibrationResult
     from station.app.equipment.latency_methods import MeasureRequest
+    from station.practice.lag.session_lag import LagTarget
 
-WAYS = ("report", "loopback", "strike", "tap")
+WAYS = ("report", "loopback", "strike", "tap", GROOVE)
 MOST_DISTANCE_M = 10.0
 
 
@@ -44,16 +46,26 @@ class CalibrateOptions:
     distance: float = option("M", "metres from the pads to the microphone (0)", _distance_m, 0.0)
     store: bool = flag("store what can be trusted without asking", rivals="store")
     store_anyway: bool = flag("store also what cannot be trusted", rivals="store")
+    leave: bool = flag("let the lag that the last session found count as yours (with --by groove)", rivals="store")
     json: bool = flag("print one JSON document; stores only when told to")
 
 
 def run(options: CalibrateOptions) -> int:
-    """Measure, print, and store what the user wants stored."""
+    """Measure, or take what the last session has found; print, and store what the user wants stored."""
     from station.app.equipment.calibration_results import document, outdated, text, with_rows
     from station.app.equipment.latency_methods import measured
 
+    if options.leave and options.by != GROOVE:
+        raise BadInput("--leave", "", f"goes with --by {GROOVE}: what else is measured is stored or not")
     settings, before = load_settings(), load_calibration()
-    findings = measured(_request(options, settings), before, say)
+    if options.by == GROOVE:
+        from station.app.equipment.lag_answer import last_lag
+
+        findings, target = last_lag(settings)
+        if options.leave:
+            return _leave(before, target)
+    else:
+        findings = measured(_request(options, settings), before, say)
     worth = [row for row in findings.rows if row.storable and (row.estimate.trusted or _insists(options, row))]
     if not options.json:
         write(text(findings, before), end="")
@@ -67,6 +79,15 @@ def run(options: CalibrateOptions) -> int:
         say("nothing is stored, for it cannot be trusted (--store-anyway stores it)")
     if options.json:
         print_json(document(options.by, findings, stores))
+    return 0
+
+
+def _leave(before: StoredCalibration, target: "LagTarget") -> int:
+    """Let a lag on the device count as the student's."""
+    from station.app.equipment.lag_answer import with_lag_left
+
+    path = save_calibration(with_lag_left(before, target))
+    say(f"{target.name} stays as it is: what is late on it counts as yours (left, in {path})")
     return 0
 
 

@@ -1,5 +1,6 @@
 """Files that are read whole, and files that are written whole or not at all."""
 
+import errno
 import os
 import secrets
 import stat
@@ -41,12 +42,13 @@ def write_whole(path: Path, data: bytes) -> None:
     """Put `data` at `path` at once: whoever looks finds the old file or the new one, never a part.
 
     Links are followed and an old file keeps its mode. What is no plain file (`/dev/stdout`, a pipe) is written to as it
-    stands. Raises `DeviceError` (disk full, no permission) and leaves the old file as it was.
+    stands, but for what would make us wait for ever: a pipe that nobody reads, a terminal. Raises `DeviceError` (disk
+    full, no permission) and leaves the old file as it was.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         if path.exists() and not path.is_file():
-            path.write_bytes(data)
+            _write_as_it_stands(path, data)
             return
         with _part_of(_target(path)) as part, part.open("wb") as file:
             file.write(data)
@@ -54,6 +56,15 @@ def write_whole(path: Path, data: bytes) -> None:
             os.fsync(file.fileno())
     except OSError as fault:
         raise _not_written(path, fault) from fault
+
+
+def _write_as_it_stands(path: Path, data: bytes) -> None:
+    """Write to what is no plain file, without waiting for somebody to come and read; raises `OSError`."""
+    with open(os.open(path, os.O_WRONLY | getattr(os, "O_NONBLOCK", 0)), "wb") as stream:  # noqa: PTH123 - a descriptor
+        if stream.isatty():
+            raise OSError(errno.EINVAL, "a terminal, not a regular file")
+        os.set_blocking(stream.fileno(), True)
+        stream.write(data)
 
 
 @contextmanager

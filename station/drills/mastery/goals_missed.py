@@ -84,14 +84,16 @@ def _right(result: PassResult, rules: Rules) -> Iterator[Miss]:
     needed = math.ceil(rules.min_right * total - _TINY)
     if result.right >= needed:
         return
-    too_many = f" and {result.extras} too many" if result.extras else ""
     share, goal = math.floor(100 * result.right / total), math.ceil(100 * rules.min_right - _TINY)
     of = f" ({result.extras} strokes too many count as notes left out)" if result.extras else ""
+    words = f"{result.right} of {result.notes} right, {needed} needed"
+    if result.extras:  # nobody can play more right ones than there are
+        words = f"{share} % right ({result.right} of {result.notes} and {result.extras} too many), {goal} % needed"
     yield Miss(
         PassFault.RIGHT,
         result.right,
         needed,
-        f"{result.right} of {result.notes} right{too_many}, {needed} needed",
+        words,
         f"{share} % of the notes were right{of}, {goal} % are the goal: play it again at this tempo, or slower.",
     )
 

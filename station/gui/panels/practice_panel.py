@@ -13,7 +13,6 @@ from station.app.settings.preferences import PracticePreferences, pause_in_words
 from station.app.window_state import State
 from station.gui import theme
 from station.practice.book.book_words import rise_words
-from station.practice.session.cues.quiet_bars import Gap, QuietBars, RandomGap, gap_words
 from station.practice.session.rising_tempo import Rise
 
 PRACTICE = "Practice"
@@ -36,36 +35,21 @@ _TICKS = (
         "wait when I stop",
         "After two silent bars that have notes the score waits for you",
     ),
+    (
+        "pads_switch",
+        "the kit asks who plays",
+        "Between sessions, what pauses one lists the students; pads choose",
+    ),
     ("ask_first", "ask me before a result", "Did you rush or drag? At most once a lesson; a pad answers after silence"),
     ("guide", "the drummer sounds along", "The demonstration's strokes sound in the passes too, from the next session"),
 )
 
 
-_GAPS: tuple[tuple[str, QuietBars | None], ...] = (
-    ("the click sounds throughout", None),
-    ("4 bars of click, 1 without", Gap(4, 1)),
-    ("2 bars of click, 2 without", Gap(2, 2)),
-    ("1 bar of click, 3 without", Gap(1, 3)),
-    ("the click drops out at random", RandomGap()),
-)
 _RISES = (("the tempo does not rise", None), *((f"+{n} bpm every {bars} bars", Rise(n, bars)) for n, bars in _STEPS))
 
 
-def _gap(gap: QuietBars | None) -> QuietBars | None:
-    """Draw the choice of silent bars; one that is none of the usual ones stands first. Returns what is chosen."""
-    known = [each for _, each in _GAPS]
-    labels = [label for label, _ in _GAPS]
-    if gap not in known:
-        assert gap is not None, "no gap is a usual one"
-        known, labels = [gap, *known], [gap_words(gap), *labels]
-    imgui.set_next_item_width(-1)
-    changed, index = imgui.combo("##gap", known.index(gap), labels)
-    theme.tooltip("Keep the time where it is silent: the report says how far off you come back")
-    return known[index] if changed else gap
-
-
 def _rise(selection: Selection) -> Rise | None:
-    """Draw the choice of a rising tempo, as `_gap` does."""
+    """Draw the choice of a rising tempo, one that is none of the usual ones stands first."""
     rise = selection.rise
     known, labels = [each for _, each in _RISES], [label for label, _ in _RISES]
     if rise not in known:
@@ -92,19 +76,19 @@ class PracticePanel:
             theme.tooltip(tip)
             if changed:
                 preferences = replace(preferences, **{name: on})  # type: ignore[arg-type] # every tick is a yes or no
-        self._click_and_tempo(state.selection)
+        self._tempo(state.selection)
         theme.part("What pauses and goes on")
         preferences = self._pauses(preferences)
         if preferences != state.preferences:
             self._dispatch(SetPreferences(preferences))
         self._learn(state.learns_pause)
 
-    def _click_and_tempo(self, selection: Selection) -> None:
-        """Where the click of the chosen lesson falls silent, and whether its tempo rises."""
+    def _tempo(self, selection: Selection) -> None:
+        """Whether the tempo of the chosen lesson rises."""
         if selection.card is None or selection.free:
             return
         theme.part("The lesson that is chosen")
-        chosen = replace(selection, gap=_gap(selection.gap), rise=_rise(selection))
+        chosen = replace(selection, rise=_rise(selection))
         if chosen.rise is not None and chosen.rise != selection.rise:
             chosen = replace(chosen, adapt=False)
         if chosen != selection:

@@ -60,6 +60,7 @@ class TransportBar:
         self._ruler = Ruler(dispatch)
         self.controls = PlayerControls(dispatch)
         self.height = 0.0
+        self._second = LINE_HEIGHT  # design pixels of the player's line when it was drawn last
 
     def gui(self, state: State) -> None:
         """Draw it and do what the user does in it."""
@@ -81,7 +82,11 @@ class TransportBar:
         if self._has_second_line(room):
             imgui.set_cursor_pos_y(below)
             self._second_line(room, player)
+            if room.stage is Stage.IDLE:
+                self._second = (imgui.get_cursor_pos_y() - below) / theme.points(1.0)
             below = imgui.get_cursor_pos_y()
+        elif room.stage is Stage.IDLE:  # what stands above the strip stays where it is
+            below += theme.points(self._second)
         self.height = below - spacing.y + imgui.get_style().window_padding.y
 
     @staticmethod

@@ -8,12 +8,14 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from station.app.settings.first_start import LONGEST_NAME, FirstAnswers
+from station.app.room_state import RoomState
+from station.app.settings.first_start import LONGEST_NAME, FirstAnswers, found_lines
 from station.gui import theme
+from station.gui.keyboard_kit import GROOVE_KEYS
 from station.motion.sticking.hand_notes import Hands
 
 WELCOME = "Welcome"
-BEGIN_LABEL = "Begin##begin"
+BEGIN_LABEL, FIRST_LABEL = "Begin###begin", "Hear the first groove, then play it###begin"
 _WIDE = 620
 """Design pixels of the column of questions; our choice: a line that is read at a glance."""
 _SOUNDS = (
@@ -27,6 +29,9 @@ _LEADS = (
 )
 
 
+_FIRST = "The drummer plays it once, then you do, first slowly: about a minute. Esc goes to the lessons instead"
+
+
 class WelcomePage:
     """The page while it is open; `answers` as they stand."""
 
@@ -36,7 +41,7 @@ class WelcomePage:
         self._go_on = False
         self._high = 0.0  # pixels that the questions took in the last frame
 
-    def gui(self) -> bool | None:
+    def gui(self, room: RoomState, plays_at_once: bool) -> bool | None:
         """Draw the page over the whole window; returns True for begin, False for put aside, None while it is open."""
         viewport = imgui.get_main_viewport()
         imgui.set_next_window_pos(viewport.pos)
@@ -54,7 +59,7 @@ class WelcomePage:
         imgui.begin_group()
         imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + wide)
         imgui.push_item_width(wide)
-        done = self._questions(wide)
+        done = self._questions(wide, room, plays_at_once)
         imgui.pop_item_width()
         imgui.pop_text_wrap_pos()
         imgui.end_group()
@@ -63,9 +68,9 @@ class WelcomePage:
         self._is_new = False
         return False if imgui.is_key_pressed(imgui.Key.escape, repeat=False) else done
 
-    def _questions(self, wide: float) -> bool | None:
+    def _questions(self, wide: float, room: RoomState, plays_at_once: bool) -> bool | None:
         theme.heading("Welcome to the drum station", 30)
-        theme.soft("Three questions, then you play. All of it can be changed later.")
+        theme.soft("Three questions, then you hear a groove and play it. All of it can be changed later.")
         imgui.spacing()
         theme.heading("Who are you?", 22)
         if self._is_new:
@@ -94,6 +99,9 @@ class WelcomePage:
             theme.tooltip(tip)
         theme.soft(next(tip for hands, _, tip in _LEADS if hands is self.answers.hands) + ".")
         imgui.spacing()
-        begun = theme.main_button(BEGIN_LABEL, (wide, theme.points(52)))
-        theme.tooltip("To the lessons: the first one is chosen, Start plays it")
+        for line in found_lines(room.kit, room.sound, GROOVE_KEYS):
+            theme.soft(line)
+        imgui.spacing()
+        begun = theme.main_button(FIRST_LABEL if plays_at_once else BEGIN_LABEL, (wide, theme.points(52)))
+        theme.tooltip(_FIRST if plays_at_once else "To the lessons: the first one is chosen, Start plays it")
         return True if begun else None

@@ -14,14 +14,15 @@ class PageHeight:
 
     def __init__(self, least: float) -> None:
         self._least = least
-        self._fitted = 0.0
+        self._fitted = 0.0, 0.0, 0
 
     def fit(self) -> None:
-        """Take its share of a window that is new or was made larger or smaller; between, the user drags its edge."""
+        """Take its share of a window that is new, docked anew or of another size; between, users drag its edge."""
         window = imgui.get_main_viewport().size.y
-        if window == self._fitted:
+        fitted = window, theme.points(1.0), theme.times_docked()
+        if fitted == self._fitted:
             return
-        self._fitted = window
+        self._fitted = fitted
         free = window - theme.points(_BELOW)
         high = min(max(free * _SHARE, theme.points(self._least)), free)
         theme.fit_height(free if free - high < theme.points(_LEAST_PICTURE) else high)

@@ -28,6 +28,7 @@ _MARKERS = {
     StrokeMark.SQUARE: implot.Marker_.square,
     StrokeMark.BARRED_RING: implot.Marker_.circle,
     StrokeMark.CROSS: implot.Marker_.cross,
+    StrokeMark.RING: implot.Marker_.circle,
 }
 _FILLED = (StrokeMark.DISC, StrokeMark.UP, StrokeMark.DOWN)
 _EDGE = 1.7

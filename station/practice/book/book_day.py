@@ -13,7 +13,7 @@ from station.core.errors import BadInput
 from station.drills.daily.daily_items import DailyItem
 from station.drills.mastery.mastery_json import from_json, to_json
 from station.practice.records.kept_json import recalled
-from station.practice.records.session_files import folder_name, write_document
+from station.practice.records.session_files import student_folder, write_document
 
 FOLDER = "book"
 SCHEMA = "drum-station/book-day/1"
@@ -65,7 +65,7 @@ class BookFolder:
     @classmethod
     def of(cls, sessions: Path, student: str) -> "BookFolder":
         """That of `student`, under the folder of all sessions."""
-        return cls(sessions / folder_name(student) / FOLDER)
+        return cls(student_folder(sessions, student) / FOLDER)
 
     def recall(self, day: date) -> tuple[BookDay, str | None]:
         """What is kept of a day, an empty day where nothing is; and a line where the file could not be read.

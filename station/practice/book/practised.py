@@ -13,7 +13,7 @@ from typing import Any
 from station.core.errors import BadInput
 from station.practice.exam.exam_record import exam_result
 from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import DOCUMENT_NAME, TAKE_NAME, folder_name
+from station.practice.records.session_files import DOCUMENT_NAME, TAKE_NAME, student_folder
 
 MOST_BYTES = 30_000_000
 """A report of an hour has a few (our choice): more is nobody's report."""
@@ -41,14 +41,14 @@ class PractisedSession:
 
 def practised_on(sessions: Path, student: str, days: Iterable[date]) -> list[PractisedSession]:
     """All sessions of those days, in the order in which they began; folders that are none are left out."""
-    top = sessions / folder_name(student)
+    top = student_folder(sessions, student)
     found = (_session(path) for day in set(days) for path in top.glob(f"{day.isoformat()}T*"))
     return sorted((one for one in found if one is not None), key=lambda one: one.started)
 
 
 def days_practised(sessions: Path, student: str) -> list[date]:
     """The days on which anything was, in order."""
-    top = sessions / folder_name(student)
+    top = student_folder(sessions, student)
     started = (_started(path.name) for path in top.glob("????-??-??T*"))
     return sorted({one.date() for one in started if one is not None})
 

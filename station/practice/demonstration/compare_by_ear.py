@@ -67,6 +67,15 @@ def previous_bar(result: SessionResult, bar: int, previous: PreviousSession) -> 
     return Performance.from_array(strokes)
 
 
+def previous_tempo(result: SessionResult, bar: int, previous: PreviousSession) -> float | None:
+    """At how many beats a minute, as the lesson counts them, `previous_bar` was played; None where nothing tells."""
+    tempo_map = result.score.tempo_map
+    seconds = previous.beat_s(result.plan.bar_names[bar] + 1)
+    if seconds is None:
+        return None
+    return 60 / seconds * tempo_map.meter_at(tempo_map.bar_start(bar)).beat_ticks / result.plan.lesson.beat_ticks
+
+
 def _span_ns(result: SessionResult, bar: int) -> tuple[int, int]:
     """From and until when `bar` is played."""
     tempo_map = result.score.tempo_map

@@ -12,7 +12,7 @@ from station.core.errors import BadInput
 from station.drills.exam.exam_piece import ExamPiece, Unseen
 from station.drills.exam.rubric import BANDS, Marks, Rubric
 from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import folder_name, write_document
+from station.practice.records.session_files import student_folder, write_document
 from station.scoring.report.assessment_document import Json
 
 EXAM_NAME = "exam.json"
@@ -66,7 +66,7 @@ def keep_exam(folder: Path, document: dict[str, Json]) -> None:
 def was_seen(sessions: Path, student: str, unseen: Unseen) -> bool:
     """Whether this student has had that piece in an exam before."""
     wanted = {"level": unseen.level, "seed": unseen.seed}
-    return any(document.get("unseen") == wanted for document in _kept(sessions / folder_name(student)))
+    return any(document.get("unseen") == wanted for document in _kept(student_folder(sessions, student)))
 
 
 def _kept(student: Path) -> Iterator[dict[str, object]]:

@@ -20,6 +20,7 @@ from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.practice.session.runner import SessionRunner
 from station.practice.session.session import SessionResult
 from station.scoring.align import align
+from station.scoring.matching.unheard import known_part, notes_within, with_unknown
 
 
 def exam_plan(piece: ExamPiece, settings: Settings) -> Plan:
@@ -38,11 +39,13 @@ def exam_runner(asked: Plan | Adaptation, latency: Latency) -> SessionRunner:
 
 
 def exam_marks(piece: ExamPiece, result: SessionResult) -> Marks:
-    """The marks of the take, over the whole piece wherever it ended."""
+    """The marks of the take, over the whole piece wherever it ended, but for what could not be heard."""
     plan = result.plan
     alignment = align(plan.score, result.performance, clocked=plan.click is not None)
-    bars = np.array(plan.practised_bars)[plan.score.bar]
-    take = ExamTake(plan.score, bars, result.performance, alignment, feel_of(piece.lesson.goals))
+    alignment = with_unknown(alignment, notes_within(plan.score, result.unheard))
+    score, alignment, _ = known_part(plan.score, alignment)
+    bars = np.array(plan.practised_bars)[score.bar]
+    take = ExamTake(score, bars, result.performance, alignment, feel_of(piece.lesson.goals))
     return marks_of(_heard(piece.rubric, result.device), take)
 
 

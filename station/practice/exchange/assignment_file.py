@@ -14,7 +14,7 @@ from station.core.errors import BadInput
 from station.core.toml.schema import Field, Fields, Reader, list_of, needed, record, shown, text, whole
 from station.core.toml.toml_faults import wrong
 from station.practice.exchange.lesson_goals import GOAL_FIELDS, LessonGoals
-from station.practice.exchange.lesson_member import alike, lesson_text, lesson_title, parsed
+from station.practice.exchange.lesson_member import lesson_text, lesson_title, parsed
 from station.practice.exchange.parcel import Kind, Parcel, packed, parse_parcel, read_parcel
 from station.practice.exchange.plain_words import (
     due_day,
@@ -26,6 +26,7 @@ from station.practice.exchange.plain_words import (
     or_none,
     words,
 )
+from station.practice.records.session_files import alike
 
 if TYPE_CHECKING:
     from station.drills.lesson import Lesson

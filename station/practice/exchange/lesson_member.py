@@ -5,7 +5,6 @@ A lesson's name becomes a file's on the student's disk: it is one that every fil
 
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
-from unicodedata import normalize
 
 from station.core.errors import BadInput
 from station.core.toml.schema import shown
@@ -33,11 +32,6 @@ def lesson_title(value: object) -> str:
     if folder_name(name) != name or name.lower().endswith(_COURSE):
         raise wrong(f"expected a lesson's name that can be a file's, found {shown(value)}")
     return name
-
-
-def alike(name: str) -> str:
-    """What two names share that a file system or a reader may take for one."""
-    return normalize("NFKC", name).casefold()
 
 
 def lesson_text(parcel: Parcel, member: str) -> str:

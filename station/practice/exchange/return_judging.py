@@ -17,6 +17,7 @@ from station.practice.exchange.assignment_file import Assignment
 from station.practice.exchange.lesson_member import parsed
 from station.practice.exchange.return_file import Return, ReturnedSession, session_words
 from station.practice.exchange.session_figures import SessionFigures, length_s, report_figures
+from station.practice.lag.fair_judgement import judged_as_told
 from station.practice.records.recovery import session_of
 from station.practice.records.session_report import practice_document
 from station.practice.session.plan import MAX_TEMPO_BPM, MIN_TEMPO_BPM
@@ -68,7 +69,8 @@ def judge_returned(
     result = session_of(capture, lesson)
     if result is None:
         raise BadInput(source, place, f"its capture holds no session of {session.figures.lesson} as it was sent")
-    document = practice_document(result, settings)
+    fair = judged_as_told(result, session.figures.left_out_ms)
+    result, document = fair.result, practice_document(fair.result, settings, fair.lag)
     figures = report_figures(json.dumps(document).encode(), "report", "")
     figures = replace(figures, seconds=length_s(capture))
     told = (*differences(session.figures, figures), *_of_another(returned, number), *_not_as_given(session, asked))

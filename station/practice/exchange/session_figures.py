@@ -17,6 +17,8 @@ _MOST_STROKES = 10_000_000
 """More nobody plays in a session (our choice: a day without a rest)."""
 MOST_PASSES = 100_000
 """Of all sessions together (our choice: every minute of two months)."""
+MOST_LAG_MS = 1_000.0
+"""As `core.measured_latency.MOST_MS`."""
 LONGEST_S = 100_000.0
 """No session is longer (our choice: more than a day)."""
 
@@ -27,7 +29,7 @@ class SessionFigures:
 
     `is_clean`: it was played to its end and missed no goal; `passes` as they were to be played, `complete` whether they
     all were; `seconds` how long it took, 0 where nobody said; `ruled` whether a teacher says that its goals are
-    reached, None where they leave it as it is.
+    reached, None where they leave it as it is; `left_out_ms` is a lag of all strokes that the report does not count.
     """
 
     lesson: str
@@ -43,6 +45,7 @@ class SessionFigures:
     assignments: tuple[str, ...] = ()
     seconds: float = 0.0
     ruled: bool | None = None
+    left_out_ms: float = 0.0
 
     @property
     def is_clean(self) -> bool:
@@ -119,6 +122,7 @@ _REPORT = _some(
         "right": needed(whole(0, _MOST_STROKES)),
         "counts": needed(_some({"notes": needed(whole(0, _MOST_STROKES))})),
         "session": needed(_SESSION),
+        "lag": Field(or_none(_some({"left_out_ms": Field(number(-MOST_LAG_MS, MOST_LAG_MS), 0.0)})), None),
     }
 )
 
@@ -141,4 +145,5 @@ def _report(raw: object) -> SessionFigures:
         missed=session["goals_missed"],
         assignments=session["assignments"],
         seconds=session["played_s"],
+        left_out_ms=0.0 if said["lag"] is None else said["lag"]["left_out_ms"],
     )

@@ -23,7 +23,7 @@ from station.practice.exchange.return_file import (
 )
 from station.practice.exchange.session_figures import SessionFigures, length_s, report_figures
 from station.practice.exchange.student_store import TakenAssignment, session_key, verdicts_on
-from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, PAIRS_NAME, folder_name
+from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, PAIRS_NAME, student_folder
 
 _STARTED, _STARTED_LETTERS = "%Y-%m-%dT%H-%M-%S", 19
 _ROOM = Kind.RETURN.value.most_bytes - (1 << 20)
@@ -49,7 +49,7 @@ def practised(settings: Settings, one: TakenAssignment) -> list[PractisedSession
     verdicts = verdicts_on(one)
     found: list[PractisedSession] = []
     for path in sorted(
-        (settings.sessions_dir / folder_name(settings.student)).glob(f"*/{DOCUMENT_NAME}"), reverse=True
+        student_folder(settings.sessions_dir, settings.student).glob(f"*/{DOCUMENT_NAME}"), reverse=True
     ):
         played = _started(path.parent)
         if played is None or played < one.taken.when:

@@ -7,17 +7,25 @@ from station.core.labels import limb_name
 from station.core.pieces import Limb
 from station.core.units import NS_PER_MS
 from station.music.judgement import Judgement, Label
-from station.practice.session.plan import Segment
+from station.practice.now.directions_now import direction_of
+from station.practice.now.entry_now import entry_words
+from station.practice.now.whereabouts import Doing, whereabouts
 from station.practice.session.session import Session
-from station.practice.session.session_place import direction_of
 from station.scoring.matching.hit_windows import Level, Windows
 
 _EARLY, _ON_TIME, _LATE = "<", "|", ">"
 _OF_LEAN = {-1: _EARLY, 0: _ON_TIME, 1: _LATE}
-_UNTIMED, _MISS, _WRONG_PIECE, _EXTRA, _TAKEN_BACK, _IGNORED = "·", "o", "x", "+", "~", ""
+_UNTIMED, _MISS, _WRONG_PIECE, _EXTRA, _TAKEN_BACK, _IGNORED, _UNKNOWN = "·", "o", "x", "+", "~", "", "?"
+_UNPLAYED = {
+    Label.MISS: _MISS,
+    Label.EXTRA: _EXTRA,
+    Label.WRONG_PIECE: _WRONG_PIECE,
+    Label.PENDING: _TAKEN_BACK,
+    Label.UNKNOWN: _UNKNOWN,
+}
 LEGEND = (
     f"{_ON_TIME} on time  {_EARLY} early  {_LATE} late  {_MISS} missed  {_WRONG_PIECE} wrong piece  {_EXTRA} extra  "
-    f"{_TAKEN_BACK} taken back  {_UNTIMED} hit, its time not shown"
+    f"{_TAKEN_BACK} taken back  {_UNTIMED} hit, its time not shown  {_UNKNOWN} not heard"
 )
 
 
@@ -32,16 +40,10 @@ def mark_of(verdict: Judgement, windows: Windows) -> str:
         case Label.MATCH:
             asynchrony_ns = verdict.asynchrony_ns
             return _UNTIMED if asynchrony_ns is None else _OF_LEAN[windows.lean(asynchrony_ns / NS_PER_MS)]
-        case Label.MISS:
-            return _MISS
-        case Label.EXTRA:
-            return _EXTRA
-        case Label.WRONG_PIECE:
-            return _WRONG_PIECE
         case Label.IGNORED | Label.PLAYED_AGAIN:
             return _IGNORED
-        case Label.PENDING:
-            return _TAKEN_BACK
+        case Label.MISS | Label.EXTRA | Label.WRONG_PIECE | Label.PENDING | Label.UNKNOWN as label:
+            return _UNPLAYED[label]
         case _:
             assert_never(verdict.label)
 
@@ -54,15 +56,15 @@ class LiveText:
         self._paused_words = f"paused: {' or '.join(ways_on)} to go on, Ctrl-C to end"
         self._paused = False
         self._session: Session | None = None
-        self._segment: Segment | None = None
+        self._where = ""
         self._shown = 0
         self._sensors: set[str] = set()
-        self._said = ""
+        self._said = self._entry = ""
 
     def show(self, session: Session, judged: tuple[Judgement, ...]) -> None:
         """Show what is new in `session`."""
         if session is not self._session:
-            self._session, self._segment, self._shown = session, None, 0
+            self._session, self._where, self._shown = session, "", 0
         notices = session.heard.notices[self._shown :]
         self._shown += len(notices)
         for notice in notices:
@@ -70,6 +72,7 @@ class LiveText:
         self._show_sensors(session.heard.sensors)
         self._show_segment(session)
         self._show_words(session)
+        self._show_entry(session)
         marks = "".join(mark_of(verdict, session.plan.level.windows) for verdict in session.shown(judged))
         if marks:
             self._write(marks)
@@ -85,13 +88,20 @@ class LiveText:
         self._sensors = set(sensors)
 
     def _show_segment(self, session: Session) -> None:
-        state = session.state()
-        if state.transport_ns is None or state.segment == self._segment:
+        where = whereabouts(session)
+        if where.words == self._where or where.doing in (Doing.READY, Doing.PAUSED, Doing.WAITING):
             return
-        if self._segment is None and session.message:
+        if not self._where and session.message:
             self._write(f"\n{session.message}")
-        self._segment = state.segment
-        self._write(f"\n{session.plan.words(state.segment):14}")
+        self._where = where.words
+        self._write(f"\n{where.words:14}")
+
+    def _show_entry(self, session: Session) -> None:
+        """That the student came in beside the click, once as it is found."""
+        words = entry_words(session)
+        if words and words != self._entry:
+            self._write(f"\n{words}\n{'':14}")
+        self._entry = words
 
     def _show_words(self, session: Session) -> None:
         """The teacher's words, once as they come."""

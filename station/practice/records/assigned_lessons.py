@@ -11,7 +11,7 @@ from pathlib import Path
 from station.core.errors import BadInput
 from station.drills.mastery.mastery_json import from_json, to_json
 from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import folder_name, write_document
+from station.practice.records.session_files import student_folder, write_document
 
 FOLDER = "assignments"
 TAKEN_NAME = "taken.json"
@@ -49,7 +49,7 @@ class Taken:
 
 def assignments_folder(sessions: Path, student: str) -> Path:
     """Where a student's assignments are kept, under the folder of all sessions."""
-    return sessions / folder_name(student) / FOLDER
+    return student_folder(sessions, student) / FOLDER
 
 
 def all_taken(sessions: Path, student: str) -> dict[Path, Taken]:

@@ -23,7 +23,7 @@ from station.drills.mastery.rules import DEFAULT_RULES
 from station.practice.records.kept_json import kept_document, recalled
 from station.practice.records.lesson_order import ahead_of, followed_course
 from station.practice.records.lesson_progress import progress_of
-from station.practice.records.session_files import folder_name, write_document
+from station.practice.records.session_files import folder_name, student_folder, write_document
 from station.practice.records.teachers_wishes import NO_WISHES, Wishes, wishes_of
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions
@@ -45,7 +45,7 @@ class Memory:
     def of(cls, sessions: Path, student: str, lesson: str, bars: tuple[int, int]) -> "Memory":
         """The memory of `student` for `bars` (first, last, from 0) of `lesson`, under the folder of all sessions."""
         name = f"{folder_name(lesson)}_{bars[0] + 1}-{bars[1] + 1}.json"
-        return cls(sessions / folder_name(student) / FOLDER / name)
+        return cls(student_folder(sessions, student) / FOLDER / name)
 
     def recall(self) -> tuple[ItemState | None, str | None]:
         """What is remembered, None where nothing is; and a line for the student where it could not be read.
@@ -68,7 +68,7 @@ class LevelMemory:
     @classmethod
     def of(cls, sessions: Path, student: str) -> "LevelMemory":
         """That of `student`, under the folder of all sessions."""
-        return cls(sessions / folder_name(student) / FOLDER / LEVELS_NAME)
+        return cls(student_folder(sessions, student) / FOLDER / LEVELS_NAME)
 
     def recall(self) -> tuple[Mapping[str, Level], str | None]:
         """The level of each lesson by its name, and a line for the student where the file could not be read.
@@ -186,7 +186,7 @@ def _course_with(lesson: Lesson, followed: Course | None) -> Course | None:
 
 def remembered(sessions: Path, student: str) -> list[ItemState]:
     """All that is remembered of `student` under the folder of all sessions; what cannot be read is left out."""
-    return _all_in(sessions / folder_name(student) / FOLDER)
+    return _all_in(student_folder(sessions, student) / FOLDER)
 
 
 def _all_in(folder: Path) -> list[ItemState]:

@@ -37,13 +37,14 @@ class PreviousSession:
     """An earlier session: when it was begun, seen from `today`, and where its strokes (n,) fell.
 
     `at` (n, 4) is pass, bar and beat from 1 in the lesson, and seconds after that; `strokes` are rows of `HIT_DTYPE`
-    whose time is nothing.
+    whose time is nothing; `due_s` (n,) when in that session the note was due that it answered, NaN without one.
     """
 
     when: datetime
     today: date
     at: NDArray[np.float64]
     strokes: NDArray[np.void]
+    due_s: NDArray[np.float64]
 
     @property
     def day(self) -> str:
@@ -53,6 +54,17 @@ class PreviousSession:
     def has_bar(self, bar: int) -> bool:
         """Whether the lesson's `bar`, from 1, was played."""
         return bool((self.at[:, 1] == bar).any())
+
+    def beat_s(self, bar: int) -> float | None:
+        """How long a beat of the meter lasted in the last pass over `bar`, from 1; None where too little was played."""
+        here = (self.at[:, 1] == bar) & ~np.isnan(self.due_s)
+        if not here.any():
+            return None
+        here &= self.at[:, 0] == self.at[here, 0].max()
+        first, last = np.argmin(self.due_s[here]), np.argmax(self.due_s[here])
+        beats = float(self.at[here, 2][last] - self.at[here, 2][first])
+        seconds = float(self.due_s[here][last] - self.due_s[here][first])
+        return seconds / beats if beats > 0 and seconds > 0 else None
 
     def in_bar(self, bar: int) -> tuple[NDArray[np.float64], NDArray[np.void]]:
         """Beat and seconds (m, 2), and the strokes (m,), of its last pass over `bar`; empty where there is none."""
@@ -116,9 +128,10 @@ def _read(days: tuple[datetime, date], table: Path) -> PreviousSession | None:
                 return None
             played = [row for row in rows if row["hit_index"]]
             at = np.array([_at(row) for row in played], np.float64).reshape(-1, 4)
-            if not (np.abs(at) <= _MOST).all():
+            due_s = np.array([float(row["note_time_s"]) if row["note_index"] else np.nan for row in played])
+            if not (np.abs(at) <= _MOST).all() or not np.all(np.isnan(due_s) | (np.abs(due_s) <= _MOST)):
                 return None
-            return PreviousSession(*days, at, _strokes(played))
+            return PreviousSession(*days, at, _strokes(played), due_s)
     except (OSError, ValueError, KeyError, TypeError, csv.Error):
         return None
 

@@ -16,7 +16,7 @@ from station.core.settings import Settings
 from station.devices.capture.capture import Capture, RecordKind, read_capture
 from station.drills.lesson import Lesson
 from station.practice.records.rejudge import judge_again
-from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, TAKE_NAME, folder_name
+from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, TAKE_NAME, student_folder
 from station.practice.session.adaptation import whole
 from station.practice.session.plan import Plan
 from station.practice.session.session import SessionResult
@@ -33,7 +33,7 @@ def cut_off(sessions: Path, student: str) -> list[Path]:
 
     `sessions` is the folder of all sessions. One that runs in another program right now is among them.
     """
-    captures = sorted((sessions / folder_name(student)).glob(f"*/{CAPTURE_NAME}"), reverse=True)
+    captures = sorted(student_folder(sessions, student).glob(f"*/{CAPTURE_NAME}"), reverse=True)
     without = [path.parent for path in captures if not _is_reported(path.parent)]
     return [folder for folder in without[:MOST_READ] if _is_worth_it(folder / CAPTURE_NAME)]
 

@@ -11,14 +11,34 @@ from collections.abc import Iterable
 from contextlib import suppress
 
 from station.core.errors import BadInput
-from station.core.events import Choke, Hit, SensorEvent, SensorLost, SensorMounted, SensorSamples, SensorStatus
+from station.core.events import (
+    Choke,
+    DeviceFound,
+    DeviceLost,
+    Hit,
+    SensorEvent,
+    SensorLost,
+    SensorMounted,
+    SensorSamples,
+    SensorStatus,
+)
 from station.core.pieces import word
 from station.devices.capture.capture import Capture
 from station.devices.capture.replay import CaptureBegan, Entry, LoggedText, OutputChanged, TransportZero, replay_all
-from station.engine.messages import EngineEvent, Sounding, Started
+from station.engine.messages import EngineEvent, Sounding, Started, Unheard
 from station.music.judgement import Label
 from station.music.score import Score
-from station.practice.session.event_log import Ended, PassBegan, Paused, Said, Tracked, WentOn, said_in, stroke_key
+from station.practice.session.event_log import (
+    Ended,
+    PassBegan,
+    Paused,
+    Said,
+    Tracked,
+    WasUnheard,
+    WentOn,
+    said_in,
+    stroke_key,
+)
 from station.practice.session.session import Session, SessionResult
 from station.scoring.matching.alignment import judgements
 from station.scoring.report.assessment_document import Json
@@ -97,6 +117,8 @@ class RejudgedSessions:
                 self._struck(entry)
             case SensorMounted() | SensorLost() | SensorSamples() | SensorStatus():
                 self._sensed(entry)
+            case DeviceLost() | DeviceFound():
+                pass  # what could not be heard meanwhile the log says
             case _:
                 self._hand_over(entry)
 
@@ -146,13 +168,15 @@ class RejudgedSessions:
         self._session.phases.model = self._drill
         self._hand_over(Sounding(self._output))
 
-    def _apply(self, session: Session, said: Paused | WentOn | Ended) -> None:
+    def _apply(self, session: Session, said: Paused | WentOn | Ended | WasUnheard) -> None:
         match said:
             case Paused(_, now_ns, command):
                 session.advance(now_ns)
                 session.pause([hit for hit in self._hits if stroke_key(hit) in command])
             case WentOn(_, asked, whole):
                 session.resume(asked, whole)
+            case WasUnheard(_, from_ns, until_ns):
+                session.handle(Unheard(from_ns, until_ns))
             case Ended(_, now_ns):
                 session.advance(now_ns)
                 self._is_ended = True
@@ -202,6 +226,7 @@ def session_line(result: SessionResult) -> str:
 _WORDS = {
     Label.MATCH: "hit",
     Label.MISS: "missed",
+    Label.UNKNOWN: "unknown",
     Label.WRONG_PIECE: "on a wrong piece",
     Label.EXTRA: "extra",
     Label.IGNORED: "not counted",

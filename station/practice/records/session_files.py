@@ -8,6 +8,7 @@ import json
 import re
 from datetime import datetime
 from pathlib import Path
+from unicodedata import normalize
 
 from station.core.disk.files import write_whole
 from station.core.errors import DeviceError
@@ -22,6 +23,8 @@ DRUMMER_NAME = "drummer.png"
 
 _LONGEST = 80
 """Our choice: two such names and a date stay far below every file system's 255 bytes, even of four-byte letters."""
+OWN_FOLDERS = frozenset({"assignments", "courses", "lessons", "returns", "styles"})
+"""What lies beside the students' folders: given and returned parcels, what the user has written."""
 _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{n}" for port in ("COM", "LPT") for n in range(10))}
 """Names that Windows keeps for itself."""
 _UNSAFE = re.compile(r"[^\w.-]+")
@@ -33,10 +36,21 @@ def folder_name(text: str) -> str:
     return f"{name}_" if name.split(".")[0].upper() in _RESERVED else name
 
 
+def alike(name: str) -> str:
+    """What two names share that a file system or a reader may take for one."""
+    return normalize("NFKC", name).casefold()
+
+
+def student_folder(sessions: Path, student: str) -> Path:
+    """Where all of a student's is kept, under the folder of all sessions; none of the folders that are no student's."""
+    name = folder_name(student)
+    return sessions / (f"{name}_" if name.casefold() in OWN_FOLDERS else name)
+
+
 def session_folder(sessions: Path, student: str, lesson: str, started: datetime) -> Path:
     """Make and return a new folder for a session; raises `DeviceError` where none can be made."""
     stem = f"{started:%Y-%m-%dT%H-%M-%S}_{folder_name(lesson)}"
-    parent = sessions / folder_name(student)
+    parent = student_folder(sessions, student)
     for attempt in range(1, 1000):
         path = parent / (stem if attempt == 1 else f"{stem}_{attempt}")
         try:

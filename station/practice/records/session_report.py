@@ -20,12 +20,15 @@ from station.devices.mapping.device_file import own_kit
 from station.drills.lesson import Goals
 from station.drills.mastery.agenda import Turn
 from station.engine.engine import KEYBOARD
+from station.practice.lag.lag_document import lag_document
+from station.practice.lag.session_lag import LagAnswer, SessionLag
 from station.practice.records.assigned_lessons import assigned_by
 from station.practice.records.mastery_report import passes_text
 from station.practice.records.next_steps import next_steps, steps_document
 from station.practice.records.phase_words import phase_document, phase_lines
 from station.practice.records.stick_words import sticking_lines, sticks_document, sticks_text
 from station.practice.records.tempo_report import clean_up_to, tempo_rows, tempo_text
+from station.practice.records.unheard_words import unheard_rows, unheard_text
 from station.practice.records.what_next import advice_of, measured_session, missed_document, table_in, what_next
 from station.practice.session.cues.quiet_bars import gap_of, gap_words
 from station.practice.session.lesson_places import written_hands
@@ -56,8 +59,10 @@ def kit_facts(settings: Settings, device: str | None = None) -> KitFacts:
     return KitFacts(MappingProxyType(thresholds), max(settings.mask_ms, deaf_ms))
 
 
-def practice_document(result: SessionResult, settings: Settings, following: Turn | None = None) -> dict[str, Json]:
-    """The report of a session; computer keys have no velocity, so of them nothing is said of dynamics.
+def practice_document(
+    result: SessionResult, settings: Settings, lag: SessionLag | None = None, following: Turn | None = None
+) -> dict[str, Json]:
+    """The report of a session and its `lag`; computer keys have no velocity, so of them nothing is said of dynamics.
 
     `following` is the lesson to turn to after it (`memory.following_lesson`), None where nobody knows one.
     """
@@ -89,12 +94,14 @@ def practice_document(result: SessionResult, settings: Settings, following: Turn
             {"bar": plan.bar_names[pause.bar] + 1, "asked": pause.asked, "strokes_again": pause.strokes}
             for pause in result.pauses
         ],
+        "unheard": unheard_rows(result),
         "goals_missed": missed_document(plan, measured),
         "next": [*what_next(document, plan, measured, steps[0])],
         "steps": steps_document(steps),
         "assignments": [taken.id for taken in given],
         "teacher": [words for taken in given for name, words in taken.said if name == plan.lesson.name],
     }
+    document["lag"] = lag_document(lag)
     document["sticks"] = sticks_document(result.felt, plan.lesson.goals.faults)
     document["phase"] = phase_document(result.phase, plan.lesson.goals.faults)
     return document
@@ -174,9 +181,22 @@ def report_text(document: dict[str, Json]) -> str:
     return (
         f"{head}{'' if session['complete'] else ' (stopped early)'}\n\n"
         f"{_gap_text(session)}{_figures_text(document)}{_praise_text(document)}{_passes(document)}{_tempi(session)}"
-        f"{_steps_text(map(str, steps))}{_teacher(session)}{sticks_text(document)}{_paused(session)}"
+        f"{_lag(document)}{_steps_text(map(str, steps))}{_teacher(session)}{sticks_text(document)}"
+        f"{unheard_text(session['unheard'])}{_paused(session)}"
         f"\nLatency taken out: {session['latency']}.\n"
     )
+
+
+def _lag(document: dict[str, Json]) -> str:
+    """What was found of a lag, and what takes it out; nothing where there is none."""
+    lag = document.get("lag")
+    if not isinstance(lag, dict) or not lag["text"]:
+        return ""
+    asks = f"\n{_TAKE_OUT}" if lag["answer"] == LagAnswer.OPEN.value else ""
+    return f"\n{lag['text']}{asks}\n"
+
+
+_TAKE_OUT = "`station devices calibrate --by groove` takes it out for good; with --leave it counts as yours."
 
 
 def _teacher(session: dict[str, Json]) -> str:
@@ -240,12 +260,17 @@ def _again(counts: dict[str, Json]) -> str:
     return f"; played again: {counts['played_again']}" if counts["played_again"] else ""
 
 
+def _unknown(counts: dict[str, Json]) -> str:
+    """What is said of notes that nobody could hear, where there are some."""
+    return f"; unknown, for they could not be heard: {counts['unknown']}" if counts["unknown"] else ""
+
+
 def _figures_text(document: dict[str, Json]) -> str:
     counts, timing = table_in(document, "counts"), table_in(document, "timing")
     lines = [
         f"Score {_figure(document['score'], '.0f')} of 100",
         f"Notes {counts['notes']}: {counts['matched']} hit, {counts['misses']} missed,"
-        f" {counts['wrong_piece']} on a wrong piece; extra hits: {counts['extras']}{_again(counts)}",
+        f" {counts['wrong_piece']} on a wrong piece; extra hits: {counts['extras']}{_again(counts)}{_unknown(counts)}",
         _timing_words(timing, document["reference"] == Reference.PLAYER.value),
     ]
     rows = [

@@ -13,6 +13,7 @@ from station.drills.mastery.verdict import judge
 from station.engine.engine import KEYBOARD
 from station.music.judgement import Label
 from station.practice.session.session import SessionResult
+from station.scoring.matching.unheard import known_part
 from station.scoring.report.assessment_document import Json
 
 
@@ -85,7 +86,7 @@ def _measured(result: SessionResult) -> list[tuple[float, tuple[int, int], PassR
 
 def _of_span(result: SessionResult, span: tuple[int, int], right: int, sd_ms: float | None) -> PassResult:
     """Some bars as a pass of their own."""
-    score, alignment = result.score, result.alignment
+    score, alignment, _ = known_part(result.score, result.alignment)
     rows = (score.bar >= span[0]) & (score.bar <= span[1])
     hits = score.tempo_map.bars_at(score.tempo_map.ticks_at_ns(np.maximum(alignment.hit_score_ns, 0)))
     here = (hits >= span[0]) & (hits <= span[1])

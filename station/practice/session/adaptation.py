@@ -34,6 +34,7 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.plan import (
     MAX_TEMPO_BPM,
     MIN_TEMPO_BPM,
+    PassSeries,
     Phase,
     Plan,
     PlanOptions,
@@ -45,6 +46,7 @@ from station.practice.session.played_phase import all_phases
 from station.practice.session.session import Session, SessionResult
 from station.scoring.align import align
 from station.scoring.matching.hit_windows import Level
+from station.scoring.matching.unheard import notes_within, with_unknown
 
 REST_S = 1.5
 """At least so much silence lies between two passes of the joined score: more than a session listens before its first
@@ -103,7 +105,8 @@ class Adaptation:
 
     def session(self, latency: Latency) -> Session:
         """The next pass as a session, ready to start."""
-        return Session(self.plan, latency, feedback=self.step.feedback, message=self.words)
+        series = PassSeries(len(self.rounds), self.loops, (self.rounds[0] if self.rounds else self).step.tempo_bpm)
+        return Session(self.plan, latency, feedback=self.step.feedback, message=self.words, series=series)
 
     @property
     def words(self) -> str:
@@ -210,7 +213,10 @@ class Adaptation:
     def _measured(self, result: SessionResult) -> PassResult:
         swap = self.state.equipment.swap
         performance = rewired(result.performance, swap)
-        alignment = result.alignment if swap is None else align(result.score, performance, clocked=True)
+        alignment = result.alignment
+        if swap is not None:
+            within = notes_within(result.score, result.unheard)
+            alignment = with_unknown(align(result.score, performance, clocked=True), within)
         view = PassView(self.level.windows, self.rules.asked, result.device != KEYBOARD)
         return measure_pass(result.score, performance, alignment, result.plan.practised_bars, view)
 
@@ -278,11 +284,16 @@ def whole(results: list[SessionResult], bars: tuple[int, int]) -> SessionResult:
     row = ScoreRow(tuple(result.score for result in results))
     score, performance = row.score, row.performance(result.performance for result in results)
     last = results[-1]
+    unheard = tuple(
+        (start_ns + begin_ns, start_ns + end_ns)
+        for start_ns, result in zip(row.start_ns, results, strict=True)
+        for begin_ns, end_ns in result.unheard
+    )
     return SessionResult(
         plan=_whole_plan([result.plan for result in results], row, bars),
         score=score,
         performance=performance,
-        alignment=align(score, performance, clocked=True),
+        alignment=with_unknown(align(score, performance, clocked=True), notes_within(score, unheard)),
         latency=last.latency,
         complete=last.complete,
         device=_played_on(results),
@@ -294,6 +305,7 @@ def whole(results: list[SessionResult], bars: tuple[int, int]) -> SessionResult:
         ),
         felt=tuple(pair for result in results for pair in result.felt),
         phase=all_phases([result.phase for result in results]),
+        unheard=unheard,
     )
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from station.core.errors import BadInput, DeviceError
+from station.core.settings import Settings
 from station.music.score import Score
 from station.practice.session.plan import Plan
 from station.sound.track import PreparedTrack
@@ -31,8 +32,9 @@ what is played once rings out (our choice)."""
 class BackingRequest:
     """A sound file, from where in it, which part of it again and again, and how fast; times in seconds of the file.
 
-    With `speed` None it follows the tempo: a lesson practised at 80 % of its own tempo has its track at 80 %. `beside`,
-    `piece_s`, `softer` and `turns` are a `TrackRequest`'s.
+    With `speed` None it follows the tempo: a lesson practised at 80 % of its own tempo has its track at 80 %; where the
+    file's own tempo `beats_a_minute` is known, that decides. `beside`, `piece_s`, `softer` and `turns` are a
+    `TrackRequest`'s.
     """
 
     path: Path
@@ -43,10 +45,11 @@ class BackingRequest:
     piece_s: tuple[float, float] | None = None
     softer: tuple[tuple[float, int], ...] = ()
     turns: int | None = None
+    beats_a_minute: float | None = None
 
     def track(self, plan: Plan, rate_hz: int) -> TrackRequest:
         """What is to be made ready for `plan`; raises `BadInput` for a speed that no stretching reaches."""
-        speed = plan.tempo_bpm / plan.lesson.tempo_bpm if self.speed is None else self.speed
+        speed = self._speed(plan)
         if not MIN_SPEED <= speed <= MAX_SPEED:
             limits = f"expected {MIN_SPEED:.0%} to {MAX_SPEED:.0%} of its own speed, found {speed:.0%}"
             raise BadInput(self.path, "speed", limits)
@@ -54,10 +57,26 @@ class BackingRequest:
             self.path, rate_hz, speed, self.start_s, self.loop_s, self.beside, self.piece_s, self.softer, self.turns
         )
 
+    def _speed(self, plan: Plan) -> float:
+        if self.speed is not None:
+            return self.speed
+        if self.beats_a_minute is not None:
+            return plan.beats_a_minute / self.beats_a_minute
+        return plan.tempo_bpm / plan.lesson.tempo_bpm
+
     def check(self, plan: Plan, rate_hz: int) -> None:
         """Raise `BadInput` for what could never be made ready, as far as the head of its file tells."""
         file_length_s(self.path)  # one that is not there has no speed either
         checked_length_s(self.track(plan, rate_hz))
+
+
+def track_request(settings: Settings) -> BackingRequest | None:
+    """The track that a user's sessions play along to; None where there is none, or they shall not."""
+    if not (settings.track and settings.with_track):
+        return None
+    speed = None if settings.track_stretched else 1.0
+    path = Path(settings.track).expanduser()
+    return BackingRequest(path, settings.track_start_s, speed=speed, beats_a_minute=settings.track_bpm or None)
 
 
 def song_request(plan: Plan, with_drums: bool = True) -> BackingRequest | None:
@@ -93,9 +112,12 @@ class Backing:
         self._asked: TrackRequest | None = None
         self._future: Future[PreparedTrack] | None = None
 
-    def ask(self, plan: Plan, rate_hz: int, with_drums: bool = True) -> None:
-        """Begin to make the track ready for `plan`, unless it is so already; raises `BadInput`."""
-        wanted = self._request or song_request(plan, with_drums)
+    def ask(self, plan: Plan, rate_hz: int, with_drums: bool = True, otherwise: BackingRequest | None = None) -> None:
+        """Begin to make the track ready for `plan`, unless it is so already; raises `BadInput`.
+
+        `otherwise` is for what brings none.
+        """
+        wanted = self._request or song_request(plan, with_drums) or otherwise
         assert wanted is not None, "it is asked for where there is one"
         request = wanted.track(plan, rate_hz)
         if request != self._asked:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 from station.core.events import Choke, DeviceFound, DeviceLost, Hit, SensorLost, SensorMounted
 from station.core.pieces import Limb
-from station.engine.messages import CaptureSaved, EngineEvent, Notice, Ready, Sounding, Started
+from station.engine.messages import CaptureSaved, EngineEvent, Notice, Ready, Sounding, Started, Unheard
 from station.practice.session.device_latency import Latency
 
 RECENT_HITS = 32
@@ -30,7 +30,8 @@ class EngineState:
     `capture_fault` why the capture lacks what came after, if it does; `rate_hz` the sound card's, None where there is
     none; `notices` what a user should read once, in order; `recent` the last hits, the newest last; `zero_ns` when cue
     time 0 was heard, None while the transport has not started; `strokes` counts the strokes and the grabbed cymbals
-    since the capture began.
+    since the capture began. `unheard` are the spans of session time in which no stroke could be heard, and
+    `deaf_since_ns` is when one began that still lasts: no kit is left, and nothing else has been played since.
     """
 
     latency: Latency = field(default_factory=Latency)
@@ -43,23 +44,24 @@ class EngineState:
     recent: deque[Hit] = field(default_factory=lambda: deque(maxlen=RECENT_HITS))
     zero_ns: int | None = None
     strokes: int = 0
+    unheard: list[tuple[int, int]] = field(default_factory=list)
+    deaf_since_ns: int | None = None
 
     def handle(self, event: EngineEvent) -> None:
         """Take in one event."""
         match event:
             case Hit():
+                self._hears_again(event.at_ns)
                 self.recent.append(event)
                 self.strokes += 1
             case Choke():
                 self.strokes += 1
             case Started(zero_ns, output):
                 self.zero_ns, self.output = zero_ns, output
-            case DeviceLost(_, device):
-                self.devices = [other for other in self.devices if other != device]
-                self.notices.append(f"{device} is gone; plug it in again, the session goes on")
-            case DeviceFound(_, device):
-                self.devices = [*(other for other in self.devices if other != device), device]
-                self.notices.append(f"{device} is here")
+            case Unheard(from_ns, until_ns):
+                self.unheard.append((from_ns, until_ns))
+            case DeviceLost() | DeviceFound():
+                self._kit_changed(event)
             case SensorMounted(_, device, mounting):
                 self._sensor_is_here(device, mounting.limb)
             case SensorLost(_, device):
@@ -78,6 +80,30 @@ class EngineState:
             case _:
                 pass
 
+    def _kit_changed(self, event: DeviceLost | DeviceFound) -> None:
+        at_ns, device = event.at_ns, event.device
+        self.devices = [other for other in self.devices if other != device]
+        if isinstance(event, DeviceFound):
+            self._hears_again(at_ns)
+            self.devices.append(device)
+            self.notices.append(f"{device} is here")
+            return
+        if not self.devices and self.deaf_since_ns is None:
+            self.deaf_since_ns = at_ns
+        self.notices.append(f"{device} is gone; plug it in again, the session goes on")
+
+    def _hears_again(self, at_ns: int) -> None:
+        """Something can be heard from `at_ns` on."""
+        if self.deaf_since_ns is not None:
+            self.unheard.append((self.deaf_since_ns, max(at_ns, self.deaf_since_ns)))
+            self.deaf_since_ns = None
+
+    def stop_listening(self, now_ns: int) -> None:
+        """Nothing more is awaited at `now_ns`: a span without hearing ends there, and another begins."""
+        if self.deaf_since_ns is not None:
+            self._hears_again(now_ns)
+            self.deaf_since_ns = now_ns
+
     def _sensor_is_here(self, device: str, limb: Limb) -> None:
         """A sensor is mounted anew whenever a capture begins; what its player lacks is told once."""
         if limb is Limb.UNKNOWN and self.sensors.get(device) is not limb:
@@ -88,7 +114,7 @@ class EngineState:
         """Know what a session knew that ran before on the same engine."""
         self.sensors = dict(before.sensors)
         self.devices, self.capture_fault, self.rate_hz = before.devices, before.capture_fault, before.rate_hz
-        self.strokes = before.strokes
+        self.strokes, self.deaf_since_ns = before.strokes, before.deaf_since_ns
 
     def transport_ns(self, at_ns: int) -> int | None:
         """The transport's time that was heard at session time `at_ns`; None before it has started."""

@@ -1,6 +1,6 @@
 """What a session has written into its capture beside the bytes, so that the capture alone can be judged again.
 
-Each text is one JSON object: `said` (`pass`, `pause`, `go_on`, `end`, `track`), and `strokes`, how many strokes and grabbed
+Each text is one JSON object: `said` (`pass`, `pause`, `go_on`, `end`, `unheard`, `track`), and `strokes`, how many strokes and grabbed
 cymbals the session had heard since the capture began (or went on in another engine's hand). By that count, and not by
 the clock, a text has its place among the strokes: the session heard them later than the engine did.
 
@@ -10,6 +10,7 @@ the clock, a text has its place among the strokes: the session heard them later 
 | `pause` | `now_ns`, the session time that it knew; `command`: the strokes that asked for it, each as `stroke_key` has it |
 | `go_on` | `asked`, `whole`, as `Session.resume` takes them |
 | `end` | `now_ns`, the session time at which nothing more was awaited |
+| `unheard` | `from_ns`, `until_ns`: the session times between which no stroke could be heard |
 | `track` | from here on the sticks are tracked through a section: its `notes`, `tempos`, `meters`, `end_tick`; it stands among the samples where it was heeded, and tells no `strokes` |
 
 The score is kept as it was judged, strokes and tempo, so that a lesson that has changed since changes nothing.
@@ -17,8 +18,10 @@ The score is kept as it was judged, strokes and tempo, so that a lesson that has
 
 import json
 import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,7 +87,16 @@ class Ended:
     now_ns: int
 
 
-Said = PassBegan | Paused | WentOn | Ended
+@dataclass(frozen=True, slots=True)
+class WasUnheard:
+    """No stroke could be heard between these session times."""
+
+    strokes: int
+    from_ns: int
+    until_ns: int
+
+
+Said = PassBegan | Paused | WentOn | Ended | WasUnheard
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,6 +123,8 @@ def text_of(said: Said | Tracked) -> str:
             fields = {"said": "go_on", "asked": said.asked, "whole": said.whole}
         case Ended():
             fields = {"said": "end", "now_ns": said.now_ns}
+        case WasUnheard():
+            fields = {"said": "unheard", "from_ns": said.from_ns, "until_ns": said.until_ns}
     return _json({**fields, "strokes": said.strokes})
 
 
@@ -183,24 +197,29 @@ def said_in(logged: LoggedText) -> Said | Tracked | None:
     """What a session said; None for what no session of this version says. Raises `BadInput` where it is damaged."""
     try:
         fields = json.loads(logged.text)
-        match fields.get("said"):
-            case "pass":
-                return PassBegan(
-                    _whole(fields["strokes"]), _plan(fields), _latency(fields["latency"]), bool(fields["waits"])
-                )
-            case "pause":
-                keys = ((_whole(at), str(device), _whole(p), _whole(v)) for at, device, p, v in fields["command"])
-                return Paused(_whole(fields["strokes"]), _whole(fields["now_ns"]), tuple(keys))
-            case "go_on":
-                return WentOn(_whole(fields["strokes"]), bool(fields["asked"]), bool(fields["whole"]))
-            case "end":
-                return Ended(_whole(fields["strokes"]), _whole(fields["now_ns"]))
-            case "track":
-                return Tracked(_section(fields))
-            case _:
-                return None
+        reader = _READERS.get(fields.get("said"))
+        return None if reader is None else reader(fields)
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError):
         raise BadInput("capture", f"remark at {logged.at_ns} ns", "it cannot be read") from None
+
+
+def _paused(fields: dict[str, Any]) -> Paused:
+    keys = ((_whole(at), str(device), _whole(p), _whole(v)) for at, device, p, v in fields["command"])
+    return Paused(_whole(fields["strokes"]), _whole(fields["now_ns"]), tuple(keys))
+
+
+_READERS: Mapping[object, Callable[[dict[str, Any]], Said | Tracked]] = MappingProxyType(
+    {
+        "pass": lambda said: PassBegan(
+            _whole(said["strokes"]), _plan(said), _latency(said["latency"]), bool(said["waits"])
+        ),
+        "pause": _paused,
+        "go_on": lambda said: WentOn(_whole(said["strokes"]), bool(said["asked"]), bool(said["whole"])),
+        "end": lambda said: Ended(_whole(said["strokes"]), _whole(said["now_ns"])),
+        "unheard": lambda said: WasUnheard(*(_whole(said[key]) for key in ("strokes", "from_ns", "until_ns"))),
+        "track": lambda said: Tracked(_section(said)),
+    }
+)
 
 
 def _plan(fields: dict[str, object]) -> Plan:

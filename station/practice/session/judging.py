@@ -8,12 +8,15 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
+import numpy as np
+
 from station.core.events import Choke, Hit
 from station.core.pieces import Limb
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.following.follower import Follower
+from station.scoring.matching.unheard import Span, notes_within
 
 _Played = TypeVar("_Played", Hit, Choke)
 
@@ -24,6 +27,7 @@ class Judging:
     def __init__(self, score: Score, clocked: bool) -> None:
         self._score, self._clocked = score, clocked
         self.chokes: list[Choke] = []
+        self._is_unheard = np.zeros(len(score), np.bool_)
         self._begin()
 
     def _begin(self) -> None:
@@ -44,9 +48,29 @@ class Judging:
         """The misses that are certain at `score_ns`."""
         return self._keep(self._follower.advance(score_ns))
 
+    def not_heard(self, span: Span) -> tuple[Judgement, ...]:
+        """No stroke could be heard within `span`: notes that count as missed there are unknown, now and later."""
+        self._is_unheard |= notes_within(self._score, [span])
+        missed = [self.of_note[note] for note in np.flatnonzero(self._is_unheard).tolist() if note in self.of_note]
+        return self._keep(replace(verdict, corrects=True) for verdict in missed if verdict.label is Label.MISS)
+
     def place_ns(self, score_ns: int) -> int:
         """Where in the score the student is, when that much of it would have passed."""
         return self._follower.place_ns(score_ns)
+
+    def is_waiting(self, score_ns: int) -> bool:
+        """Whether the score waits for the student then."""
+        return self._follower.is_waiting(score_ns)
+
+    @property
+    def beats_behind(self) -> float:
+        """Quarters by which the student is behind the click and plays on, as far as the hits show; negative ahead."""
+        return self._follower.beats_behind
+
+    @property
+    def pace(self) -> float:
+        """How many times as fast as written the student plays, as far as the hits show."""
+        return self._follower.pace
 
     def forget_from(self, from_ns: int) -> int:
         """Forget what belongs to the score from `from_ns` on; returns how many strokes that were.
@@ -56,6 +80,7 @@ class Judging:
         kept = [hit for index, hit in enumerate(self.hits) if self._belongs_ns(index) < from_ns]
         forgotten = len(self.hits) - len(kept)
         self.chokes = [choke for choke in self.chokes if choke.at_ns < from_ns]
+        self._is_unheard &= self._score.onset_ns < from_ns
         self._judge_anew(kept)
         return forgotten
 
@@ -97,10 +122,15 @@ class Judging:
         return int(self._score.onset_ns[verdict.note_index])
 
     def _keep(self, verdicts: Iterable[Judgement]) -> tuple[Judgement, ...]:
-        kept = tuple(verdicts)
+        kept = tuple(map(self._or_unknown, verdicts))
         for verdict in kept:
             if verdict.note_index is not None:
                 self.of_note[verdict.note_index] = verdict
             if verdict.hit_index is not None:
                 self.of_hit[verdict.hit_index] = verdict
         return kept
+
+    def _or_unknown(self, verdict: Judgement) -> Judgement:
+        if verdict.label is Label.MISS and verdict.note_index is not None and self._is_unheard[verdict.note_index]:
+            return replace(verdict, label=Label.UNKNOWN)
+        return verdict

@@ -57,6 +57,15 @@ class Segment:
 
 
 @dataclass(frozen=True, slots=True)
+class PassSeries:
+    """Which of the `passes` that follow a student a session is, `index` from 0; the first began at `began_bpm`."""
+
+    index: int
+    passes: int
+    began_bpm: float
+
+
+@dataclass(frozen=True, slots=True)
 class PlanOptions:
     """What a student asks of a lesson; None leaves the choice to the lesson. `bars` (first, last) counts from 1.
 
@@ -185,18 +194,6 @@ class Plan:
     def demonstrations_end_ns(self) -> int:
         """Where the last demonstration ends and the passes' count-in begins; 0 without a demonstration."""
         return max((s.end_ns for s in self.segments if s.phase is Phase.DEMONSTRATION), default=0)
-
-    def words(self, segment: Segment) -> str:
-        """What is going on, for people."""
-        match segment.phase:
-            case Phase.PASS:
-                return f"Pass {segment.index + 1} of {self.passes}"
-            case Phase.DEMONSTRATION:
-                return "Demonstration"
-            case Phase.COUNT_IN:
-                return "Count-in"
-            case _:
-                return "Over"
 
 
 def plan_practice(lesson: Lesson, options: PlanOptions) -> Plan:

@@ -91,13 +91,16 @@ class SessionRunner:
     def handle(self, event: EngineEvent) -> Update:
         """Take one event, and do what the pads ask for with it."""
         session = self.session
+        told = len(session.heard.unheard)
         judged = session.handle(event)
+        kept = session.unheard_texts(told)
         asked = None
         if self._pads is not None and not self._is_stopped:
             asked = self._pads.asks(event, session.plan.score, is_paused=session.paused)
         if asked is None:
-            return Update(session, judged)
-        return replace(self.resume() if session.paused else self.pause(asked), judged=judged)
+            return Update(session, judged, kept)
+        update = self.resume() if session.paused else self.pause(asked)
+        return replace(update, judged=judged, commands=(*kept, *update.commands))
 
     def advance(self, now_ns: int) -> Update:
         """Move on: wait for a student who has stopped, go on when they kick, begin the next pass where one is over."""
@@ -112,10 +115,11 @@ class SessionRunner:
         if self._adaptation is None:
             self.over = True
             return Update(session, judged)
+        kept = session.stop_listening()
         step = self._record_pass(self._adaptation)
         self.over = self._adaptation.over
         commands = () if self.over else self._next_pass(self._adaptation)
-        return Update(session, judged, commands, notice=step.notice)
+        return Update(session, judged, (*kept, *commands), notice=step.notice)
 
     def _record_pass(self, adaptation: Adaptation) -> PracticeStep:
         self._is_recorded = True

@@ -16,6 +16,8 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+
 from station.core.events import Choke, Hit, PhaseEstimate, StickStroke
 from station.core.units import NS_PER_MS
 from station.drills.mastery.feedback_fading import Feedback
@@ -25,14 +27,15 @@ from station.music.performance import Performance
 from station.music.score import Score
 from station.practice.session.device_latency import Latency
 from station.practice.session.engine_state import EngineState
-from station.practice.session.event_log import Ended, PassBegan, Paused, WentOn, stroke_key, text_of
+from station.practice.session.event_log import Ended, PassBegan, Paused, WasUnheard, WentOn, stroke_key, text_of
 from station.practice.session.judging import Judging
 from station.practice.session.pausing import NEAR_NS, SILENT_BARS, SessionPause, Silence, TransportRun, bar_of, from_bar
-from station.practice.session.plan import TAIL_NS, Phase, Plan, Segment
+from station.practice.session.plan import TAIL_NS, PassSeries, Phase, Plan, Segment
 from station.practice.session.played_hands import PlayedHands, limbs_of
 from station.practice.session.played_phase import PhasesHeard, PlayedPhase
 from station.scoring.align import align
 from station.scoring.matching.alignment import Alignment
+from station.scoring.matching.unheard import Span, between_hits, notes_within, with_unknown
 from station.sound.track import PreparedTrack
 
 LEAD_IN_NS = 300 * NS_PER_MS
@@ -74,6 +77,8 @@ class SessionResult:
     pauses: tuple[SessionPause, ...] = ()
     felt: tuple[tuple[Hit, StickStroke], ...] = ()
     phase: PlayedPhase | None = None
+    unheard: tuple[Span, ...] = ()
+    """Where in score time no stroke could be heard: missed notes there are unknown."""
 
 
 @dataclass(eq=False)
@@ -81,7 +86,8 @@ class Session:
     """One practice session; call `start`, then `handle` every event and `advance` the time, until `over`.
 
     `feedback` is what the student is shown while playing (judgement is the same); `message` what to say before it;
-    `backing` a track to play along to in the passes. One that `waits` judges no stroke that comes after a silence in
+    `backing` a track to play along to in the passes; `series` which of several passes it is, where each is a session of
+    its own. One that `waits` judges no stroke that comes after a silence in
     which the student has stopped: whoever runs it sees that it `is_left` and pauses.
     """
 
@@ -91,6 +97,7 @@ class Session:
     message: str = ""
     backing: PreparedTrack | None = None
     waits: bool = False
+    series: PassSeries | None = None
 
     def __post_init__(self) -> None:
         self._judging = Judging(self.plan.score, clocked=self.plan.click is not None)
@@ -102,10 +109,13 @@ class Session:
         self._held_ns: int | None = None  # the place on the plan's timeline, while nothing moves
         self._has_left = False  # a stroke has come after so long a silence
         self._hands = PlayedHands()
+        self._unheard: list[Span] = []  # in score time, as the transport ran
         self.phases = PhasesHeard()
         """Where in the drill the sticks are, while they are tracked."""
         self.paused = False
         """Whether the transport stands and waits for `resume`."""
+        self.stopped = False
+        """Whether it was ended: nothing moves any more."""
         self.pauses: list[SessionPause] = []
         """The pauses after which the session went on, in order."""
 
@@ -116,7 +126,20 @@ class Session:
 
     def stop(self) -> tuple[Command, ...]:
         """The commands that end it, at the present that it knows."""
-        return (Annotate(text_of(Ended(self.heard.strokes, self._now_ns))), Stop())
+        self.stopped = True
+        kept = self.stop_listening()
+        return (*kept, Annotate(text_of(Ended(self.heard.strokes, self._now_ns))), Stop())
+
+    def stop_listening(self) -> tuple[Command, ...]:
+        """Nothing more is awaited; the commands that keep in the capture what could not be heard until then."""
+        told = len(self.heard.unheard)
+        self.heard.stop_listening(self._now_ns)
+        self._note_unheard(told)
+        return self.unheard_texts(told)
+
+    def unheard_texts(self, told: int) -> tuple[Command, ...]:
+        """The commands that keep in the capture what could not be heard, but for the first `told` times."""
+        return tuple(Annotate(text_of(WasUnheard(self.heard.strokes, *span))) for span in self.heard.unheard[told:])
 
     def _play(self) -> tuple[Command, ...]:
         play = Play(self._run.cues, LEAD_IN_NS)
@@ -163,6 +186,9 @@ class Session:
         bar = 0 if whole else bar_of(self.plan.score, self._judging.last_ns)
         self._run = from_bar(self.plan, bar)
         self.pauses.append(SessionPause(bar, asked, self._judging.forget_from(self._run.from_ns)))
+        self._unheard = [
+            (begin, min(end, self._run.from_ns)) for begin, end in self._unheard if begin < self._run.from_ns
+        ]
         self.heard.zero_ns, self.paused = None, False
         self._held_ns = self.plan.passes_start_ns + self._run.from_ns
         return (Annotate(text_of(WentOn(self.heard.strokes, asked, whole))), *self._play())
@@ -171,10 +197,12 @@ class Session:
 
     def handle(self, event: EngineEvent) -> tuple[Judgement, ...]:
         """Take one event; returns what was judged because of it."""
+        told = len(self.heard.unheard)
         self.heard.handle(event)
+        taken_back = self._note_unheard(told)
         match event:
             case Hit():
-                return self._handle_hit(event)
+                return (*taken_back, *self._handle_hit(event))
             case Started() if not self.paused:
                 self._held_ns = None
             case Choke():
@@ -186,7 +214,22 @@ class Session:
                 self.phases.handle(event)
             case _:
                 pass
-        return ()
+        return taken_back
+
+    def _note_unheard(self, told: int) -> tuple[Judgement, ...]:
+        """Bring what could not be heard, but for the first `told` times, to score time; the misses that it takes back.
+
+        What lies before the present run of the transport was judged in another one.
+        """
+        taken_back: tuple[Judgement, ...] = ()
+        for from_ns, until_ns in self.heard.unheard[told:]:
+            begin_ns, end_ns = self._score_ns(from_ns), self._score_ns(until_ns)
+            if begin_ns is None or end_ns is None or self._held_ns is not None:
+                continue
+            span = (max(begin_ns, self._run.from_ns), end_ns)
+            self._unheard.append(span)
+            taken_back += self._judging.not_heard(span)
+        return taken_back
 
     def advance(self, now_ns: int) -> tuple[Judgement, ...]:
         """Tell the session time; returns the misses that it makes certain."""
@@ -219,6 +262,25 @@ class Session:
         """Whether the last bar and the tail after it have passed."""
         at_ns = self._plan_ns()
         return at_ns is not None and at_ns >= self.plan.end_ns + TAIL_NS
+
+    @property
+    def is_waiting(self) -> bool:
+        """Whether the score waits for a student without a click, who has not played on."""
+        transport_ns = self.heard.transport_ns(self._now_ns)
+        if self.plan.click is not None or self._held_ns is not None or transport_ns is None or self.over:
+            return False
+        at_ns = transport_ns - self.plan.passes_start_ns
+        return at_ns >= 0 and self._judging.is_waiting(at_ns)
+
+    @property
+    def beats_behind(self) -> float:
+        """Quarters by which the student came in behind the click and plays on; negative ahead of it."""
+        return self._judging.beats_behind
+
+    @property
+    def pace(self) -> float:
+        """How many times as fast as written the student plays; 1 by the click."""
+        return self._judging.pace
 
     def state(self) -> SessionState:
         """What is going on, as of the last `advance`."""
@@ -269,6 +331,8 @@ class Session:
         complete = heard_until_ns is not None and heard_until_ns >= self.plan.score.length_ns
         score = self.plan.score if complete else self.plan.score.until_ns(heard_until_ns or 0)
         alignment = align(score, performance, clocked=self.plan.click is not None)
+        unheard = self._unheard_places(alignment)
+        alignment = with_unknown(alignment, notes_within(score, unheard))
         return SessionResult(
             self.plan,
             score,
@@ -286,7 +350,20 @@ class Session:
                 self._hands.strokes,
                 self._hands.span_ns(self._judging.hits),
             ),
+            unheard,
         )
+
+    def _unheard_places(self, alignment: Alignment) -> tuple[Span, ...]:
+        """Where in the score the student was while nothing could be heard: by the click, else by their strokes."""
+        spans = self._unheard
+        if self.heard.deaf_since_ns is not None and self._held_ns is None:
+            begin_ns, end_ns = self._score_ns(self.heard.deaf_since_ns), self._score_ns(self._now_ns)
+            if begin_ns is not None and end_ns is not None:
+                spans = [*spans, (max(begin_ns, self._run.from_ns), max(begin_ns, end_ns))]
+        if self.plan.click is not None:
+            return tuple(spans)
+        hit_ns = np.sort([hit.at_ns for hit in self._judging.hits])
+        return tuple(between_hits(alignment, hit_ns, span) for span in spans)
 
     def _played_on(self) -> str | None:
         return Counter(hit.device for hit in self.hits).most_common(1)[0][0] if self.hits else None

@@ -17,6 +17,7 @@ uniform vec2 origin;          // pixels
 uniform float unit;           // pixels a unit
 uniform float position_s;
 uniform float pixels_per_s;
+uniform vec2 way;             // of time, a unit vector along an axis
 uniform float texels_to_uv = {1.0 / ATLAS_SIZE};
 
 in vec2 centre;
@@ -36,20 +37,20 @@ out vec4 v_colour;
 flat out vec3 v_style;
 flat out int v_kind;
 flat out float v_texel;       // pixels a texel
-out float v_x;
+out float v_along;
 
 void main() {{
     vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;
     float span = 0.5 * time_s.y * pixels_per_s;
-    v_half = half_size * unit + vec2(span, 0.0);
+    v_half = half_size * unit + abs(way) * span;
     v_style = style * unit;
     v_kind = int(kind + 0.5);
     float margin = v_kind == 2 ? 0.0 : 1.0 + v_style.z + 0.5 * v_style.y;
     v_at = corner * (v_half + margin);
     vec2 turned = vec2(axis.x * v_at.x - axis.y * v_at.y, axis.y * v_at.x + axis.x * v_at.y);
     vec2 pixel = origin + centre * unit + turned;
-    pixel.x += (time_s.x - position_s) * pixels_per_s + span;
-    v_x = pixel.x;
+    pixel += way * ((time_s.x - position_s) * pixels_per_s + span);
+    v_along = dot(pixel, abs(way));
     v_uv = mix(uv.xy, uv.zw, corner * 0.5 + 0.5);
     v_texel = 2.0 * v_half.x * texels_to_uv / max(abs(uv.z - uv.x), 1e-6);
     v_colour = mix(colour, colour_2, clamp(corner.y * 0.5 + 0.5, 0.0, 1.0));
@@ -60,7 +61,7 @@ void main() {{
 _FRAGMENT = f"""
 #version 330 core
 uniform sampler2D atlas;
-uniform vec4 fade;            // pixels: gone left of x, whole right of y, whole left of z, gone right of w
+uniform vec4 fade;            // pixels along time's axis: gone before x, whole from y to z, gone after w
 
 in vec2 v_at;
 flat in vec2 v_half;
@@ -69,7 +70,7 @@ in vec4 v_colour;
 flat in vec3 v_style;
 flat in int v_kind;
 flat in float v_texel;
-in float v_x;
+in float v_along;
 out vec4 shade;
 
 float segment(vec2 p, vec2 a, vec2 b) {{
@@ -100,8 +101,8 @@ void main() {{
     if (v_kind != 4 && v_style.y > 0.0) d = abs(d) - 0.5 * v_style.y;
     float edge = 0.5 + v_style.z;
     float cover = v_style.z > 0.0 ? 1.0 - smoothstep(-edge, edge, d) : clamp(0.5 - d, 0.0, 1.0);
-    float seen = clamp((v_x - fade.x) / max(fade.y - fade.x, 1e-3), 0.0, 1.0)
-               * clamp((fade.w - v_x) / max(fade.w - fade.z, 1e-3), 0.0, 1.0);
+    float seen = clamp((v_along - fade.x) / max(fade.y - fade.x, 1e-3), 0.0, 1.0)
+               * clamp((fade.w - v_along) / max(fade.w - fade.z, 1e-3), 0.0, 1.0);
     float alpha = v_colour.a * cover * seen;
     if (alpha <= 0.0) discard;
     shade = vec4(v_colour.rgb * alpha, alpha);
@@ -145,8 +146,8 @@ _EVERYWHERE = (-2.0, -1.0, 1e6, 1e6 + 1)
 class Transform:
     """Where shapes go: `size` of the picture, `origin` of the units (pixels, y down), `unit` pixels a unit.
 
-    `position_s` stands at the origin and a second takes `pixels_per_s`. `fade` (x0, x1, x2, x3): shapes appear between
-    x0 and x1 and vanish between x2 and x3.
+    `position_s` stands at the origin and a second takes `pixels_per_s`, to the right, or up where what comes `falls`.
+    `fade` (a, b, c, d), pixels along that axis: shapes appear between a and b and vanish between c and d.
     """
 
     size: tuple[int, int]
@@ -155,6 +156,7 @@ class Transform:
     position_s: float = 0.0
     pixels_per_s: float = 0.0
     fade: tuple[float, float, float, float] = _EVERYWHERE
+    falls: bool = False
 
 
 class ShapeRenderer:
@@ -251,4 +253,5 @@ class ShapeRenderer:
         self._program["unit"] = sheet.unit
         self._program["position_s"] = sheet.position_s
         self._program["pixels_per_s"] = sheet.pixels_per_s
+        self._program["way"] = (0.0, -1.0) if sheet.falls else (1.0, 0.0)
         self._program["fade"] = sheet.fade

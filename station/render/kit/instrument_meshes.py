@@ -23,10 +23,20 @@ _HOOP_M = 0.010
 
 @dataclass(frozen=True, slots=True)
 class Detail:
-    """How finely round things are cut: segments of a drum's circle, and whether small hardware is there."""
+    """How finely round things are cut: segments of a drum's circle, whether small hardware is there, and `grooves`.
+
+    Grooves are rings of a cymbal's own: it swings, so that without a graphics card they cost time in every picture,
+    where hardware on what stands still costs none.
+    """
 
     segments: int
     hardware: bool
+    grooves: bool = True
+
+    @property
+    def has_grooves(self) -> bool:
+        """Whether a cymbal's sides have all their rings."""
+        return self.hardware and self.grooves
 
 
 def drum(radius: float, depth: float, lugs: int, detail: Detail, shell: int = Material.SHELL) -> Mesh:
@@ -143,13 +153,13 @@ def cymbal(radius: float, detail: Detail, bell: float = 0.19, is_china: bool = F
     r = np.array(
         [1.0, 0.985, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, bell * 1.15, bell, bell * 0.9, bell * 0.6, bell * 0.25]
     )
-    if detail.hardware:
+    if detail.has_grooves:
         r = np.sort(np.concatenate([r, np.linspace(bell * 1.3, 0.97, 22)]))[::-1]
     bow = rise * (1 - (r / 0.98) ** 2) - rise * (1 - (0.6 / 0.98) ** 2)
     dome = np.where(r < bell, (BELL_ABOVE_BOW_M - 0.4 * rise) * np.sqrt(np.clip(1 - (r / bell) ** 2, 0, 1)), 0)
     top = np.stack([r * radius, bow + dome + (china_lip(radius, r) if is_china else 0.0)], axis=1)
     under = top[::-1] - [0.0, 0.0015]
-    if not detail.hardware:
+    if not detail.has_grooves:
         top, under = top[_TOP], top[_UNDER][::-1] - [0.0, 0.0015]
     mesh = joined(
         [
@@ -187,7 +197,7 @@ def nut(detail: Detail) -> Mesh:
 def _grooved(mesh: Mesh, detail: Detail) -> Mesh:
     """Every other ring reflects a little less: the tonal grooves of the lathe, broad bands where rings are few."""
     ring = np.arange(len(mesh.position)) // (detail.segments + 1)
-    return mesh.shaded(np.where(ring % 2 == 0, 1.0, 0.80 if detail.hardware else 0.72))
+    return mesh.shaded(np.where(ring % 2 == 0, 1.0, 0.80 if detail.has_grooves else 0.72))
 
 
 def hat_bottom(radius: float, detail: Detail) -> Mesh:

@@ -59,9 +59,9 @@ class BarSigns:
         self._swing = swing
         self._voltas = _voltas(score, numbers)
 
-    def draw_line(self, draw_list: DrawList, bar: int) -> None:
-        """The line on the left of `bar`."""
-        begins, ends = self._begins_pass(bar), self._ends_pass(bar)
+    def draw_line(self, draw_list: DrawList, bar: int, closes: bool = True, opens: bool = True) -> None:
+        """The line on the left of `bar`: what it `closes` of the bar before, and what it `opens`."""
+        begins, ends = opens and self._begins_pass(bar), closes and self._ends_pass(bar)
         line = BarLine.FINAL if bar == self._score.bar_count else BarLine.PLAIN
         if begins or ends:
             both = BarLine.REPEAT_BOTH if begins and ends else BarLine.REPEAT_START

@@ -83,7 +83,7 @@ class Engraver:
     def bar(self, bar: int, with_line: bool = True, opens_line: bool = False) -> NDArray[np.void]:
         """The shapes of one bar, `with_line` with what stands at its left bar line, dtype `draw_list.SHAPE_DTYPE`.
 
-        `opens_line`: it is the first of its line on paper, where ties from the line before begin anew.
+        `opens_line`: it is the first of its line, where ties from the line before begin anew.
         """
         return _BarEngraver(self, bar, with_line, opens_line).shapes()
 
@@ -181,7 +181,7 @@ class _BarEngraver:
     def _bar_line(self) -> None:
         self._anchor.at(self._start)
         if self._with_line:
-            self._e.signs.draw_line(self._draw_list, self._bar)
+            self._e.signs.draw_line(self._draw_list, self._bar, closes=not self._opens_line)
             self._e.signs.draw_words(self._anchor, self._bar, self._e.rows_y.words)
 
     def _bar_rest(self, beside: bool) -> None:

@@ -54,12 +54,19 @@ _SLUR_OVERLAP = 0.2
 """Each goes on over its ends by so much of its length, which closes the wedges between them."""
 
 
-def draw_head(draw_list: DrawList, head: NoteHead, at: tuple[float, float], scale: float, base: int = 4) -> None:
+def draw_head(
+    draw_list: DrawList,
+    head: NoteHead,
+    at: tuple[float, float],
+    scale: float,
+    base: int = 4,
+    colour: Colour = INK,
+) -> None:
     """One note head with its middle at `at`, of a 1/`base` note."""
     name = "head_whole" if base == 1 and head is NoteHead.ROUND else HEAD_SIGNS[head]
     if base == 2:
         name = _HALF_HEADS.get(head, name)
-    draw_list.sign(name, at, INK, scale)
+    draw_list.sign(name, at, colour, scale)
 
 
 def draw_brackets(draw_list: DrawList, xs: tuple[float, float], y: float, scale: float = 1.0) -> None:

@@ -161,6 +161,8 @@ def stroke(draw_list: DrawList, kind: StrokeKind, at: tuple[float, float], size:
             barred_ring(draw_list, at, max(radius, 4.0), kind.colour)
         case StrokeMark.CROSS:
             draw_list.cross(at, (half, half), 1.6, kind.colour)
+        case StrokeMark.RING:
+            draw_list.ellipse(at, (max(radius, 4.0),) * 2, kind.colour, 0.0, (0.0, 1.2, 0.0))
         case StrokeMark.UP | StrokeMark.DOWN:
             turn = -np.pi / 2 if kind.mark is StrokeMark.UP else np.pi / 2
             draw_list.triangle(at, (0.9 * radius, 0.9 * radius), kind.colour, turn)
@@ -174,8 +176,10 @@ def badge(draw_list: DrawList, kind: int, at: tuple[float, float], colour: tuple
         barred_ring(draw_list, at, 7.0, colour)
     elif kind == 2:
         draw_list.box((at[0] - 7, at[1] - 7), (14, 14), colour, None, (2.0, 2.2, 0.0))
-    else:
+    elif kind == 3:
         draw_list.cross(at, (5, 5), 2.6, colour)
+    else:
+        draw_list.ellipse(at, (7, 7), colour, 0.0, (0.0, 1.4, 0.0))
 
 
 def barred_ring(

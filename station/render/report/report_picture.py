@@ -107,14 +107,16 @@ class _Drawn:
 
     def _counts(self, at: tuple[float, float], width: float) -> None:
         facts, style = self._facts, TypeStyle(17, INK)
-        right = f"{int(facts.right.sum())} of {len(facts.label)}"
+        right = f"{int(facts.right.sum())} of {int(facts.known.sum())}"
         longer = f"{right} right"
-        rows = (
+        rows = [
             (GOOD, longer if self._draw_list.width(longer, style) <= width - 24 else right),
             (MISSED, f"{facts.count(Label.MISS)} missed"),
             (WRONG, f"{facts.count(Label.WRONG_PIECE)} wrong pad"),
             (EXTRA, f"{facts.count(Label.EXTRA)} extra"),
-        )
+        ]
+        if unknown := facts.count(Label.UNKNOWN):
+            rows.append((INK_SOFT, f"{unknown} unknown"))
         for i, (colour, text) in enumerate(rows):
             y = at[1] + 29 * i
             badge(self._draw_list, i, (at[0] + 8, y - 6), with_opacity(colour, 1.0))

@@ -43,6 +43,11 @@ class ResultFacts:
     extra_s: NDArray[np.float64]
     bar_s: NDArray[np.float64]
 
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """Which notes (n,) could be judged: not those of moments in which nothing could be heard."""
+        return np.asarray(self.label != Label.UNKNOWN)
+
     def count(self, label: Label) -> int:
         """How many notes bear `label`; extras are counted apart."""
         return len(self.extra_s) if label is Label.EXTRA else int(np.count_nonzero(self.label == label))
@@ -115,7 +120,7 @@ def headline(facts: ResultFacts) -> str:
     """The whole in a few words: how much was right where that is less than nearly all, then bias and spread."""
     if not facts.count(Label.MATCH):
         return "nothing to judge"
-    share = float(facts.right.mean())
+    share = float(facts.right[facts.known].mean())
     return f"{'' if share >= NEARLY_ALL else f'{100 * share:.0f} % right; '}{in_words(whole_lean(facts))}"
 
 
@@ -133,7 +138,7 @@ def _lean(name: str, facts: ResultFacts, rows: NDArray[np.bool_]) -> PieceLean:
     played = facts.asynchrony_ms[rows & (facts.label == Label.MATCH)]
     mean = float(played.mean()) if len(played) else None
     spread = float(played.std(ddof=1)) if len(played) > 1 else None
-    return PieceLean(name, int(rows.sum()), len(played), mean, spread)
+    return PieceLean(name, int((rows & facts.known).sum()), len(played), mean, spread)
 
 
 def in_words(lean: PieceLean) -> str:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from station.music.judgement import Label
 from station.render.notation.screen.judgement_marks import ON_TIME_MS
-from station.render.palette import EARLY, EXTRA, GOOD, LATE, MISSED, WRONG, with_opacity
+from station.render.palette import EARLY, EXTRA, GOOD, INK_SOFT, LATE, MISSED, WRONG, with_opacity
 from station.render.text.draw_list import Colour
 
 REACH_MS = 80.0
@@ -34,6 +34,7 @@ class StrokeMark(Enum):
     SQUARE = "square"
     BARRED_RING = "barred ring"
     CROSS = "cross"
+    RING = "ring"
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,8 +55,9 @@ KINDS = (
     StrokeKind("wrong pad", StrokeMark.SQUARE, WRONG, 1.4),
     StrokeKind("missed", StrokeMark.BARRED_RING, MISSED, at_ms=_MISSED_MS),
     StrokeKind("not written", StrokeMark.CROSS, EXTRA, 1.2, at_ms=_NOT_WRITTEN_MS),
+    StrokeKind("unknown", StrokeMark.RING, INK_SOFT, at_ms=_MISSED_MS),
 )
-_ON_TIME, _EARLY, _LATE, _WRONG, _MISSED, _NOT_WRITTEN = range(len(KINDS))
+_ON_TIME, _EARLY, _LATE, _WRONG, _MISSED, _NOT_WRITTEN, _UNKNOWN = range(len(KINDS))
 
 
 def by_kind(
@@ -64,7 +66,8 @@ def by_kind(
     """The kinds that occur, with the rows of each; `label` of `Label` and `asynchrony_ms` are (n,)."""
     timed = np.select([asynchrony_ms < -ON_TIME_MS, asynchrony_ms > ON_TIME_MS], [_EARLY, _LATE], _ON_TIME)
     untimed = [label == Label.WRONG_PIECE, label == Label.MISS, label == Label.EXTRA]
-    kind_of = np.select(untimed, [_WRONG, _MISSED, _NOT_WRITTEN], timed)
+    untimed += [label == Label.UNKNOWN]
+    kind_of = np.select(untimed, [_WRONG, _MISSED, _NOT_WRITTEN, _UNKNOWN], timed)
     for index, kind in enumerate(KINDS):
         rows = np.flatnonzero(kind_of == index)
         if len(rows):
@@ -74,7 +77,8 @@ def by_kind(
 def heights_ms(label: NDArray[np.uint8], asynchrony_ms: NDArray[np.float64]) -> NDArray[np.float64]:
     """Where each stroke stands on the axis, (n,); NaN where a right stroke's time is not told."""
     reached = np.clip(asynchrony_ms, -REACH_MS, REACH_MS)
-    return np.select([label == Label.MISS, label == Label.EXTRA], [_MISSED_MS, _NOT_WRITTEN_MS], reached)
+    unplayed = (label == Label.MISS) | (label == Label.UNKNOWN)
+    return np.select([unplayed, label == Label.EXTRA], [_MISSED_MS, _NOT_WRITTEN_MS], reached)
 
 
 def line_words(letter_ms: float) -> list[str]:

@@ -58,6 +58,7 @@ _ROWS = (
     FaultKind("wrong_piece", Group.NOTES, "%", 5.0, _SHARE),
     FaultKind("wrong_sticking", Group.NOTES, "%", 5.0, _SHARE + "; sensors on the sticks tell the hand"),
     *_both("stopped left_out_bars repeated_bars", Group.NOTES, "times", 1.0, _ONCE),
+    *_both("came_in_late came_in_early", Group.NOTES, "beats", 0.5, _ONCE),
     *_both("open_hats closed_hats", Group.NOTES, "%", 25.0, _BRIEF),
     *_both("rushing dragging", Group.PULSE, "% in 8 bars", 4.0, "HUMANS: professionals hold ±1–2 %; " + _BRIEF),
     *_both("unsteady", Group.PULSE, "ms", 30.0, "TEACHING: a pass's SD is at most 35 ms; professionals 26–28"),

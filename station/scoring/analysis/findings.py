@@ -12,8 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.labels import name_of
+from station.core.units import PPQ
 from station.music import passages
 from station.music.score import Score
+from station.scoring.analysis.entries import in_words
 from station.scoring.analysis.error_rates import misses_and_extras, wilson, wrong_hands, wrong_pieces
 from station.scoring.analysis.fault_table import kind_of, of_piece
 from station.scoring.analysis.finding import CHANCE, MIN_SLOTS, Finding, farthest_bars, worst_bars
@@ -61,6 +63,7 @@ def find_all(summary: Summary) -> list[Finding]:
     """Every finding in a teacher's order; of two by one name the larger."""
     way = journey(summary.score, summary.performance, summary.alignment)
     found = [
+        *_entries(summary, way),
         *_jumps(summary, way),
         *misses_and_extras(summary, way),
         *wrong_pieces(summary),
@@ -193,6 +196,24 @@ def _pulse(summary: Summary) -> Iterator[Finding]:
     severity = abs(effect.value) / summary.view.faults.least(fault)
     if severity >= _DECIDE_PULSE:
         yield Finding(fault, "", effect.value, effect.ci, kind_of(fault).unit, severity, ())
+
+
+def _entries(summary: Summary, way: Journey) -> Iterator[Finding]:
+    """Who came in late, or early, by the most that they did: strokes are right, in another place of the click."""
+    names, strokes = summary.view.bar_names_of(summary.score), max(len(summary.performance), 1)
+    for fault, side in (("came_in_late", 1), ("came_in_early", -1)):
+        mine = [entry for entry in way.entries if side * entry.quarters > 0]
+        if not mine or len(mine) < summary.view.faults.least(fault):
+            continue
+        worst = max(mine, key=lambda entry: entry.strokes)
+        meter = summary.score.tempo_map.meter_at(summary.score.tempo_map.bar_start(worst.bar))
+        quarters, beat = abs(worst.quarters), summary.view.beat_ticks
+        beats = quarters * PPQ / beat
+        bars = tuple(dict.fromkeys(int(names[min(entry.bar, len(names) - 1)]) for entry in mine))
+        share = 100 * sum(entry.strokes for entry in mine) / strokes
+        severity = max(share / kind_of("missed").least, 1.0)
+        said = in_words(quarters, beat, meter.bar_ticks)
+        yield Finding(fault, said, beats, (beats, beats), kind_of(fault).unit, severity, bars)
 
 
 def _jumps(summary: Summary, way: Journey) -> Iterator[Finding]:

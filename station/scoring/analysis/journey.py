@@ -8,6 +8,7 @@ stopped and came in again on the click: the data cannot tell.
 """
 
 from dataclasses import dataclass
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,7 @@ from station.core.units import PPQ
 from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
+from station.scoring.analysis.entries import Entry, entries, no_time_left
 from station.scoring.matching.alignment import Alignment
 
 Flags = NDArray[np.bool_]
@@ -54,18 +56,21 @@ class Jump:
 class Journey:
     """All jumps in order.
 
-    `passed` (n,) are notes that were left out with their bar, `again` (m,) hits of bars that were played more than once
-    and that answer nothing.
+    `passed` (n,) are notes that were left out with their bar or for which a late entry left no time, `again` (m,) hits
+    of bars that were played more than once and that answer nothing; `entries` say who came in beside the click.
     """
 
     jumps: tuple[Jump, ...]
     passed: Flags
     again: Flags
+    entries: tuple[Entry, ...] = ()
 
 
 def journey(score: Score, performance: Performance, alignment: Alignment) -> Journey:
     """The way of `performance` through `score`."""
     passed, again = np.zeros(len(score), np.bool_), np.zeros(len(performance), np.bool_)
+    came_in = entries(score, performance, alignment)
+    entered = {entry.hit for entry in came_in}
     jumps: list[Jump] = []
     at, place = performance.hits["at_ns"].astype(np.float64), alignment.hit_score_ns.astype(np.float64)
     if len(at) > 2 and (alignment.note_of_hit >= 0).any():
@@ -75,7 +80,7 @@ def journey(score: Score, performance: Performance, alignment: Alignment) -> Jou
         run = 0
         for k in np.flatnonzero(np.abs(moving - pace * passing) >= LEAST_BEATS * beat_ns).tolist():
             span = (place[k], place[k + 1])
-            jump = _jump(score, span, pace * passing[k], place[run], beat_ns)
+            jump = None if k + 1 in entered else _jump(score, span, pace * passing[k], place[run], beat_ns)
             if jump is not None:
                 jumps.append(jump)
             low, high = min(span), max(span)
@@ -85,8 +90,11 @@ def journey(score: Score, performance: Performance, alignment: Alignment) -> Jou
                 passed |= (score.onset_ns > low) & (score.onset_ns < high)
             run = k + 1
     back = sum(max(jump.bars, 1.0) for jump in jumps if jump.fault != "left_out_bars")
-    jumps += _silent_bars(score, alignment, passed, back)
-    return Journey(tuple(sorted(jumps, key=lambda jump: jump.bar)), passed, again)
+    bar_quarters = score.tempo_map.meter_at(0).bar_ticks / PPQ
+    back += sum(entry.quarters / bar_quarters for entry in came_in[-1:] if entry.quarters > 0)
+    jumps += _silent_bars(score, alignment, passed, ceil(back))
+    passed |= no_time_left(score, alignment, came_in)
+    return Journey(tuple(sorted(jumps, key=lambda jump: jump.bar)), passed, again, came_in)
 
 
 def _pace(passing: Floats, moving: Floats, beat_ns: float) -> float:

@@ -1,12 +1,13 @@
 """A whole assessment: counts, timing, dynamics and points, overall and by piece, limb, bar, subdivision and dynamic.
 
 Two identities always hold: notes = matched + misses + wrong_piece, hits = matched + extras + wrong_piece + ignored; of
-a piece, notes are the written and hits the played, so that there wrong pieces stand on both sides.
+a piece, notes are the written and hits the played, so that there wrong pieces stand on both sides. Notes of moments in
+which nothing could be heard are `unknown`: none of the notes, and nothing else here looks at them.
 """
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
 from typing import TypeVar
@@ -35,6 +36,7 @@ from station.scoring.analysis.timing_spread import Spread, asynchrony_ms, spread
 from station.scoring.matching.alignment import Alignment
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
 from station.scoring.matching.right import right_notes
+from station.scoring.matching.unheard import known_part
 
 Flags = NDArray[np.bool_]
 Key = TypeVar("Key")
@@ -52,7 +54,7 @@ SUBDIVISIONS = (
 
 @dataclass(frozen=True, slots=True)
 class Counts:
-    """What became of the notes and the hits; `played_again` are among the `ignored`."""
+    """What became of the notes and the hits; `played_again` are among the `ignored`, `unknown` none of the `notes`."""
 
     notes: int
     hits: int
@@ -62,6 +64,7 @@ class Counts:
     wrong_piece: int
     ignored: int
     played_again: int
+    unknown: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,8 +178,11 @@ class Summary:
 
 
 def summarise(score: Score, performance: Performance, alignment: Alignment, view: SummaryView | None = None) -> Summary:
-    """Sum up how `performance` answered `score`."""
+    """Sum up how `performance` answered `score`, of which unknown notes are left out."""
     view = view or SummaryView()
+    score, alignment, known = known_part(score, alignment)
+    if view.asks_hand is not None:
+        view = replace(view, asks_hand=view.asks_hand[known])
     loudness = dynamics(score, performance, alignment)
     group = _grouper(score, performance, alignment)
     notes = score.notes
@@ -194,7 +200,7 @@ def summarise(score: Score, performance: Performance, alignment: Alignment, view
         alignment=alignment,
         view=view,
         points=points(score, alignment, judged, view.feel),
-        counts=count(alignment),
+        counts=replace(count(alignment), unknown=int((~known).sum())),
         right=int(right_notes(score, alignment, view.windows).sum()),
         timing=group(np.ones(len(score), np.bool_), None).timing,
         dynamics=loudness if view.hears_velocity else None,

@@ -63,7 +63,11 @@ class Offsets:
 
 def _prices(written: Written, parts: Indices, step: int, slips: bool) -> Floats:
     price = written.prices.on(parts / PARTS)
-    return price if slips else np.where(parts % step == 0, price, np.inf)
+    if slips:
+        return price
+    is_half = (2 * np.abs(parts) == step) & (step >= PARTS)
+    beside = np.where(is_half, PRICES[When.ON, Where.BESIDE_CLICK], np.inf)
+    return np.where(parts % step == 0, price, beside)
 
 
 def offsets_of(written: Written, slips: bool) -> Offsets:

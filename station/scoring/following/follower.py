@@ -75,6 +75,20 @@ class Follower:
         """Where in the score the student is at `at_ns`, as far as the hits told so far show."""
         return at_ns if self._where is None else self._where.place_ns(at_ns)
 
+    def is_waiting(self, at_ns: int) -> bool:
+        """Whether the score waits at `at_ns` for a student who has stopped."""
+        return self._where is not None and self._where.is_waiting(at_ns)
+
+    @property
+    def beats_behind(self) -> float:
+        """Quarters by which the student is behind the click and plays on, as far as the hits show; negative ahead."""
+        return 0.0 if self._where is None else self._where.beats_behind
+
+    @property
+    def pace(self) -> float:
+        """How many times as fast as written the student plays, as far as the hits show; 1 by the click."""
+        return 1.0 if self._where is None else self._where.pace
+
     @property
     def waited(self) -> Sequence[tuple[int, int]]:
         """The first hit after each stop of a student without a click, and for how many ns the score waited for it."""

@@ -106,6 +106,21 @@ class Online:
             return at_ns if self._shift == 0.0 else round(place_s * NS_PER_S)
         return round((min(place_s, self._waiting_s(last_s)) if place_s > last_s else place_s) * NS_PER_S)
 
+    def is_waiting(self, at_ns: int) -> bool:
+        """Whether the score waits at `at_ns` for a student without a click who has stopped."""
+        last_s = self._places[-1] if self._places else 0.0
+        return not self._clocked and self._on_time(at_ns / NS_PER_S) > max(last_s, self._waiting_s(last_s))
+
+    @property
+    def beats_behind(self) -> float:
+        """Quarters by which a student is behind the click and plays on, negative ahead of it; 0 without one."""
+        return -self._shift
+
+    @property
+    def pace(self) -> float:
+        """How many times as fast as written the student plays; 1 by the click."""
+        return 1.0 if self._clocked else self._clock.rate
+
     def hit(self, at_ns: int, match_class: int) -> Moved:
         """Take a hit; returns its place, and those of older ones where they turn out to lie elsewhere."""
         index, at_s = len(self._times), at_ns / NS_PER_S

@@ -76,6 +76,7 @@ class Where(Enum):
     BARS = "whole bars away, at the beginning on a one"
     BEATS = "whole beats away"
     SLIPPED = "half a beat away or less: a stumble, or the clock had slipped"
+    BESIDE_CLICK = "half a beat away, by the click"
     ELSEWHERE = "anywhere else"
 
 
@@ -96,6 +97,7 @@ PRICES = MappingProxyType(
         (When.ON, Where.SLIPPED): 12.0,
         (When.ON, Where.BARS): 15.0,
         (When.ON, Where.BEATS): 20.0,
+        (When.ON, Where.BESIDE_CLICK): 24.0,
         (When.ON, Where.ELSEWHERE): 24.0,
     }
 )

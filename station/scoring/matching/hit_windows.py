@@ -78,6 +78,16 @@ class Level(StrEnum):
         return LEVELS[self.value]
 
     @property
+    def on_time_ms(self) -> float:
+        """Half the width of what is on time."""
+        return self.windows.edges_ms[0]
+
+    @property
+    def words(self) -> str:
+        """It with what is on time: "beginner, ±30 ms"."""
+        return f"{self.value}, ±{self.on_time_ms:g} ms"
+
+    @property
     def rank(self) -> int:
         """0 for the widest, more the narrower it is."""
         return list(Level).index(self)

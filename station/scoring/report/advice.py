@@ -70,6 +70,7 @@ def _remark(finding: Finding, summary: Summary) -> Advice:
         subject=finding.subject,
         where=stops and f", most in {stops}",
         stops=stops,
+        at=stops and f" in {stops}",
         tempo=tempo,
         slow=_slower(tempo),
     )
@@ -104,7 +105,8 @@ def _bars_in_words(bars: tuple[int, ...], parts: Mapping[int, str]) -> str:
     return f"bars {', '.join(named[:-1])} and {named[-1]}"
 
 
-_AT_TEMPO = frozenset({"drag_slow", "rush_slow", "rushing", "dragging", "early", "late", "extra", "fades", "grows"})
+_ENTRIES = {"came_in_late", "came_in_early"}
+_AT_TEMPO = _ENTRIES | {"drag_slow", "rush_slow", "rushing", "dragging", "early", "late", "extra", "fades", "grows"}
 """Faults that are practised at the tempo itself: going slower would hide them."""
 
 _LIMBS = ("left_hand", "right_hand", "left_foot", "right_foot")

@@ -1,7 +1,7 @@
 """What advice says of each fault: what was heard, and what to do about it; the texts are filled in by `advice`.
 
-`{size}` is the effect without its sign, `{subject}` what the finding is about, `{where}` the bars, `{bar}` the first of
-them, `{slow}` and `{tempo}` are beats a minute.
+`{size}` is the effect without its sign, `{subject}` what the finding is about, `{where}` and `{at}` the bars,
+`{slow}` and `{tempo}` are beats a minute.
 """
 
 from types import MappingProxyType
@@ -51,6 +51,8 @@ HEARD = MappingProxyType(
         "open_hats": "{size:.0f} % of your hi-hat strokes are open where they should be closed{where}",
         "closed_hats": "{size:.0f} % of your hi-hat strokes are closed where they should be open{where}",
         "stopped": "You stopped in {stops} and began again",
+        "came_in_late": "You came in {subject} late{at}, and stayed there",
+        "came_in_early": "You came in {subject} early{at}, and stayed there",
         "left_out_bars": "You left out {stops}",
         "repeated_bars": "You played {stops} again",
         "missed": "You leave out {size:.0f} % of the {subject}{where}",
@@ -106,6 +108,9 @@ DO = MappingProxyType(
         "open_hats": "keep the heel of the hi-hat foot down for one pass and listen to every stroke",
         "closed_hats": "lift the foot in time without playing, then add the stick at {slow:.0f} bpm",
         "stopped": "play the bars around it at {slow:.0f} bpm until you get through",
+        **dict.fromkeys(
+            ("came_in_late", "came_in_early"), "count the bar before it aloud, and come in on the one with the click"
+        ),
         "left_out_bars": "play into these bars from the one before at {slow:.0f} bpm, and count the bars",
         "repeated_bars": "count the bars aloud through the whole form",
         "missed": "play it at {slow:.0f} bpm until every stroke is there",

@@ -41,6 +41,7 @@ def assessment(summary: Summary) -> dict[str, Json]:
             "wrong_piece": counts.wrong_piece,
             "ignored": counts.ignored,
             "played_again": counts.played_again,
+            "unknown": counts.unknown,
         },
         "right": summary.right,
         "timing": _timing(summary.timing),

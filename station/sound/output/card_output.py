@@ -26,6 +26,9 @@ Renderer = Callable[[int, int], Frames]
 
 LOAD_SMOOTHING = 0.02
 """Share of a new block in the running mean of the load."""
+JACK = "JACK"
+"""In the name of a host whose streams cannot be closed without their server: PortAudio would wait for it for ten
+minutes, or end the process by what it asserts (`pa_jack.c`, `CleanUpStream`)."""
 SHUT_WITHIN_S = 0.4
 """A stream that fades no sooner has stopped asking (our choice: twice the longest block)."""
 
@@ -39,6 +42,7 @@ class CardOutput(CardStream):
         self.underflows = 0
         self.load = 0.0
         self._fault = ""
+        self._has_server = True
         self._abort: type[Exception] = sd.CallbackAbort
         self._render: Renderer | None = None
         self._is_asking = False
@@ -49,6 +53,7 @@ class CardOutput(CardStream):
         """Why the stream ended by itself; None while it runs, or was stopped by us."""
         if not self._fault and self._is_asking and not self._stream.active:
             self._fault = f"{self._title} stopped: it was unplugged, or its server ended"
+            self._has_server = JACK not in self.host
         return DeviceError(self._fault) if self._fault else None  # one that is raised would hold us by its traceback
 
     def start(self, render: Renderer) -> None:
@@ -80,7 +85,7 @@ class CardOutput(CardStream):
             return
         self._fade_out()
         self._is_asking = False
-        self._give_back()
+        self._give_back(self._has_server)
 
     def _fade_out(self) -> None:
         """Let what sounds fade, so that the end of the stream is no click."""

@@ -80,9 +80,13 @@ class CardStream:
         self._stream.close()
         vars(self._stream).clear()
 
-    def _give_back(self) -> None:
-        """Close the stream and leave PortAudio; a driver that hangs is left as it is."""
+    def _give_back(self, with_its_server: bool = True) -> None:
+        """Close the stream and leave PortAudio; a driver that hangs, or has no server any more, is left as it is."""
         self._is_open = False
+        if not with_its_server:
+            PORTAUDIO.abandon()
+            PORTAUDIO.release()
+            return
         closing = Thread(target=self._end, name=f"close {self._title}", daemon=True)
         closing.start()
         if not ends_within(closing, CLOSE_WITHIN_S):

@@ -126,7 +126,7 @@ def test_whoever_stops_is_waited_for_and_two_kicks_go_on(tmp_path: Path) -> None
     was_paused.append(room(station).paused)
     assert was_paused == [False, True]
     assert isinstance(line.heard[-1], StopTransport)
-    assert shown(station, at(4 * BAR_NS)).hud.message.startswith("Paused")
+    assert shown(station, at(4 * BAR_NS)).hud.halt == "Paused"
     kicks(station, line, at(5 * BAR_NS))
     assert not room(station).paused
     assert isinstance(line.heard[-1], Play)

@@ -9,7 +9,6 @@ from station.app.selection import MAX_LOOPS, Selection
 from station.core.pieces import HAND_PIECES, Piece, Zone
 from station.drills.course import Course, CoursePart
 from station.gui.keyboard_kit import KEYS
-from station.gui.viewport import quality_for
 from station.practice.records.lesson_progress import LessonProgress
 from station.scoring.matching.hit_windows import Level
 
@@ -74,11 +73,6 @@ def test_keys_strike_zones_that_their_pieces_have() -> None:
     for stroke in KEYS.values():
         if stroke.piece in drums | {Piece.KICK}:
             assert stroke.zone in {Zone.HEAD, Zone.RIM}
-
-
-@pytest.mark.parametrize(("lowest_ms", "level"), [(1.0, 2), (2.0, 2), (4.0, 1), (6.0, 1), (6.1, 0), (40.0, 0)])
-def test_faster_machines_draw_more(lowest_ms: float, level: int) -> None:
-    assert quality_for(lowest_ms) == level
 
 
 def test_the_window_opens_on_what_was_asked_for() -> None:

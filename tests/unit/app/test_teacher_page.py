@@ -84,7 +84,10 @@ def test_a_take_is_opened_as_the_student_played_it_and_its_bars_are_heard(desk: 
         assert seen is not None
         assert (seen.double is not None) == (whose is Whose.STUDENT)
         assert seen.hud is not None
-        assert seen.hud.phase == {Whose.TEACHER: "Bar 1: the teacher", Whose.STUDENT: "Bar 1: Zoë"}[whose]
+        assert (
+            seen.hud.phase
+            == {Whose.TEACHER: "Replay of bar 1: the teacher", Whose.STUDENT: "Replay of bar 1: Zoë"}[whose]
+        )
 
 
 def test_strokes_are_called_as_the_students_own_table_calls_them(desk: Desk, sent: Return) -> None:

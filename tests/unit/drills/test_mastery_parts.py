@@ -70,7 +70,7 @@ def test_hammering_is_not_clean() -> None:
     """All 40 notes hit and 40 strokes too many: half of what was heard is right."""
     verdict = judge(replace(CLEAN, extras=40), DEFAULT_RULES)
     assert verdict.grade is Grade.BROKEN
-    assert verdict.words == "40 of 40 right and 40 too many, 72 needed"
+    assert verdict.words == "50 % right (40 of 40 and 40 too many), 90 % needed"
 
 
 def test_loose_is_right_but_for_a_spread_within_an_eighth_of_a_slow_interval() -> None:

@@ -313,3 +313,25 @@ def test_a_mixer_that_takes_seconds_to_make_is_no_stall() -> None:
     assert output.calls == ["start"]
     card.supervise(2 * STALLED_NS + 2)
     assert output.calls == ["start", "close"]
+
+
+def test_a_jack_server_that_has_ended_is_looked_for_twice_a_second() -> None:
+    """A look and a new engine come on top: it is heard again within two seconds."""
+    engine, street = Engine(), Street()
+    jack = FakeOutput("system")
+    jack.host = "JACK Audio Connection Kit"
+    shop = Shop([jack])
+    hotplug = Hotplug("", street.look)
+    card = Card(engine, shop.open, shop.build, hotplug)
+    card.start(0)
+    jack.fault = DeviceError("its server ended")
+    back_ns = 20 * NS_PER_S
+    now_ns = 0
+    while not card.is_worn_out:
+        now_ns += 10 * NS_PER_MS
+        if now_ns == back_ns:
+            street.devices = [device("system")]
+        card.supervise(now_ns)
+        seen(hotplug)
+    assert now_ns - back_ns <= NS_PER_S // 2 + 20 * NS_PER_MS
+    assert not shop.outputs, "nothing is opened in this process again"

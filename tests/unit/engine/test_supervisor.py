@@ -29,6 +29,7 @@ from station.engine.messages import (
     Status,
     Stop,
     TrackPhase,
+    Unheard,
 )
 from station.engine.supervisor import MOST_RESTARTS, RESTARTS_WITHIN_NS, EngineSupervisor
 from tests.fakes.cues import clicks
@@ -240,3 +241,70 @@ def test_what_was_said_before_an_end_that_a_command_finds_is_heard() -> None:
     house.engine.send(SetLevel(Bus.CLICK, 0.5))
     assert house.working.told == [SetLevel(Bus.CLICK, 0.5)]
     assert [event for event in house.engine.events() if not isinstance(event, Notice)] == [stroke]
+
+
+def unheard(said: list[EngineEvent]) -> list[EngineEvent]:
+    return [event for event in said if isinstance(event, Unheard)]
+
+
+def killed_at(house: House, at_ns: int, kits: int) -> list[EngineEvent]:
+    """The engine is asked every 10 ms, and killed; what is said when that is found out."""
+    house.hears(Ready("card"), *(DeviceFound(1, f"{KIT} {kit}") for kit in range(kits)))
+    for house.now_ns in range(0, at_ns, 10 * NS_PER_MS):
+        house.hears()
+    house.working.end()
+    house.now_ns = at_ns + 5 * NS_PER_MS
+    return house.engine.events()
+
+
+def test_it_says_from_when_until_when_no_stroke_could_be_heard() -> None:
+    """From when it surely lived, two looks before its end was found, until both kits are heard again."""
+    house = House()
+    assert not unheard(killed_at(house, NS_PER_S, kits=2))
+    house.now_ns = NS_PER_S + 600 * NS_PER_MS
+    assert not unheard(house.hears(Ready("card"), DeviceFound(house.now_ns, f"{KIT} 0")))
+    back_ns = house.now_ns + 30 * NS_PER_MS
+    assert unheard(house.hears(DeviceFound(back_ns, f"{KIT} 1"))) == [Unheard(980 * NS_PER_MS, back_ns)]
+    assert not unheard(house.hears(Status(back_ns + NS_PER_S, 0, 0, None, 0.0)))
+
+
+def test_a_kit_that_does_not_come_back_is_not_waited_for() -> None:
+    house = House()
+    killed_at(house, NS_PER_S, kits=1)
+    house.hears(Ready("card"))
+    said = house.hears(Status(2 * NS_PER_S, 0, 0, None, 0.0))
+    assert unheard(said) == [Unheard(980 * NS_PER_MS, 2 * NS_PER_S)]
+    assert DeviceLost(2 * NS_PER_S, f"{KIT} 0") in said
+
+
+def test_without_a_kit_it_hears_again_as_soon_as_it_is_ready() -> None:
+    house = House()
+    killed_at(house, NS_PER_S, kits=0)
+    house.now_ns = NS_PER_S + 300 * NS_PER_MS
+    assert unheard(house.hears(Ready("card"))) == [Unheard(980 * NS_PER_MS, house.now_ns)]
+
+
+def test_an_engine_that_is_killed_twice_was_deaf_from_the_first_time() -> None:
+    house = House()
+    killed_at(house, NS_PER_S, kits=1)
+    house.working.end()
+    house.now_ns = NS_PER_S + 200 * NS_PER_MS
+    house.engine.events()
+    back_ns = 2 * NS_PER_S
+    assert unheard(house.hears(Ready("card"), DeviceFound(back_ns, f"{KIT} 0"))) == [Unheard(980 * NS_PER_MS, back_ns)]
+
+
+def test_a_server_may_end_as_often_as_it_likes() -> None:
+    """A new engine for a sound server that is back is nobody's fault; one that fails again and again is."""
+    house = House()
+    house.hears(Ready("card"))
+    for _ in range(10):
+        house.working.end(WORN_OUT)
+        assert [event.text for event in house.engine.events() if isinstance(event, Notice)]
+        house.hears(Ready("card"))
+    for _ in range(MOST_RESTARTS):
+        house.working.end(-6)
+        house.engine.events()
+    house.working.end(-6)
+    with pytest.raises(DeviceError):
+        house.engine.events()

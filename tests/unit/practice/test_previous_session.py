@@ -18,7 +18,7 @@ from station.drills.lesson import Lesson
 from station.engine.messages import Started
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.practice.demonstration.compare_by_ear import previous_bar
+from station.practice.demonstration.compare_by_ear import previous_bar, previous_tempo
 from station.practice.records.previous_session import NONE_KEPT, PreviousSession, day_in_words, find_previous
 from station.practice.records.session_pairs import SESSION_COLUMNS, session_pairs_csv
 from station.practice.session.plan import TAIL_NS, PlanOptions, plan_practice
@@ -145,6 +145,15 @@ def test_a_session_s_own_table_brings_its_strokes_back(tmp_path: Path) -> None:
     at_s = laid.hits["at_ns"] / NS_PER_S
     assert at_s.tolist() == pytest.approx([1.0 + 0.012, 1.5 - 0.008, 1.75 + 0.02], abs=1e-6)
     assert {(hit.zone, hit.articulation) for hit in laid} == {(Zone.RIM, Articulation.CROSS_STICK)}
+
+
+def test_the_tempo_at_which_it_was_played_is_that_of_its_last_pass(tmp_path: Path) -> None:
+    """The second pass of bar 1: its first two beats were due half a second apart, at 120; today's are at 90."""
+    kept(tmp_path, "2026-03-04T09-00-00_quarters")
+    earlier = found(tmp_path)
+    assert isinstance(earlier, PreviousSession)
+    assert previous_tempo(result(90.0, *[0.0] * 8), 0, earlier) == pytest.approx(120.0)
+    assert previous_tempo(result(90.0, *[0.0] * 8), 1, earlier) is None
 
 
 def test_days_in_words() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from station.drills.library import lesson_names
-from station.render.hud import hud_calls, hud_lines
+from station.render.hud import BAND, band_height, free_line, hud_calls, hud_lines, scale
 from station.render.snapshot import Hud, TimingCue
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import ShapeKind
@@ -57,7 +57,7 @@ def test_the_cue_stands_above_the_words(atlas: Atlas) -> None:
 
 def test_the_hud_shows_what_there_is_and_no_more(atlas: Atlas) -> None:
     assert letters(Hud(), atlas, SCENE) == len(hud_calls(Hud(), atlas, SCENE)) == 0
-    assert letters(Hud(title="Rock"), atlas, SCENE) == 2 * len("Rock"), "letters and their halo"
+    assert letters(Hud(title="Rock"), atlas, SCENE) == len("Rock"), "letters, and no halo on paper"
     assert (hud_calls(Hud(count_in=3), atlas, SCENE)["kind"] == ShapeKind.GLYPH).sum() == 1
 
 
@@ -90,3 +90,40 @@ def test_a_scene_too_small_for_words_has_none(atlas: Atlas) -> None:
     for shapes in (hud_lines, hud_calls):
         assert len(shapes(full, atlas, (240.0, 112.0))) > 0
         assert len(shapes(full, atlas, (64.0, 34.0))) == 0
+
+
+FULL = Hud("Rock 2: the kick moves", "Pass 1 of 4", 2, 3, 4, 2, 84.0, right=25, judged=25)
+PICTURES = ((240.0, 120.0), (300.0, 200.0), (562.0, 190.0), SMALL, SCENE, (480.0, 900.0), (3840.0, 1200.0))
+
+
+def boxes(shapes: np.ndarray) -> np.ndarray:
+    return np.concatenate([shapes["centre"] - shapes["half"], shapes["centre"] + shapes["half"]], axis=1)
+
+
+@pytest.mark.parametrize("letters_px", [None, 0.9, 1.6, 4.0])
+@pytest.mark.parametrize("size", PICTURES)
+def test_all_lines_stand_in_the_band_and_in_the_picture(
+    size: tuple[float, float], letters_px: float | None, atlas: Atlas
+) -> None:
+    seen = boxes(hud_lines(FULL, atlas, size, letters_px))
+    band = band_height(FULL, size, letters_px)
+    assert len(seen) > 0
+    assert seen[:, 3].max() <= band
+    assert band <= max(0.2 * size[1], 0.4 * BAND) + 1
+    assert seen[:, 0].min() >= 0
+    assert seen[:, 2].max() <= size[0]
+
+
+@pytest.mark.parametrize("size", PICTURES)
+def test_a_line_that_is_free_has_no_letters(size: tuple[float, float], atlas: Atlas) -> None:
+    """A toast of the second line's height there touches nothing."""
+    left, right, middle = free_line(FULL, atlas, size, 0.9)
+    k = scale(size[1], 0.9)
+    seen = boxes(hud_lines(FULL, atlas, size, 0.9))
+    in_line = (seen[:, 1] < middle + 8 * k) & (seen[:, 3] > middle - 8 * k)
+    assert not ((seen[:, 0] < right) & (seen[:, 2] > left) & in_line).any()
+    assert middle < band_height(FULL, size, 0.9) <= BAND * k + 1
+
+
+def test_without_words_there_is_no_band() -> None:
+    assert band_height(Hud(message="Play", count_in=3), SCENE) == 0

@@ -12,6 +12,7 @@ from station.render.geometry.materials import Material
 from station.render.kit.held_meshes import HELD_BONES, STICK_M
 from station.render.kit.instrument_meshes import HOLE_M, Detail, cymbal, drum
 from station.render.kit.kit_rig import WORLD, KitRig, bone_matrices, floor_discs, kit_mesh, rig_of
+from station.render.quality import QUALITIES
 from tests.unit.render.poses import pose_of
 
 KIT = load_kit()
@@ -119,3 +120,14 @@ def test_the_palette_holds_the_largest_kit() -> None:
 
 def test_a_stick_is_a_5a() -> None:
     assert pytest.approx(0.406) == STICK_M
+
+
+@pytest.mark.parametrize("detail", [*(quality.detail for quality in QUALITIES), Detail(28, hardware=False)])
+def test_a_cymbal_is_whole_from_its_hole_to_its_rim(detail: Detail) -> None:
+    """Its upper side's rings lie no farther apart than a fifth of its radius, and reach from the hole to the rim."""
+    mesh = cymbal(0.254, detail)
+    upper = mesh.normal[:, 2] > 0
+    radii = np.unique(np.hypot(*mesh.position[upper, :2].T).round(4))
+    assert radii[0] < 0.05 * 0.254 + 1e-3
+    assert radii[-1] == pytest.approx(0.254, abs=1e-4)
+    assert np.diff(radii).max() < 0.21 * 0.254

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from station.core.pieces import Piece
 from station.render.palette import (
     BRAND,
     EARLY,
@@ -24,6 +25,7 @@ from station.render.palette import (
     WRONG,
     Theme,
     over_picture,
+    piece_colour,
     themed,
     themed_bytes,
     with_opacity,
@@ -111,3 +113,29 @@ def test_opacity_stays_and_a_colour_of_no_theme_too() -> None:
 def test_words_over_the_dark_room_are_light_by_day() -> None:
     assert over_picture(Theme.DAY) is Theme.NIGHT
     assert over_picture(Theme.APART) is Theme.APART
+
+
+PIECE_COLOURS = sorted({piece_colour(piece) for piece in Piece})
+
+
+@pytest.mark.parametrize("theme", Theme)
+def test_names_of_pieces_read_on_the_score_s_paper_and_letters_on_their_notes(theme: Theme) -> None:
+    for colour in PIECE_COLOURS:
+        for paper in (PAPER, PAPER_LOW):
+            assert contrast(themed(colour, theme), themed(paper, theme)) >= 4.5, (theme, colour)
+        assert contrast(themed(NIGHT, theme), themed(colour, theme)) >= 4.5
+
+
+@pytest.mark.parametrize("theme", Theme)
+@pytest.mark.parametrize("sight", SIGHT)
+def test_kinds_of_pieces_are_told_apart_by_everybody(theme: Theme, sight: str) -> None:
+    """Ten times what is just noticeable."""
+    assert len(PIECE_COLOURS) == 9
+    seen = [lab(np.array(SIGHT[sight]) @ linear(themed(colour, theme))) for colour in PIECE_COLOURS]
+    assert min(float(np.linalg.norm(one - other)) for one, other in combinations(seen, 2)) >= 23
+
+
+@pytest.mark.parametrize("theme", Theme)
+def test_no_piece_has_the_colour_of_a_judgement(theme: Theme) -> None:
+    for colour in PIECE_COLOURS:
+        assert all(themed(colour, theme) != themed(signal, theme) for signal in SIGNALS)

@@ -5,17 +5,16 @@ import pytest
 
 from station.core.pieces import Piece
 from station.core.units import PPQ
-from station.motion.kinematics.figure import figure_of
-from station.motion.kit.kit import load_kit
 from station.music.judgement import Judgement, Label
 from station.music.score import Note, Score
-from station.music.tempo import MeterChange, TempoMap
+from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.notation import note_shapes
-from station.render.notation.screen.highway import Highway, lanes
 from station.render.notation.screen.judgement_marks import draw_dynamics, draw_mark, off_db, timing_colour
-from station.render.notation.screen.score_view import ScorePlace, lead_spaces, pages, shown_s, visible_bars
+from station.render.notation.screen.score_place import ScorePlace
+from station.render.notation.screen.score_view import lead_spaces
+from station.render.notation.screen.time_span import BEHIND_SHARE, ahead_s, rolling_spaces, two_bars_s, visible_bars
 from station.render.palette import EARLY, GOOD, LATE
-from station.render.snapshot import MARK_DTYPE, PENDING, Snapshot, mark, no_marks
+from station.render.snapshot import MARK_DTYPE, PENDING, mark, no_marks
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import DrawList, ShapeKind
 from tests.unit.render.scores import rock
@@ -119,29 +118,6 @@ def test_the_wedge_points_up_when_too_loud_and_down_when_too_soft(louder_db: flo
     assert np.sign(wedge["axis"][1]) == way
 
 
-def test_pages_hold_whole_bars_and_show_the_next() -> None:
-    """At 120 bpm a bar lasts two seconds: four to a page of eight."""
-    found = pages(rock(6))
-    assert [page.start_s for page in found] == [0.0, 8.0]
-    assert [page.shown_s for page in found] == [(0.0, 10.0), (8.0, 12.0)]
-    assert pages(rock(1))[0].shown_s == (0.0, 2.0)
-
-
-def test_the_highway_has_a_lane_for_every_piece_the_highest_first() -> None:
-    assert lanes(rock(1)) == [Piece.HIHAT, Piece.SNARE, Piece.KICK]
-
-
-def test_the_highway_s_notes_roll_at_their_times_in_their_lanes() -> None:
-    """A snare on two at 120 bpm lies half a second after the start, in the middle of the second lane."""
-    score = rock(1)
-    kit, figure = load_kit(), figure_of()
-    shapes = Highway(Snapshot(score, 0.0, kit, figure), Atlas(), 40.0).rolling((-1.0, 3.0))
-    notes = shapes[(shapes["kind"] == ShapeKind.BOX) & (shapes["half"][:, 0] > 0.1)]
-    assert len(notes) == len(score)
-    snares = notes[np.isclose(notes["centre"][:, 1], 1.5)]
-    assert snares["time_s"][:, 0].tolist() == pytest.approx([0.5, 1.5])
-
-
 @pytest.mark.parametrize(("width", "height", "space"), [(1280.0, 216.0, 216 / 15.8), (300.0, 180.0, 300 / 48)])
 def test_a_narrow_score_is_engraved_smaller_in_the_middle(width: float, height: float, space: float) -> None:
     place = ScorePlace(0.0, 420.0, width, height)
@@ -174,13 +150,34 @@ def even(gap_ticks: int, count: int = 64) -> Score:
 
 
 @pytest.mark.parametrize(
-    ("gap_ticks", "spaces", "half_s"),
+    ("gap_ticks", "spaces", "shown_s"),
     [
-        (PPQ, 60.0, 4.0),  # half a second apart: 3.75 spaces
-        (PPQ // 4, 60.0, 2.34375),  # 0.125 s for 1.6 spaces: 60 spaces are 4.6875 s
-        (PPQ // 8, 60.0, 1.5),  # at the least
+        (PPQ, 60.0, 4.0),  # half a second apart: 1.6 spaces
+        (PPQ // 4, 36.0, 4.0),  # two bars of four at 120 are four seconds, and stay
+        (PPQ // 8, 60.0, 4.0),
     ],
 )
-def test_so_much_is_shown_that_strokes_stand_apart(gap_ticks: int, spaces: float, half_s: float) -> None:
-    assert shown_s(even(gap_ticks), spaces) == pytest.approx(half_s)
-    assert shown_s(Score.from_notes([], TempoMap()), spaces) == 4.0
+def test_so_much_is_ahead_that_two_bars_are_seen(gap_ticks: int, spaces: float, shown_s: float) -> None:
+    assert ahead_s(even(gap_ticks), spaces) == pytest.approx(shown_s)
+    assert ahead_s(Score.from_notes([], TempoMap()), spaces) == 4.0
+
+
+@pytest.mark.parametrize("tempo_bpm", [30, 84, 168, 300])
+def test_two_bars_are_ahead_at_any_tempo(tempo_bpm: float) -> None:
+    """Eight beats of 4/4; at 300 a minute they last 1.6 s, and there is room for more."""
+    score = Score.from_notes([Note(k * PPQ // 4, Piece.SNARE) for k in range(64)], TempoMap.constant(tempo_bpm))
+    assert two_bars_s(score) == pytest.approx(8 * 60 / tempo_bpm)
+    for spaces in (10.0, 60.0, 200.0):
+        assert ahead_s(score, spaces) >= 8 * 60 / tempo_bpm - 1e-9
+
+
+def test_a_slow_bar_among_fast_ones_is_ahead_as_a_whole() -> None:
+    """Bars of 2, 2, 4 and 2 seconds: two in a row last six at the most."""
+    tempi = [TempoChange(0, 500_000), TempoChange(8 * PPQ, 1_000_000), TempoChange(12 * PPQ, 500_000)]
+    score = Score.from_notes([Note(k * PPQ, Piece.SNARE) for k in range(16)], TempoMap.build(tempi, []))
+    assert two_bars_s(score) == pytest.approx(6.0)
+
+
+def test_thirty_seconds_that_roll_hardly_touch() -> None:
+    """64 gaps in two bars, 1.3 spaces each, on the three quarters of the width that lie ahead."""
+    assert rolling_spaces(even(PPQ // 8)) == pytest.approx(64 * 1.3 / (1 - BEHIND_SHARE))

@@ -10,15 +10,16 @@ import numpy as np
 import pytest
 
 from station.core.pieces import Limb, Piece
-from station.core.units import NS_PER_MS, NS_PER_S
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.library import find_lesson
 from station.engine.messages import Started
 from station.motion.drummer import Drummer
+from station.music.judgement import Label
 from station.music.performance import Performance
 from station.practice.session.plan import TAIL_NS, PlanOptions, plan_practice
 from station.practice.session.session import Session, SessionResult
 from station.render.snapshot import TimingCue
-from station.scenes.comparison import Comparison
+from station.scenes.comparison import Comparison, Replayed
 from station.scenes.demonstrator import Demonstrator
 from station.simulation.student_spec import parse_spec
 from station.simulation.virtual_student import play
@@ -48,7 +49,7 @@ def played(late_ms: float) -> Performance:
 
 @pytest.fixture(scope="module")
 def late() -> Comparison:
-    return Comparison(result(), BAR, played(40.0), Demonstrator(), "you")
+    return Comparison(result(), BAR, played(40.0), Demonstrator(), Replayed("you"))
 
 
 def test_the_student_s_sticks_are_on_the_drum_when_he_struck(late: Comparison) -> None:
@@ -72,7 +73,7 @@ def test_a_limb_that_was_late_glows_and_one_in_time_does_not(late: Comparison) -
         Limb.RIGHT_HAND: TimingCue.LATE,
         Limb.RIGHT_FOOT: TimingCue.LATE,
     }
-    in_time = Comparison(result(), BAR, played(0.0), Demonstrator(), "you").snapshot(at_ns).double
+    in_time = Comparison(result(), BAR, played(0.0), Demonstrator(), Replayed("you")).snapshot(at_ns).double
     assert in_time is not None
     assert not in_time.partings
 
@@ -83,15 +84,65 @@ def test_only_what_was_struck_by_then_is_seen_and_lights_its_drum(late: Comparis
 
 
 def test_the_teacher_is_seen_alone_with_the_lesson_s_own_bar() -> None:
-    seen = Comparison(result(), BAR, None, Demonstrator(), "the teacher").snapshot(KICK_NS)
+    seen = Comparison(result(), BAR, None, Demonstrator(), Replayed("the teacher")).snapshot(KICK_NS)
     assert seen.double is None
-    assert (seen.hud.phase, seen.hud.bar, seen.position_s) == ("Bar 2: the teacher", 2, 0.0)
+    assert (seen.hud.phase, seen.hud.bar, seen.position_s) == ("Replay of bar 2: the teacher", 2, 0.0)
 
 
 def test_the_arm_that_struck_a_wrong_pad_glows() -> None:
     """The floor tom for the snare on the second beat; the snare is the left hand's."""
     hits = [replace(hit, piece=Piece.FLOOR_TOM_1) if hit.piece is Piece.SNARE else hit for hit in played(0.0)]
-    seen = Comparison(result(), BAR, Performance.from_hits(hits), Demonstrator(), "you")
+    seen = Comparison(result(), BAR, Performance.from_hits(hits), Demonstrator(), Replayed("you"))
     double = seen.snapshot(KICK_NS + 800 * NS_PER_MS).double
     assert double is not None
     assert double.partings[Limb.LEFT_HAND].cue is TimingCue.WRONG_PIECE
+
+
+def test_what_was_played_stands_on_the_staff_from_the_beginning(late: Comparison) -> None:
+    """Every stroke 40 ms late: each note of the bar bears that mark, whatever the play line has reached."""
+    seen = late.snapshot(KICK_NS)
+    assert seen.marks is not None
+    assert seen.is_replay
+    assert (seen.marks["label"] == Label.MATCH).all()
+    assert seen.marks["asynchrony_ms"] == pytest.approx(np.full(len(seen.score), 40.0), abs=0.01)
+    assert not seen.extras
+
+
+def test_misses_wrong_pads_and_strokes_too_many_stand_there_too() -> None:
+    """Without the kick on one, the floor tom for the snare on two, a crash between two and three."""
+    hits = [hit for hit in played(0.0) if hit.at_ns > KICK_NS + 1000 or hit.piece is not Piece.KICK]
+    beat_ns = 750 * NS_PER_MS
+    wrong = [
+        replace(hit, piece=Piece.FLOOR_TOM_1)
+        if hit.piece is Piece.SNARE and abs(hit.at_ns - KICK_NS - beat_ns) < NS_PER_MS
+        else hit
+        for hit in hits
+    ]
+    extra = replace(hits[0], piece=Piece.CRASH_1, at_ns=KICK_NS + beat_ns + beat_ns // 4)
+    performance = Performance.from_hits(sorted([*wrong, extra], key=lambda hit: hit.at_ns))
+    seen = Comparison(result(), BAR, performance, Demonstrator(), Replayed("you")).snapshot(KICK_NS)
+    assert seen.marks is not None
+    notes = seen.score.notes
+    labels = {
+        (int(n["tick"]) // PPQ, Piece(int(n["piece"]))): Label(int(m))
+        for n, m in zip(notes, seen.marks["label"], strict=True)
+        if n["tick"] % PPQ == 0
+    }
+    assert labels[0, Piece.KICK] is Label.MISS
+    assert labels[1, Piece.SNARE] is Label.WRONG_PIECE
+    assert labels[3, Piece.SNARE] is Label.MATCH
+    assert [extra.piece for extra in seen.extras] == [Piece.CRASH_1]
+    assert seen.extras[0].time_s == pytest.approx(0.9375)
+
+
+def test_the_teacher_s_bar_bears_no_marks() -> None:
+    seen = Comparison(result(), BAR, None, Demonstrator(), Replayed("the teacher")).snapshot(KICK_NS)
+    assert seen.marks is None
+    assert not seen.extras
+
+
+def test_one_s_own_bar_is_judged_as_the_report_has_it() -> None:
+    """Nobody has played in this session: all its notes were missed, whatever is laid over the bar."""
+    seen = Comparison(result(), BAR, played(0.0), Demonstrator(), Replayed("you"), is_own=True).snapshot(KICK_NS)
+    assert seen.marks is not None
+    assert (seen.marks["label"] == Label.MISS).all()

@@ -19,6 +19,7 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.lesson import BarCue
 from station.drills.library import find_lesson
+from station.drills.mastery.feedback_fading import Feedback
 from station.engine.messages import Started
 from station.motion.drummer import Drummer
 from station.motion.sticking.hand_notes import Hands
@@ -242,3 +243,37 @@ def test_the_landing_is_counted_with_the_last_pass_and_has_the_next_bar_s_number
     assert (hud.phase, hud.bar, hud.bar_count) == ("Pass 2 of 2", last + 1, last + 1)
     numbers = shown(view, plan, plan.end_ns - NS_PER_S).bar_numbers
     assert [numbers.of(bar) for bar in range(2 * last + 1)] == [*range(1, last + 1)] * 2 + [last + 1]
+
+
+def seen_at(view: SessionView, session: Session, now_ns: int) -> Snapshot:
+    session.advance(now_ns)
+    return view.snapshot(session, now_ns)
+
+
+def test_after_the_demonstration_come_its_bars_again_and_the_page_goes_on_where_it_ended() -> None:
+    session, view = Session(PLAN), SessionView(PLAN)
+    session.handle(Started(0, None))
+    shown = seen_at(view, session, PLAN.demonstrations_end_ns - NS_PER_S)
+    assert shown.comes_again
+    assert shown.before is None
+    demonstrated = shown.score
+    for now_ns in (PLAN.passes_start_ns - NS_PER_S, PLAN.passes_start_ns + NS_PER_S):  # counted in, played
+        shown = seen_at(view, session, now_ns)
+        assert shown.before is demonstrated
+        assert not shown.comes_again, "the last passes of the session"
+    assert seen_at(SessionView(PLAN, goes_on=True), session, PLAN.passes_start_ns + 2 * NS_PER_S).comes_again
+
+
+@pytest.mark.parametrize(
+    ("feedback", "words"),
+    [
+        (Feedback.TIMING, "Pass 1 of 2"),
+        (Feedback.PADS, "Pass 1 of 2, early and late not shown"),
+        (Feedback.NONE, "Pass 1 of 2, blind: no marks"),
+    ],
+)
+def test_a_pass_without_marks_says_that_this_is_meant(feedback: Feedback, words: str) -> None:
+    session, view = Session(PLAN, feedback=feedback), SessionView(PLAN)
+    session.handle(Started(0, None))
+    assert seen_at(view, session, PLAN.passes_start_ns - NS_PER_S).hud.phase == "Count-in to pass 1 of 2"
+    assert seen_at(view, session, PLAN.passes_start_ns + NS_PER_S).hud.phase == words

@@ -59,7 +59,7 @@ def test_an_attempt_that_was_given_up_is_not_counted() -> None:
 
 def test_every_label_has_its_word() -> None:
     assert set(rejudge._WORDS) == set(Label) - {Label.PENDING}
-    assert {Label.MATCH, Label.MISS, Label.WRONG_PIECE, Label.PENDING} | OF_LONE_HITS == set(Label)
+    assert {Label.MATCH, Label.MISS, Label.WRONG_PIECE, Label.PENDING, Label.UNKNOWN} | OF_LONE_HITS == set(Label)
 
 
 def test_live_the_first_attempt_is_played_again_too() -> None:

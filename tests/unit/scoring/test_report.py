@@ -97,7 +97,7 @@ def test_document_by_hand() -> None:
     assert document["schema"] == "drum-station/assessment/1"
     assert document["counts"] == {
         "notes": 13, "hits": 14, "matched": 11, "misses": 1, "extras": 1, "wrong_piece": 1, "ignored": 1,
-        "played_again": 0,
+        "played_again": 0, "unknown": 0,
     }  # fmt: skip
     timing = document["timing"]
     assert isinstance(timing, dict)

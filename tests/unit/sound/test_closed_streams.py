@@ -17,8 +17,10 @@ import pytest
 
 from station.core.errors import DeviceError
 from station.sound.drum_kit import Frames
+from station.sound.output import card_stream, sound_output
 from station.sound.output.card_input import open_input
 from station.sound.output.card_output import CardOutput
+from station.sound.output.portaudio import PortAudio, SoundServerGone
 from station.sound.output.sound_output import open_output
 
 BLOCK_FRAMES = 64
@@ -153,3 +155,23 @@ def test_an_output_that_failed_and_was_told_of_is_freed() -> None:
     del output
     assert freed() is None
     assert not STREAMS
+
+
+def test_a_stream_whose_jack_server_has_ended_is_left_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """To close it would end the process: PortAudio asserts that JACK takes its ports back."""
+    library = sys.modules["sounddevice"]
+    library.query_hostapis = lambda: [{"name": "JACK Audio Connection Kit"}]  # type: ignore[attr-defined]
+    port_audio = PortAudio()
+    for module in (card_stream, sound_output):
+        monkeypatch.setattr(module, "PORTAUDIO", port_audio)
+    library._exit_handler = lambda: None  # type: ignore[attr-defined]
+    output = played(silence)
+    (stream,) = STREAMS
+    stream._stopped.set()  # the server is gone: nobody asks any more
+    while output.fault is None:
+        pass
+    monkeypatch.setattr(stream, "close", lambda: pytest.fail("it was closed"))
+    monkeypatch.setattr(stream, "stop", lambda: pytest.fail("it was stopped"))
+    output.close()
+    with pytest.raises(SoundServerGone):
+        port_audio.acquire()

@@ -27,6 +27,7 @@ from station.scoring.analysis.timing_spread import asynchrony_ms
 from station.scoring.matching.alignment import Alignment, Reference
 from station.scoring.matching.hit_windows import DEFAULT_LEVEL, Windows
 from station.scoring.matching.right import right_notes
+from station.scoring.matching.unheard import known_part
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,11 +98,12 @@ def measure_pass(
     bars: Sequence[int] | None = None,
     view: PassView | None = None,
 ) -> PassResult:
-    """Sum up one pass over `score`, at the tempo at which it was played.
+    """Sum up one pass over `score`, at the tempo at which it was played; unknown notes are left out.
 
     `bars` names the lesson's bar (from 0) of each bar of `score`, several times where it is repeated (None: its own).
     """
     view = view or PassView()
+    score, alignment, _ = known_part(score, alignment)
     names = np.arange(score.bar_count) if bars is None else np.asarray(bars, np.int64)
     swing, off_ms = swung(score), asynchrony_ms(alignment)
     notes = NoteFacts(

@@ -28,8 +28,8 @@ own (our choice: eight lines of the grid, or two of notation)."""
 _GRID_SHARE = 0.5
 """The grid's share of the page beside or above the notation; beside it no more than it fills (our choice)."""
 
-_LEAST_HIGH = 400.0
-"""Design pixels (our choice: two tabs of controls, and eight lines of the grid)."""
+_LEAST_HIGH = 330.0
+"""Design pixels (our choice: two lines of controls and five of the grid, so that a low window shows the drummer)."""
 _BEGIN = "Click a cell to write the first stroke; Space plays, F1 explains the page."
 
 _Leaf = Callable[[EditorView, tuple[float, float]], None]

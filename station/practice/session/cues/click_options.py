@@ -5,10 +5,11 @@
 Source of the keys: `station.practice.session.cues.click_pattern.ClickPattern`, whose fields they are.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from types import MappingProxyType
+from typing import TypeVar
 
 from station.core.counts import is_count
 from station.core.errors import BadInput
@@ -24,6 +25,8 @@ from station.practice.session.cues.click_pattern import (
 from station.practice.session.cues.quiet_bars import EXPECTED as EXPECTED_GAP
 from station.practice.session.cues.quiet_bars import gap_of
 
+T = TypeVar("T")
+
 MAX_VELOCITY = 127
 MAX_ACCENT = 32
 """The last beat that may be accented (our choice: no meter here is longer)."""
@@ -35,7 +38,7 @@ _PLACES: Mapping[str, Displacement] = MappingProxyType(
 )
 CLICK_HELP = (
     "what clicks, such as parts=2,swing=2 or on=2and4,count: on=all|2and4|bar, parts=1…8 clicks a beat, "
-    "swing=1…3.5, place=beat|e|and|a, accents=1+3 (0: none), levels=110/90/70, "
+    "swing=1…3.5, place=beat|e|and|a, accents=1+3 (0: none), off=2+4, levels=110/90/70, "
     "gap=4/1|random|random:30%, count (a voice counts)"
 )
 
@@ -52,6 +55,31 @@ def parse_click(text: str, source: str = "click") -> ClickPattern:
             raise BadInput(source, word, f"expected {_EXPECTED[key]}")
         pattern = change
     return pattern
+
+
+def click_text(pattern: ClickPattern) -> str:
+    """What `parse_click` reads as `pattern`; only what differs from `PLAIN` is said."""
+    levels, plain = pattern.levels, PLAIN
+    words = (
+        (pattern.beats is not plain.beats, f"on={_word_of(_BEATS, pattern.beats)}"),
+        (pattern.subdivisions != plain.subdivisions, f"parts={pattern.subdivisions}"),
+        (pattern.swing != plain.swing, f"swing={pattern.swing.ratio:g}"),
+        (pattern.displacement is not plain.displacement, f"place={_word_of(_PLACES, pattern.displacement)}"),
+        (pattern.accents != plain.accents, f"accents={_beats_text(pattern.accents) or 0}"),
+        (bool(pattern.off), f"off={_beats_text(pattern.off)}"),
+        (levels != plain.levels, f"levels={levels.accent}/{levels.beat}/{levels.subdivision}"),
+        (pattern.gap is not None, f"gap={pattern.gap}"),
+        (pattern.counts, "count"),
+    )
+    return ",".join(word for is_said, word in words if is_said)
+
+
+def _beats_text(beats: Iterable[int]) -> str:
+    return "+".join(str(beat + 1) for beat in beats)
+
+
+def _word_of(words: Mapping[str, T], meant: T) -> str:
+    return next(word for word, value in words.items() if value == meant)
 
 
 Change = Callable[[ClickPattern, str], ClickPattern | None]
@@ -86,6 +114,11 @@ def _accents(pattern: ClickPattern, value: str) -> ClickPattern | None:
     return replace(pattern, accents=tuple(beat - 1 for beat in beats if beat)) if all(beats) else None
 
 
+def _off(pattern: ClickPattern, value: str) -> ClickPattern | None:
+    beats = [_number(part, MAX_ACCENT) for part in value.split("+")]
+    return replace(pattern, off=tuple(beat - 1 for beat in beats if beat)) if all(beats) else None
+
+
 def _levels(pattern: ClickPattern, value: str) -> ClickPattern | None:
     levels = [_number(part, MAX_VELOCITY) for part in value.split("/")]
     if len(levels) != 3:
@@ -118,6 +151,7 @@ _KEYS: Mapping[str, Change] = MappingProxyType(
         "swing": _swing,
         "place": _place,
         "accents": _accents,
+        "off": _off,
         "levels": _levels,
         "gap": _gap,
         "count": _count,
@@ -130,6 +164,7 @@ _EXPECTED: Mapping[str, str] = MappingProxyType(
         "swing": f"{MIN_RATIO:g} to {MAX_RATIO:g}",
         "place": f"one of {', '.join(_PLACES)}",
         "accents": f"beats from 1 to {MAX_ACCENT} such as 1+3, or 0 for none",
+        "off": f"beats from 1 to {MAX_ACCENT} such as 2+4",
         "levels": f"accent/beat/subdivision, each 0 to {MAX_VELOCITY}",
         "gap": EXPECTED_GAP,
         "count": "count alone",

@@ -60,6 +60,7 @@ class ClickPattern:
 
     `subdivisions` clicks a beat, 1 … `MAX_SUBDIVISIONS`, their offbeats moved by `swing`; `accents` beats of the bar
     from 0; a `displacement` moves the beats' clicks and leaves the subdivisions out; `counts` speaks instead.
+    The clicks of the beats `off` (from 0) are left out, what stands between beats is not.
     """
 
     beats: ClickBeats = ClickBeats.ALL
@@ -70,6 +71,7 @@ class ClickPattern:
     gap: QuietBars | None = None
     counts: bool = False
     levels: ClickLevels = ClickLevels()
+    off: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
         assert 1 <= self.subdivisions <= MAX_SUBDIVISIONS, "so many clicks make a beat"
@@ -137,7 +139,7 @@ def bar_clicks(meter: MeterChange, pattern: ClickPattern) -> tuple[_Click, ...]:
         click
         for index, beat in enumerate(_click_beats(meter, pattern.beats))
         if _sounds(index, pattern.beats)
-        for click in _beat_clicks(index, beat, pattern)
+        for click in _beat_clicks(index, beat, pattern)[index in pattern.off :]
     ]
     moved = (click._replace(tick=pattern.swing.swung(click.tick, meter)) for click in clicks)
     return tuple(click for click in moved if click.velocity > 0)

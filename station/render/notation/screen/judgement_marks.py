@@ -6,11 +6,14 @@ drawn out by `TICK_ZOOM` so that a few milliseconds can be seen across a room. A
 says too loud, one below that points down too soft. Units are staff spaces unless a size is given, y down.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from station.music.judgement import Label
 from station.render.palette import EARLY, GOOD, INK, LATE, MISSED, WRONG, with_opacity
-from station.render.text.draw_list import Colour, DrawList
+from station.render.text.draw_list import Colour, DrawList, TypeStyle
+from station.render.text.fonts import Face
 
 ON_TIME_MS = 25.0
 """Within this a stroke counts as on time in the picture (HUMANS: mild to 25 ms)."""
@@ -24,10 +27,20 @@ and beyond a professional's own scatter of about 4 dB (HUMANS: SD 15-21 of 127).
 _WEDGE_AWAY = 1.6
 """Spaces from the head's middle to the wedge's; our choice, clear of the ring."""
 _WEDGE = 0.42
+_FIGURES = TypeStyle(1.15, INK, Face.BOLD, 0.5)
+_FIGURES_DROP = 1.7
+"""Spaces from the head's middle down to the figures' baseline: between the arrow and the ring of a head two spaces
+lower (our choice)."""
+_MINUS = "\N{MINUS SIGN}"
 
 
-def draw_mark(draw_list: DrawList, row: np.void, at: tuple[float, float], spaces_per_s: float) -> None:
-    """The judgement of one note whose head stands at `at`: beside its time, and its height."""
+def draw_mark(
+    draw_list: DrawList, row: np.void, at: tuple[float, float], spaces_per_s: float, falls: bool = False
+) -> None:
+    """The judgement of one note whose head stands at `at`: beside its time, and its height.
+
+    Time goes to the right, or up where a note `falls`: early is then below.
+    """
     x, y = at
     label = Label(int(row["label"]))
     if label is Label.MISS:
@@ -36,10 +49,12 @@ def draw_mark(draw_list: DrawList, row: np.void, at: tuple[float, float], spaces
     elif label is Label.WRONG_PIECE:
         draw_list.box((x - 1.0, y - 1.0), (2.0, 2.0), WRONG, None, (0.3, 0.2, 0.0))
     else:
-        _draw_timing(draw_list, float(row["asynchrony_ms"]), at, spaces_per_s)
+        _draw_timing(draw_list, float(row["asynchrony_ms"]), at, spaces_per_s, falls)
 
 
-def _draw_timing(draw_list: DrawList, asynchrony_ms: float, at: tuple[float, float], spaces_per_s: float) -> None:
+def _draw_timing(
+    draw_list: DrawList, asynchrony_ms: float, at: tuple[float, float], spaces_per_s: float, falls: bool
+) -> None:
     x, y = at
     colour = timing_colour(asynchrony_ms)
     if np.isnan(asynchrony_ms):  # right, and its time is not told
@@ -48,12 +63,25 @@ def _draw_timing(draw_list: DrawList, asynchrony_ms: float, at: tuple[float, flo
     shift = asynchrony_ms / 1000 * spaces_per_s * TICK_ZOOM
     if abs(asynchrony_ms) <= ON_TIME_MS:
         draw_list.ellipse(at, (1.0, 0.86), colour, 0.0, (0.0, 0.22, 0.0))
-        draw_list.line((x + shift, y - 0.95), (x + shift, y + 0.95), 0.24, colour)
+        if falls:
+            draw_list.line((x - 0.95, y - shift), (x + 0.95, y - shift), 0.24, colour)
+        else:
+            draw_list.line((x + shift, y - 0.95), (x + shift, y + 0.95), 0.24, colour)
     else:
         way = 1.0 if asynchrony_ms > 0 else -1.0
         tip = way * min(max(abs(shift), _NEAREST_ARROW), _FARTHEST_ARROW)
         draw_list.ellipse(at, (1.0, 0.86), with_opacity(colour, 0.5), 0.0, (0.0, 0.16, 0.0))
-        draw_list.triangle((x + tip, y), (0.52, 0.66), colour, 0.0 if way > 0 else np.pi)
+        middle, turn_rad = ((x, y - tip), -way * np.pi / 2) if falls else ((x + tip, y), 0.0 if way > 0 else np.pi)
+        draw_list.triangle(middle, (0.52, 0.66), colour, turn_rad)
+
+
+def draw_asynchrony(draw_list: DrawList, asynchrony_ms: float, at: tuple[float, float]) -> None:
+    """How many milliseconds early or late the note at `at` was, in figures under its arrow; nothing where on time."""
+    if not abs(asynchrony_ms) > ON_TIME_MS:
+        return
+    x = at[0] + np.copysign(_FARTHEST_ARROW, asynchrony_ms)
+    style = replace(_FIGURES, colour=timing_colour(asynchrony_ms))
+    draw_list.text(f"{asynchrony_ms:+.0f}".replace("-", _MINUS), (x, at[1] + _FIGURES_DROP), style)
 
 
 def timing_colour(asynchrony_ms: float) -> Colour:

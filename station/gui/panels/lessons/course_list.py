@@ -18,13 +18,15 @@ _RADIUS, _LINE = 7.0, 2.0
 """Design pixels of the mark."""
 
 
-def course_picker(selection: Selection) -> Selection:
-    """Draw the list of courses, with how much of each is finished; returns what is chosen."""
-    if not selection.courses:
-        return selection
+def course_picker(selection: Selection, width: float) -> Selection:
+    """Draw the list of courses, `width` pixels wide, with how much of each is finished; returns what is chosen."""
     chosen, picked = selection.course, selection
-    imgui.set_next_item_width(-1)
-    if imgui.begin_combo("##course", course_words(selection, chosen), imgui.ComboFlags_.height_large):
+    imgui.set_next_item_width(width)
+    room = width - imgui.get_frame_height() - 2 * imgui.get_style().frame_padding.x
+    preview = course_words(selection, chosen)
+    if chosen is not None and imgui.calc_text_size(preview).x > room:
+        preview = theme.one_line(chosen.title, room)
+    if imgui.begin_combo("##course", preview, imgui.ComboFlags_.height_large):
         for course in (None, *selection.courses):
             label = f"{course_words(selection, course)}###course-{'' if course is None else course.name}"
             if imgui.selectable(label, course is chosen)[0]:

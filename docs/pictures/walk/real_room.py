@@ -1,0 +1,67 @@
+"""The window on the real station: an engine in a process of its own, a fake kit on a serial line."""
+
+import sys
+from contextlib import ExitStack
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
+
+from imgui_bundle import imgui
+from jpeg_file import write_jpeg
+from pty_student import PtyStudent
+
+from station.app.actions.settings_actions import SetView
+from station.app.child_programs import ChildPrograms
+from station.app.controller import Controller
+from station.app.sessions.session_control import Launch
+from station.app.settings.settings_store import SettingsStore
+from station.core.clock import Clock, MonotonicClock
+from station.core.measured_latency import load_calibration
+from station.drills.library import find_lesson
+from station.engine.engine_config import EngineConfig
+from station.engine.supervisor import EngineSupervisor
+from station.practice.session.device_latency import latency_of
+from station.practice.session.plan import PlanOptions, plan_practice
+from station.render.snapshot import Snapshot
+from station.simulation.student_spec import StudentSpec
+from tests.gui.drive import NEWCOMER, Drive
+from tests.gui.room import DirectEngine
+
+Context = imgui.test_engine.TestContext
+
+
+class RealRoom(Drive):
+    """What the walk works with: `student` sits at the kit, and looks at the screen whenever a frame is on it."""
+
+    def __init__(self, sessions: Path, student: PtyStudent, size: tuple[int, int], scale: float) -> None:
+        self._engines = ExitStack()
+        self.student = student
+        super().__init__(sessions, NEWCOMER, picture_every=1, size=size)
+        self.station.dispatch(SetView(replace(self.state.view_settings, scale=scale)))
+
+    def made(
+        self, lesson: str, options: PlanOptions, store: SettingsStore, student: StudentSpec | None
+    ) -> tuple[Controller, DirectEngine, Clock]:
+        """The station as `station` opens it; nothing of its engine is played."""
+        del student
+        store = SettingsStore(self.settings, {"kit": self.student.device})
+        wake = lambda: self._engines.enter_context(EngineSupervisor(EngineConfig.from_settings(store.now)))  # noqa: E731
+        launch = Launch(plan_practice(find_lesson(lesson), options), True, latency_of(store.now, load_calibration()))
+        nobody = cast("DirectEngine", SimpleNamespace(sent=[]))
+        return Controller(ChildPrograms(wake), store, launch), nobody, MonotonicClock()
+
+    def close(self) -> None:
+        """End the station and its engine."""
+        self.station.close()
+        self._engines.close()
+
+    def keep(self, ctx: Context, path: Path) -> None:
+        """A picture of the screen; what imgui has cut off, or written over itself, is told."""
+        write_jpeg(self.shot(ctx), path.with_suffix(".jpg"))
+        for fault in self.faults:
+            sys.stderr.write(f"{path.name}: {fault}\n")
+
+    def _frame_is_shown(self, snapshot: Snapshot | None) -> bool:
+        self.student.watch(self.station.parts.sessions.practice.session.session)
+        return super()._frame_is_shown(snapshot)
