@@ -69,7 +69,7 @@ def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_p
     assert seen["started"] == "PLAYING"
     assert seen["title"] == "Rock 2: the kick moves"
     assert (seen["suggested"], seen["level"]) == ("beginner", "advanced")
-    assert "judged as advanced" in seen["told"]
+    assert "judged as advanced, ±10 ms" in seen["told"]
     assert "rushed, on, or dragged?" in seen["asked"]
     assert not seen["told before"], "the result waits for the answer"
     assert seen["notes"] == 26  # two bars: 16 on the hi-hat, 4 on the snare, 6 on the kick

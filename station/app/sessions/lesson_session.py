@@ -230,6 +230,7 @@ class LessonSession:
             can_pause=room.stage is Stage.PLAYING and self.session.can_pause and self.sitting is None,
             paused=self.paused,
             clock=clock,
+            judged=self.plan.level.words,
         )
 
     # --- the end -----------------------------------------------------------------------------------------------------

@@ -43,9 +43,10 @@ _MEANS = {
     SelfEstimate.ON: "with the click",
     SelfEstimate.DRAGGED: "behind the click",
 }
-_QUESTION = ScreenChoice(
-    tuple(Option(guess.value, Answer(guess), _MEANS[guess], pads) for guess, pads in PADS_OF.items()), QUESTION
+_ANSWERS = tuple(
+    Option(guess.value.capitalize(), Answer(guess), _MEANS[guess], pads) for guess, pads in PADS_OF.items()
 )
+_QUESTION = ScreenChoice(_ANSWERS, QUESTION)
 
 
 def choice_beside(practice: CurrentPractice, kit_starts: bool) -> ScreenChoice | None:

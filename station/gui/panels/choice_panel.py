@@ -26,11 +26,13 @@ _LARGE, _LEAST = 0.052, 19.0
 22 inches (our choice); and the least, in design pixels."""
 _BAND = 0.27
 """The share of the picture's height that what comes next takes below a result (our choice)."""
-_QUESTION_WIDE, _QUESTION_HIGH = 0.86, 0.5
-"""The shares of the picture that a question takes (our choice)."""
+_QUESTION_WIDE, _QUESTION_HIGH, _QUESTION_TOP = 0.86, 0.5, 0.14
+"""The shares of the picture that a question takes, and that lie above it: it covers no notes (our choice)."""
 _MOST_LINES = 2
 _ASKED = 1.35
 """A question's letters against those of what comes next: nothing else is on the screen to be read (our choice)."""
+_HOW = 0.42
+"""The letters of the line that says how one chooses, in heights of a label (our choice)."""
 _PAD, _ANSWERED = 0.62, 0.30
 """A pad's drawn radius in heights of its name; the opacity of an option whose pad was just struck."""
 
@@ -59,9 +61,9 @@ def band_height(choice: ScreenChoice | None, picture: Area) -> int:
 
 
 def choice_keys(choice: ScreenChoice, dispatch: Callable[[Action], None]) -> bool:
-    """Choose by 1 to 4, and what comes next by Enter; returns whether a key did."""
+    """Choose by 1 to 4, and what comes next by Enter where no control has the keyboard; returns whether a key did."""
     chosen = next((option for key, option in zip(SLOT_KEYS, choice.options, strict=False) if _pressed(key)), None)
-    if chosen is None and not choice.question and _pressed(imgui.Key.enter):
+    if chosen is None and not choice.question and not imgui.get_io().nav_visible and _pressed(imgui.Key.enter):
         chosen = choice.options[0]
     if chosen is not None:
         dispatch(chosen.action)
@@ -104,7 +106,12 @@ def _on_screen(picture: Area) -> _Box:
 def _question_box(area: _Box) -> _Box:
     width, height = _QUESTION_WIDE * area.width, max(_QUESTION_HIGH * area.height, theme.points(190))
     height = min(height, area.height)
-    return _Box(area.left + (area.width - width) / 2, area.top + (area.height - height) / 2, width, height)
+    return _Box(
+        area.left + (area.width - width) / 2,
+        area.top + min(_QUESTION_TOP, 1.0 - height / area.height) * area.height,
+        width,
+        height,
+    )
 
 
 def _band_box(area: _Box, pixels: int) -> _Box:
@@ -121,7 +128,7 @@ def _draw(choice: ScreenChoice, large: float, dispatch: Callable[[Action], None]
         imgui.text_wrapped(choice.question)
         imgui.pop_font()
     room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing.x
-    line = imgui.get_frame_height() + imgui.get_style().item_spacing.y
+    line = max(imgui.get_frame_height(), 1.3 * _HOW * large) + imgui.get_style().item_spacing.y
     shares = [1.0] * len(choice.options)
     if not choice.question and len(shares) > 1:
         shares[0] = 1.35  # the best one is the widest (our choice)
@@ -136,7 +143,7 @@ def _draw(choice: ScreenChoice, large: float, dispatch: Callable[[Action], None]
         look = _look(choice, place, imgui.is_item_hovered())
         theme.tooltip(_tip(option, place))
         _draw_option(option, place, _Box(low.x, low.y, high.x - low.x, high.y - low.y), look, large)
-    _how(choice, dispatch)
+    _how(choice, large, dispatch)
 
 
 @dataclass(frozen=True, slots=True)
@@ -203,13 +210,13 @@ def _draw_pad(option: Option, place: int, at: imgui.ImVec2, width: float, size: 
     else:
         draw = brush.add_circle_filled if look.hears else brush.add_circle
         draw(middle, radius * 0.8, ink)
-    x += 2.0 * radius
+    x += 2.4 * radius
     names = " or ".join(piece_name(each) for each in sorted(option.pads))
     left = at.x + width - x
     _text(_cut(names, left, size), imgui.ImVec2(x, at.y), size, ink)
 
 
-def _how(choice: ScreenChoice, dispatch: Callable[[Action], None]) -> None:
+def _how(choice: ScreenChoice, large: float, dispatch: Callable[[Action], None]) -> None:
     """The line below the options."""
     has_pads = any(option.pads for option in choice.options)
     still = "a second" if choice.question else "two seconds"
@@ -219,11 +226,12 @@ def _how(choice: ScreenChoice, dispatch: Callable[[Action], None]) -> None:
         parts.append(f"or press 1 to {len(choice.options)}")
     else:
         parts.append("Enter or two kicks: the first" if choice.kicks else "Enter: the first")
-    imgui.align_text_to_frame_padding()
     text = ", ".join(parts) if choice.question else " · ".join(parts)
     skip = imgui.calc_text_size(SKIP_LABEL, True).x + 2 * imgui.get_style().frame_padding.x
     room = imgui.get_content_region_avail().x
-    imgui.text_disabled(theme.one_line(text, room - skip - 20 if choice.question else room))
+    imgui.push_font(None, max(_HOW * large / _grown(), theme.FONT_SIZE))
+    imgui.text_disabled(theme.one_line(text, room - skip - theme.points(20) if choice.question else room))
+    imgui.pop_font()
     if choice.question:
         imgui.same_line(imgui.get_cursor_pos_x() + room - skip)
         if imgui.button(SKIP_LABEL):

@@ -133,6 +133,10 @@ class TransportBar:
         if room.clock is not None:
             row.place(theme.points(150))
             counter(room.clock.time_s, room.clock.bar, room.clock.beat)
+        if row.fits(theme.points(_LEAST_PROGRESS) + imgui.calc_text_size(room.judged).x):
+            row.place(0)
+            imgui.text_disabled(room.judged)
+            theme.tooltip(f"You are judged as {room.judged}: what is nearer to its time is on time")
         if row.fits(theme.points(_LEAST_PROGRESS)):
             row.place(0)
             imgui.progress_bar(room.progress or 0.0, imgui.ImVec2(row.left_px, theme.points(LINE_HEIGHT)), "")

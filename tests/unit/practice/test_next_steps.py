@@ -127,7 +127,7 @@ def test_words_and_buttons_are_of_one_answer(spec: str, tempo_bpm: float) -> Non
     """The tempo on the first button stands in the first sentence, and the report gives back what it holds."""
     laid = plan(tempo_bpm, target_bpm=110.0)
     result = practise_virtually(laid, parse_spec(spec)).result
-    made = practice_document(result, Settings(), ROCK_2)
+    made = practice_document(result, Settings(), following=ROCK_2)
     steps, session = steps_in(made), made["session"]
     assert isinstance(session, dict)
     said = session["next"]
