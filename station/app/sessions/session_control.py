@@ -258,11 +258,23 @@ class SessionControl:
         return not session.follows_student and self._prepared.needs_track(session.plan)
 
     def _begin(self, session: LessonSession) -> None:
-        """Begin the session, or wait for its track; raises `StationError`, and waits no more then."""
+        """Begin the session, or wait for its track; raises `StationError`, and waits no more then.
+
+        One whose track is the settings' alone goes without where that cannot be had.
+        """
         self._waiting, track = None, None
-        if not self._takes_track(session):
+        takes_track = self._takes_track(session)
+        if takes_track:
+            try:
+                track = self._prepared.track(session.plan, self._engine.rate_hz)
+            except StationError as fault:
+                if not self._prepared.can_do_without(session.plan):
+                    raise
+                takes_track = False
+                self._notify(f"{fault}; the session goes without its track")
+        if not takes_track:
             self._playback.without_track()
-        elif (track := self._prepared.track(session.plan, self._engine.rate_hz)) is None:
+        elif track is None:
             self._waiting = session
             return
         else:

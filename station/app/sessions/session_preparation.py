@@ -110,6 +110,10 @@ class SessionPreparation:
         """Whether it is played along to a track."""
         return self._request is not None or plan.lesson.band is not None or self._has_own_track
 
+    def can_do_without(self, plan: Plan) -> bool:
+        """Whether its track is the settings' alone, which no lesson depends on."""
+        return self._request is None and plan.lesson.band is None
+
     @property
     def _has_own_track(self) -> bool:
         """Whether the settings have a track for sessions that bring none."""

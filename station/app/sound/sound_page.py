@@ -50,7 +50,7 @@ class SoundView:
     """What the page shows beside the settings.
 
     `pattern` is what clicks over bars of `beats` beats, `levels` the channels that were set, `solo` those that are
-    heard alone, `muted` those whose level comes back; `shelf` what kits and outputs there are, None while it is looked;
+    heard alone; `shelf` what kits and outputs there are, None while it is looked;
     `tried` the kit or click that is heard to try it, `is_awaited` while it is read; `changing` whether another output
     is being opened; `is_playing` while a session has the sound; `output` what was chosen, `sounding` where the sound
     goes; `track` what is played along to.
@@ -60,7 +60,6 @@ class SoundView:
     beats: int = 4
     levels: tuple[tuple[str, ChannelLevel], ...] = ()
     solo: frozenset[str] = frozenset()
-    muted: frozenset[str] = frozenset()
     shelf: SoundShelf | None = None
     tried: str = ""
     is_awaited: bool = False
@@ -68,7 +67,6 @@ class SoundView:
     is_playing: bool = False
     output: OutputChoice = field(default_factory=lambda: choice_of(Settings()))
     sounding: str = ""
-    rate_hz: int = 48_000
     track: TrackView = field(default_factory=TrackView)
 
     def level(self, channel: str) -> ChannelLevel:
@@ -117,7 +115,6 @@ class SoundPage:
             beats=self._meter().beats,
             levels=tuple(levels_of(self._store.now).items()),
             solo=self._solo,
-            muted=frozenset(self._muted),
             shelf=self._shelf,
             tried=self.tried.name,
             is_awaited=self.tried.is_awaited,
@@ -125,7 +122,6 @@ class SoundPage:
             is_playing=self._sessions.practice.is_playing,
             output=self.output.chosen,
             sounding=self._engine.sound,
-            rate_hz=self._engine.rate_hz,
             track=self.track.view(),
         )
 

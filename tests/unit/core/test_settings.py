@@ -48,6 +48,8 @@ def test_a_whole_number_does_where_a_fraction_is_expected(tmp_path: Path) -> Non
         ('thresholds = "snaer=20"', 'thresholds: expected PIECE=1…127, such as snare=20, found "snaer=20"'),
         ('thresholds = "snare=128"', 'thresholds: expected PIECE=1…127, such as snare=20, found "snare=128"'),
         ('thresholds = "snare"', 'thresholds: expected PIECE=1…127, such as snare=20, found "snare"'),
+        ('heard = "drums"', 'heard: expected everything, click or nothing, found "drums"'),
+        ("track_bpm = 4000", "track_bpm: expected a number from 0 to 400, found 4000"),
         ("kit = 7x\nrate_hz = 48000\n", "line 1, column 8: "),
     ],
 )

@@ -23,8 +23,10 @@ from station.engine.messages import (
     Resume,
     SetBacking,
     SetLevel,
+    SetMaster,
     SetMidiOut,
     SetPiece,
+    SetSounds,
     Started,
     Status,
     Stop,
@@ -143,6 +145,16 @@ def test_the_session_goes_on_in_the_spare() -> None:
     (notice,) = [event for event in [*told, *house.hears()] if isinstance(event, Notice)]
     assert "by signal 9" in notice.text
     assert "goes on" in notice.text
+
+
+def test_the_sounds_and_the_level_of_all_hold_in_the_next_engine() -> None:
+    house = House()
+    house.hears(Ready("card"))
+    for command in (SetSounds("brushes", "bar"), SetMaster(0.4), SetSounds("electronic", "wood")):
+        house.engine.send(command)
+    house.working.end()
+    house.hears()
+    assert house.working.told == [SetMaster(0.4), SetSounds("electronic", "wood")]
 
 
 def test_what_was_said_before_the_end_is_heard_first() -> None:

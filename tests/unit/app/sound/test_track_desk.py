@@ -1,20 +1,26 @@
 """The track on the page of sounds: read beside the window, kept in the settings, laid under the sessions to come."""
 
+from concurrent.futures import Future
 from pathlib import Path
 
 import pytest
 
 from station.app.actions.action import Show
+from station.app.actions.practice_actions import Begin, EndSession
 from station.app.actions.sound_actions import BringTrack, SetTrack, StartTrackHere, TapTrack
 from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
+from station.app.room_state import Stage
 from station.app.sessions.session_control import Launch
+from station.core.errors import BadInput
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.practice.session.backing_track import track_request
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.sound.songs.onset_strength import RATE_HZ
+from station.sound.track import PreparedTrack
+from station.sound.track_file import TrackRequest
 from station.sound.wav_file import write_wav
 from tests.fakes.stations import Line, store_with
 from tests.fakes.virtual_band import rock_track
@@ -79,3 +85,19 @@ def test_its_own_tempo_says_how_fast_it_plays() -> None:
     assert straight is not None
     assert straight.track(plan, 48_000).speed == 1.0
     assert track_request(Settings(track="song.mp3")) is None
+
+
+def test_a_track_that_is_gone_costs_nobody_the_practice(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(_: TrackRequest) -> Future[PreparedTrack]:
+        future: Future[PreparedTrack] = Future()
+        future.set_exception(BadInput("gone.mp3", "", "no such file"))
+        return future
+
+    monkeypatch.setattr("station.practice.session.backing_track.prepare_in_background", refused)
+    station = station_at(tmp_path, track="gone.mp3", with_track=True)
+    station.dispatch(Begin())
+    station.update(1)
+    assert station.view().room.stage is Stage.PLAYING
+    assert "gone.mp3: no such file; the session goes without its track" in station.view().toast
+    station.dispatch(EndSession())
+    station.close()
