@@ -35,8 +35,8 @@ _START = 46
 """Design pixels: struck from the drummer's seat."""
 _WIDE = 280
 """Design pixels: in a narrower panel the search and the courses have a line each."""
-_LEAST_LIST, _LEAST_ABOUT, _MOST_ABOUT, _OPTIONS = 140, 92, 260, 180
-"""Design pixels (our choice): six lessons; a title of two lines and what it is; a long text; most options."""
+_LEAST_LIST, _LEAST_ABOUT, _MOST_ABOUT, _OPTIONS = 136, 56, 260, 180
+"""Design pixels (our choice): six lines; a title; a long text; most options."""
 _ABOUT_SHARE = 0.3
 """Of what list and text have together, the text's."""
 

@@ -48,12 +48,12 @@ class LessonList:
 
     def __init__(self, dispatch: Callable[[Action], None]) -> None:
         self._dispatch = dispatch
-        self._chosen_last, self._is_chosen_anew = "", False
+        self._chosen_last, self._is_chosen_anew = ("", 0, 0.0), False
         self._headings: list[_Heading] = []  # of the last frame
 
     def gui(self, selection: Selection, drafts: Sequence[LeftDraft], size: imgui.ImVec2) -> Selection:
         """Draw it as large as `size`; returns what is chosen."""
-        chosen = "" if selection.card is None else selection.card.name
+        chosen = "" if selection.card is None else selection.card.name, len(selection.lessons), size.y
         self._is_chosen_anew, self._chosen_last = chosen != self._chosen_last, chosen
         imgui.begin_child(LIST, size)
         spacing = imgui.get_style().item_spacing

@@ -16,6 +16,8 @@ WHO_LABEL = "###who"
 NEW_NAME, ADD_STUDENT, STAY_LABEL = "##new-student", "Add##add-student", "Nobody else##stay"
 _WIDE, _LINE, _NAME_SIZE = 560, 58, 24.0
 """Design pixels of the list, of a line and its letters: read at two metres (our choice)."""
+_ROUND_ABOUT, _BETWEEN = 190, 9
+"""Design pixels above and below the lines, and between them, before they were drawn."""
 _SHARE = 0.9
 """Of the window's height that the list takes at most."""
 
@@ -40,19 +42,21 @@ class WhoPlaysPage:
         self._dispatch = dispatch
         self._written = ""
         self._was_open = False
+        self._high = 0.0  # pixels that it took in the last frame
 
     def gui(self, students: StudentsView) -> None:
         """Draw it over the window, if it is open, and do what the user does in it."""
         is_new, self._was_open = students.asks and not self._was_open, students.asks
         if not students.asks:
-            self._written = ""
+            self._written, self._high = "", 0.0
             return
         viewport = imgui.get_main_viewport()
         wide = min(theme.points(_WIDE), viewport.size.x)
-        imgui.set_next_window_size_constraints(imgui.ImVec2(wide, 0), imgui.ImVec2(wide, viewport.size.y * _SHARE))
+        needed = self._high or theme.points(_ROUND_ABOUT + (_LINE + _BETWEEN) * len(students.lines))
+        imgui.set_next_window_size(imgui.ImVec2(wide, min(needed, viewport.size.y * _SHARE)))
         imgui.set_next_window_pos(viewport.get_center(), imgui.Cond_.always, imgui.ImVec2(0.5, 0.5))
         flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_docking
-        flags |= imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.always_auto_resize
+        flags |= imgui.WindowFlags_.no_saved_settings
         flags &= ~imgui.WindowFlags_.no_scrollbar
         if is_new:
             imgui.set_next_window_focus()
@@ -66,6 +70,7 @@ class WhoPlaysPage:
         if imgui.button(STAY_LABEL, imgui.ImVec2(-1, 0)):
             self._dispatch(AskWhoPlays(on=False))
         theme.tooltip(f"{students.now} goes on (Esc, or what brought the list up)")
+        self._high = imgui.get_cursor_pos_y() + imgui.get_style().window_padding.y
         imgui.end()
 
     def _line(self, number: int, line: StudentLine, is_now: bool) -> None:
