@@ -55,6 +55,7 @@ bench: $(READY)  ## the benchmarks, at most five minutes
 soak: setup-test  ## the benchmarks and the long ones: floods, plug cycles, a million hostile inputs; half an hour
 	@$(BIN)/station bench --soak
 	@PYTHONPATH=. $(BIN)/python benchmarks/hit_to_sound.py --periods 128 --seconds 600 --a-second 33.4
+	@PYTHONPATH=. $(BIN)/python benchmarks/ten_minutes.py
 
 clean:  ## remove the virtual environment and caches
 	rm -rf $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache

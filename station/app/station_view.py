@@ -7,7 +7,6 @@ from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_view import SticksView
 from station.app.exam_page import ExamView
 from station.app.phase_page import PhaseView
-from station.app.sound.click_flash import DARK
 from station.app.sound.sound_page import SoundView
 from station.app.station_parts import StationParts
 from station.app.teacher_desk.assigned_page import AssignedView
@@ -16,6 +15,7 @@ from station.app.today_page import TodayView
 from station.app.window_state import State
 from station.core.measured_latency import StoredCalibration
 from station.core.settings import NOTHING
+from station.practice.session.cues.click_flash import DARK
 
 _NO_CALIBRATION = CalibrationView(StoredCalibration())
 
@@ -25,9 +25,9 @@ def state_of(parts: StationParts, now_ns: int) -> State:
     sessions, shown = parts.sessions, parts.shown
     snapshot = sessions.snapshot(now_ns) if shown.picture else None
     choice = parts.choice()
-    heard = None if choice is None else parts.pads.heard(choice, now_ns)
+    choice = None if choice is None else parts.pads.heard(choice, now_ns)
     return State(
-        choice=None if parts.who.is_open else heard,
+        choice=None if parts.who.is_open else choice,
         room=replace(sessions.room(), exam=parts.exam.is_on),
         selection=parts.chooser.selection,
         player=sessions.player.view(),
@@ -37,7 +37,7 @@ def state_of(parts: StationParts, now_ns: int) -> State:
         hands=sessions.hands,
         score=sessions.practice.session.plan.lesson.score,
         preferences=parts.preferences.now,
-        students=parts.who.view(heard if parts.who.is_open else None),
+        students=parts.who.view(choice),
         mapping=parts.mapping.view() if shown.devices else MappingView(),
         calibration=parts.calibration.view() if shown.devices else _NO_CALIBRATION,
         sticks=parts.sticks.view() if shown.sticks else SticksView(),

@@ -20,7 +20,6 @@ from station.app.sessions.who_plays import StudentsView
 from station.app.settings.preferences import PracticePreferences
 from station.app.settings.view_settings import ViewSettings
 from station.app.songs.song_page import SongView
-from station.app.sound.click_flash import DARK, Flash
 from station.app.sound.sound_page import SoundView
 from station.app.style_editor import StyleView
 from station.app.teacher_desk.assigned_page import AssignedView
@@ -29,6 +28,7 @@ from station.app.today_page import TodayView
 from station.core.settings import Settings
 from station.motion.sticking.hand_notes import Hands
 from station.music.score import Score
+from station.practice.session.cues.click_flash import DARK, Flash
 from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves
 
@@ -45,7 +45,7 @@ class State:
     in, `editor` the lesson that is edited, None for none, `drafts` those that were left unsaved, `today` the day's
     plan and the lesson book, `song` the one that is pinned to its sound, `exam` how far an exam is, `teacher` what
     students sent, `assigned` what a teacher gave, `sound` what sounds, each empty while nobody looks. `choice` is to be
-    chosen from on the screen now, `students` says who plays and who else may; `flash` is the click as light; `toast` is
+    chosen from on the screen now; `students` says who plays and who else may; `flash` is the click as light; `toast` is
     shown in passing; `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
     """
 

@@ -4,10 +4,11 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
+from station.app.sessions.who_plays import QUESTION
 from station.core.settings import load_settings
 from station.gui.panels.import_panel import IMPORT, IMPORT_LABEL, PASTE_LABEL, SOURCE_LABEL
 from station.gui.panels.lessons.lesson_list import FREE_LABEL
-from station.gui.panels.lessons.who_plays import NEW_NAME, WHO_LABEL, WHO_PLAYS
+from station.gui.panels.lessons.who_plays import NEW_NAME, WHO_LABEL
 from station.gui.panels.lessons_panel import ADD_LABEL
 from station.gui.panels.lessons_panel import IMPORT_LABEL as OPEN_IMPORT_LABEL
 from station.gui.widgets.level_choice import LEVEL_LABEL
@@ -45,7 +46,7 @@ def whose(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click(f"//Lessons/{WHO_LABEL}")
     ctx.yield_(2)
     drive.seen["unread"] = drive.unread(ctx)
-    ctx.set_ref(f"//{WHO_PLAYS}")
+    ctx.set_ref(f"//{QUESTION}")
     ctx.item_input_value(NEW_NAME, "  Bea   Bell ")
     drive.wait_until(ctx, lambda state: not state.students.asks)
     ctx.yield_(2)
@@ -54,7 +55,7 @@ def whose(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     places.append(place_of_start(ctx))
     drive.engine.play_bytes("b0 40 7f")  # a foot switch: the kit asks
     drive.wait_until(ctx, lambda state: state.students.hears)
-    drive.seen["listed"] = [[line.student.name, line.pad] for line in drive.state.students.lines]
+    drive.seen["listed"] = [[line.name, line.pad] for line in drive.state.students.lines]
     drive.engine.play_bytes("99 32 50")  # the high tom is the second student's
     drive.wait_until(ctx, lambda state: not state.students.asks)
     ctx.yield_(2)

@@ -37,7 +37,16 @@ from station.render.quality import QUALITIES, Quality
 from station.render.report.report_layout import page_for
 from station.render.report.report_picture import draw_report_png
 from station.render.report.result_facts import ResultWords, result_facts
-from station.render.snapshot import Hud, LimbParting, SeenStrike, Snapshot, StudentShown, TimingCue, no_marks
+from station.render.snapshot import (
+    BarNumbers,
+    Hud,
+    LimbParting,
+    SeenStrike,
+    Snapshot,
+    StudentShown,
+    TimingCue,
+    no_marks,
+)
 from tests.unit.render.scores import rock, score_of
 from tests.unit.render.test_png_file import decode
 
@@ -440,3 +449,46 @@ def test_views_show_different_pictures(draw: Draw) -> None:
     for i, one in enumerate(pictures):
         for other in pictures[i + 1 :]:
             assert np.abs(one[:SCORE_TOP].astype(int) - other[:SCORE_TOP]).mean() > 5
+
+
+@pytest.mark.parametrize("form", ScoreForm)
+def test_what_a_score_keeps_is_made_anew_when_marks_or_bars_change(form: ScoreForm) -> None:
+    """The same snapshot looks the same, whatever was drawn before; a missed note is seen at once, then gone again."""
+    marks = no_marks(SCORE)
+    marks["label"][:6] = Label.MISS
+    with standalone_context() as ctx:
+        painter, target = Painter(ctx, QUALITIES[0]), RenderTarget(ctx, SIZE)
+
+        def drawn(snapshot: Snapshot) -> Picture:
+            arrangement = Arrangement(form=form, has_legend=True)
+            painter.draw(replace(snapshot, pose=None), target.framebuffer, (0, 0, *SIZE), arrangement=arrangement)
+            return target.read().copy()
+
+        plain, marked = drawn(at(1.0)), drawn(at(1.0, marks=marks))
+        longer = Snapshot(rock(6), 7.0, KIT, FIGURE)
+        drawn(longer)
+        again = drawn(at(1.0))
+    assert np.array_equal(plain, again)
+    assert near(MISSED, marked, 40).sum() > near(MISSED, plain, 40).sum() + 20
+
+
+def test_the_line_that_comes_next_stands_beside_the_one_that_is_played(draw: Draw) -> None:
+    """Four bars of sixteenths, two to a line: heads on both rows; after the second line is begun the first is gone."""
+    notes = [Note(k * 107520 // 4, Piece.SNARE) for k in range(16 * 8)]
+    score = Score.from_notes(notes, SCORE.tempo_map)
+    with standalone_context() as ctx:
+        painter, target = Painter(ctx, QUALITIES[0]), RenderTarget(ctx, SIZE)
+
+        def rows(position_s: float) -> list[Picture]:
+            arrangement = Arrangement(form=ScoreForm.PAGED)
+            snapshot = Snapshot(score, position_s, KIT, FIGURE, bar_numbers=BarNumbers(0, 8, 1))
+            painter.draw(snapshot, target.framebuffer, (0, 0, *SIZE), arrangement=arrangement)
+            paper = target.read()[SIZE[1] - round(SIZE[1] * SHARES[ScoreForm.PAGED]) :].copy()
+            return [paper[: len(paper) // 2, 80:], paper[len(paper) // 2 :, 80:]]
+
+        first, second = rows(2.0), rows(6.0)
+    for row in (*first, *second):
+        assert (row.min(axis=2) > 200).sum() > 300, "heads, stems and beams on both rows"
+    assert np.abs(first[0].astype(int) - second[0]).max() > 100, "another line, and no play line"
+    lines = [near(BRAND, row).mean(axis=0).max() > 0.8 for row in (*first, *second)]
+    assert lines == [True, False, False, True]

@@ -28,10 +28,11 @@ def begins_as_capture(path: Path) -> bool:
 def performance_of_capture(path: Path) -> Performance:
     """All strokes of the capture at `path`, from the first on; raises `BadInput`."""
     from station.core.events import Choke, Hit
-    from station.devices.capture.capture import read_capture
+    from station.devices.capture.capture import check_strokes, read_capture
     from station.devices.capture.replay import replay
 
     events = list(replay(read_capture(path)))
     hits = [event for event in events if isinstance(event, Hit)]
     start_ns = hits[0].at_ns if hits else 0
+    check_strokes((event.at_ns for event in events if isinstance(event, Hit | Choke)), path)
     return Performance.from_hits(hits, [event for event in events if isinstance(event, Choke)]).shifted(-start_ns)

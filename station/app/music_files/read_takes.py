@@ -1,6 +1,5 @@
 """A take (a capture, and what is kept beside it) as a score: what the student played, for the drummer to play again."""
 
-import json
 from pathlib import Path
 
 from station.app.music_files.find_own_lesson import find_any_lesson
@@ -14,6 +13,7 @@ from station.music.as_played import score_as_played
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import MAX_BPM, MIN_BPM, TempoMap
+from station.practice.records.kept_json import kept_document
 from station.practice.records.session_files import DOCUMENT_NAME, TAKE_NAME
 from station.practice.session.device_latency import latency_of
 from station.practice.session.free_play import take_of
@@ -54,8 +54,8 @@ def _of_document(path: Path) -> tuple[str, TempoMap]:
 
 def _document(path: Path) -> dict[str, object]:
     try:
-        said = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError, RecursionError):
+        said = kept_document(path)
+    except BadInput:
         return {}
     return said if isinstance(said, dict) else {}
 

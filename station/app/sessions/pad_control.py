@@ -20,8 +20,9 @@ from station.app.settings.settings_store import SettingsStore
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
 from station.music.score import Score
-from station.practice.control.pad_choice import ANSWERS, PadChoice
+from station.practice.control.pad_choice import ANSWERS, BEGINS, PadChoice
 from station.practice.control.pad_commands import PadCommands
+from station.practice.control.pad_gestures import BEFORE_NS
 
 _REMEMBERED = 8
 """Strokes (our choice: as many as two hands strike at once, and some before)."""
@@ -34,7 +35,7 @@ class PadControl:
         self._store, self._preferences, self._who = store, preferences, who
         self._struck: deque[Hit] = deque(maxlen=_REMEMBERED)
         self._options: tuple[Option, ...] = ()
-        self._is_question = False
+        self._is_question = self._kicks_choose = False
         self._choice: PadChoice | None = None
         self._might_start = True
         self._go_by(score)
@@ -51,10 +52,12 @@ class PadControl:
         """From now on `choice` is on the screen; the same as before goes on."""
         options = () if choice is None else choice.options
         self._is_question = choice is not None and bool(choice.question)
+        self._kicks_choose = choice is not None and choice.kicks
         if options != self._options:
             self._options = options
             hears = any(option.pads for option in options)
-            self._choice = PadChoice([option.pads for option in options], now_ns) if hears else None
+            still = ANSWERS if self._is_question else BEGINS
+            self._choice = PadChoice([option.pads for option in options], now_ns, still) if hears else None
 
     def heard(self, choice: ScreenChoice, now_ns: int) -> ScreenChoice:
         """The choice with what pads do to it now."""
@@ -65,10 +68,10 @@ class PadControl:
     def handle(self, event: EngineEvent, practice: CurrentPractice) -> Action | None:
         """What `event` asks for, given what is practised; None for nothing."""
         score = practice.session.plan.score
-        if self._by != _asked_by(self._store):
-            self._go_by(score)
         if isinstance(event, Hit):
             self._struck.append(event)
+        if self._by != _asked_by(self._store):
+            self._go_by(score)
         if not self._is_question and self._preferences.handle(event):
             self._pads.forget()
             return None
@@ -77,18 +80,23 @@ class PadControl:
         chosen = self._choice.feed(event) if self._choice is not None and isinstance(event, Hit) else None
         if (asked := self._asked(has_kicked, chosen, practice)) is not None:
             return asked
-        return self._paused(event, practice)
-
-    def _paused(self, event: EngineEvent, practice: CurrentPractice) -> Pause | AskWhoPlays | None:
-        """What a gesture that pauses asks for: that a session pauses or goes on, or between two who plays."""
         if not practice.is_playing:
-            may_ask = self._store.now.pads_switch and (self._who.is_open or not self._is_question)
-            return self._ask_who_plays(event) if may_ask else None
+            return self._who_plays(event)
         strokes = self._pads.pauses(event)
         if strokes is None or not practice.is_session:
             return None
         self._pads.forget()
         return Pause(tuple(strokes))
+
+    def _who_plays(self, event: EngineEvent) -> AskWhoPlays | None:
+        """Between sessions what pauses one asks who plays, where no music leads to it, and puts the list away."""
+        strokes = self._pads.pauses(event)
+        if strokes is None or not (self._who.is_open or (self._store.now.pads_switch and not self._is_question)):
+            return None
+        self._pads.forget()
+        first_ns = min((stroke.at_ns for stroke in strokes), default=0)
+        before = [hit for hit in self._struck if hit not in strokes and hit.at_ns > first_ns - BEFORE_NS]
+        return None if strokes and before else AskWhoPlays(not self._who.is_open)
 
     def advance(self, now_ns: int, practice: CurrentPractice) -> Action | None:
         """What was asked for by `now_ns`: a gesture counts once nothing has come after it."""
@@ -106,17 +114,7 @@ class PadControl:
             return None
         if practice.is_session:
             return Pause()
-        return self._options[0].action if self._options else Begin()
-
-    def _ask_who_plays(self, event: EngineEvent) -> AskWhoPlays | None:
-        """What pauses a session asks between two who plays, and no more, where no music leads to it."""
-        strokes = self._pads.pauses(event)
-        if strokes is None:
-            return None
-        self._pads.forget()
-        first_ns = min((stroke.at_ns for stroke in strokes), default=0)
-        before = [hit for hit in self._struck if hit not in strokes and hit.at_ns > first_ns - ANSWERS.before_ns]
-        return None if strokes and before else AskWhoPlays(not self._who.is_open)
+        return self._options[0].action if self._options and self._kicks_choose else Begin()
 
 
 def _asked_by(store: SettingsStore) -> tuple[str, bool]:

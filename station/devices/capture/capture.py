@@ -26,8 +26,10 @@ import json
 import math
 import struct
 import zlib
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum
+from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
@@ -35,10 +37,20 @@ from station.core.disk.files import read_regular
 from station.core.errors import BadInput
 from station.core.events import Hit
 from station.core.pieces import Articulation, Limb, Piece, Zone
+from station.core.units import NS_PER_S
 
 MOST_BYTES = 256 << 20
 """No capture is longer (our choice: more than a day of playing)."""
 
+LONGEST_NS = 24 * 3600 * NS_PER_S
+"""Nothing lies farther from the first record of its part than a day (our choice): more is damage."""
+MOST_STROKES = 200_000
+"""Of one performance (our choice: two hours of ten strokes a second, and as many of the feet)."""
+MOST_A_SECOND = 500
+"""Ten times what two hands and two feet do (our choice)."""
+_MOST_PAYLOAD = {0: 1 << 18, 10: 1 << 24}
+"""Bytes of a record by its kind, of kind 0 for all that are not named: so many take a kit over a minute on its cable
+(31,250 baud); what a session says of itself holds its whole score (our choice)."""
 MAGIC = b"DRUMCAP1"
 _HEAD = struct.Struct("<BHIq")
 _CHECK = struct.Struct("<I")
@@ -127,18 +139,33 @@ def parse_capture(data: bytes, source: str | Path = "capture") -> Capture:
         raise BadInput(source, "byte 0", "no capture of a drum kit: it does not begin with DRUMCAP1")
     records: list[CaptureRecord] = []
     check = zlib.crc32(MAGIC)
-    at = len(MAGIC)
+    at, began_ns = len(MAGIC), None
     while at + _HEAD.size + _CHECK.size <= len(data):
         kind, device, size, at_ns = _HEAD.unpack_from(data, at)
         body_end = at + _HEAD.size + size
-        if body_end + _CHECK.size > len(data):
+        if body_end + _CHECK.size > len(data) or size > _MOST_PAYLOAD.get(kind, _MOST_PAYLOAD[0]):
             break
+        if began_ns is None or kind == RecordKind.START:
+            began_ns = at_ns
         expected = zlib.crc32(data[at:body_end], check)
-        if _CHECK.unpack_from(data, body_end)[0] != expected or abs(at_ns) > FURTHEST_NS:
+        is_far = abs(at_ns) > FURTHEST_NS or abs(at_ns - began_ns) > LONGEST_NS
+        if _CHECK.unpack_from(data, body_end)[0] != expected or is_far:
             break
         records.append(CaptureRecord(kind, device, at_ns, data[at + _HEAD.size : body_end]))
         check, at = expected, body_end + _CHECK.size
     return Capture(tuple(records), at, len(data) - at, check)
+
+
+def check_strokes(at_ns: Iterable[int], source: str | Path = "capture") -> None:
+    """Raise `BadInput` where strokes are none of one player's: a day apart, very many, or very many at once."""
+    times = list(islice(at_ns, MOST_STROKES + 1))
+    if len(times) > MOST_STROKES:
+        raise BadInput(source, "", f"more than {MOST_STROKES} strokes")
+    if times and max(times) - min(times) > LONGEST_NS:
+        raise BadInput(source, "", "its strokes lie more than a day apart")
+    times.sort()
+    if any(late - early < NS_PER_S for early, late in zip(times, times[MOST_A_SECOND:], strict=False)):
+        raise BadInput(source, "", f"more than {MOST_A_SECOND} strokes within a second")
 
 
 # --- payloads --------------------------------------------------------------------------------------------------------

@@ -115,8 +115,10 @@ class CaptureFile:
 
     def _write_pending(self) -> bool:
         """Put everything on the disk; False when it refused, with the rest kept."""
+        waiting = [self._half_written]
         while self._pending:
-            self._half_written += self._pending.popleft()
+            waiting.append(self._pending.popleft())
+        self._half_written = b"".join(waiting)  # at once: one by one each would be copied with all before it
         try:
             while self._half_written:
                 written = os.write(self._file, self._half_written)

@@ -2,7 +2,9 @@
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import lru_cache
 
+from station.core.errors import BadInput
 from station.core.events import DeviceEvent, SensorEvent, SensorLost, SensorMounted, SensorSamples, SensorStatus
 from station.devices.capture.capture import Capture, CaptureRecord, DeviceWord, RecordKind, device_of, stroke_of
 from station.devices.decoders import DecoderBank
@@ -10,6 +12,9 @@ from station.devices.mapping.device_file import parse_kit
 from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.presets import GENERAL_MIDI_PRESET, KNOWN_KITS
 from station.devices.mapping.stick_file import SENSOR_PRESET, parse_stick
+
+MOST_DEVICES = 64
+"""Of one capture (our choice: nobody plugs in so many kits and sticks)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +74,8 @@ def replay_all(capture: Capture) -> Iterator[Entry]:
                 yield from decoders.flush()
                 device = device_of(record)
                 names[record.device] = device.name
+                if len(names) > MOST_DEVICES:
+                    raise BadInput("capture", f"device {record.device}", f"more than {MOST_DEVICES} devices")
                 _announce(decoders, device)
             case RecordKind.ZERO:
                 yield TransportZero(record.at_ns)
@@ -112,7 +119,9 @@ def _of_device(decoders: DecoderBank, name: str, record: CaptureRecord) -> Itera
             return ()
 
 
+@lru_cache(maxsize=MOST_DEVICES)
 def _kit_of(device: DeviceWord) -> DeviceMap:
+    """The map of a kit; the same one comes again with every start of an engine, and every plug."""
     if device.kit is not None:
         return parse_kit(device.kit, device.preset)
     return KNOWN_KITS.get(device.preset, GENERAL_MIDI_PRESET)

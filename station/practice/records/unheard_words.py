@@ -42,6 +42,6 @@ def _line(row: dict[str, Json]) -> str:
     bars, unknown = row["bars"], row["unknown"]
     assert isinstance(bars, list), "the report is ours"
     assert isinstance(unknown, int), "the report is ours"
-    where = f"bar {bars[0]}" if bars[0] == bars[1] else f"bars {bars[0]} to {bars[1]}"
+    where = f"bar {bars[0]}" if bars[0] == bars[1] else f"from bar {bars[0]} on, back in bar {bars[1]}"
     notes = f"{counted(unknown, 'note')} without a stroke {'is' if unknown == 1 else 'are'} unknown, not missed"
     return f"* from {row['from_s']:.1f} s to {row['until_s']:.1f} s ({where}): {notes}"

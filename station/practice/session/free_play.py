@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from station.core.events import Choke, Hit
 from station.core.pieces import word
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.devices.capture.capture import Capture
+from station.devices.capture.capture import Capture, check_strokes
 from station.devices.capture.replay import replay, transport_zeros_ns
 from station.engine.messages import CUE_DTYPE, Command, EngineEvent, Play, Stop
 from station.music.performance import Performance
@@ -121,6 +121,7 @@ def take_of(capture: Capture, latency: Latency, output: str | None) -> Performan
         return Performance.from_hits([])
     heard = EngineState(latency, output=output, zero_ns=zeros_ns[-1])
     strokes = [event for event in replay(capture) if isinstance(event, Hit | Choke)]
+    check_strokes([zeros_ns[-1], *(stroke.at_ns for stroke in strokes)])
     played = [replace(stroke, at_ns=at_ns) for stroke in strokes if (at_ns := heard.played_ns(stroke)) is not None]
     return Performance.from_hits(
         [stroke for stroke in played if isinstance(stroke, Hit)], [c for c in played if isinstance(c, Choke)]

@@ -35,7 +35,7 @@ from station.practice.session.played_hands import PlayedHands, limbs_of
 from station.practice.session.played_phase import PhasesHeard, PlayedPhase
 from station.scoring.align import align
 from station.scoring.matching.alignment import Alignment
-from station.scoring.matching.unheard import Span, between_hits, notes_within, with_unknown
+from station.scoring.matching.unheard import Span, between_hits, merged, notes_within, with_unknown
 from station.sound.track import PreparedTrack
 
 LEAD_IN_NS = 300 * NS_PER_MS
@@ -361,9 +361,9 @@ class Session:
             if begin_ns is not None and end_ns is not None:
                 spans = [*spans, (max(begin_ns, self._run.from_ns), max(begin_ns, end_ns))]
         if self.plan.click is not None:
-            return tuple(spans)
+            return merged(spans)
         hit_ns = np.sort([hit.at_ns for hit in self._judging.hits])
-        return tuple(between_hits(alignment, hit_ns, span) for span in spans)
+        return merged(between_hits(alignment, hit_ns, span) for span in merged(spans))
 
     def _played_on(self) -> str | None:
         return Counter(hit.device for hit in self.hits).most_common(1)[0][0] if self.hits else None

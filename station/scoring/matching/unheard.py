@@ -4,7 +4,7 @@ An engine that was killed, or a kit that was unplugged, hears nothing until it i
 same is judged as ever; of one without a hit nobody knows whether it was played.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -29,6 +29,17 @@ def notes_within(score: Score, spans: Sequence[Span]) -> Flags:
     for begin_ns, end_ns in spans:
         within |= (score.onset_ns >= begin_ns - STRAY_NS) & (score.onset_ns <= end_ns + STRAY_NS)
     return within
+
+
+def merged(spans: Iterable[Span]) -> tuple[Span, ...]:
+    """The spans in order, those that overlap or touch as one."""
+    found: list[Span] = []
+    for begin_ns, end_ns in sorted(spans):
+        if found and begin_ns <= found[-1][1]:
+            found[-1] = (found[-1][0], max(end_ns, found[-1][1]))
+        else:
+            found.append((begin_ns, end_ns))
+    return tuple(found)
 
 
 def between_hits(alignment: Alignment, hit_ns: NDArray[np.int64], span: Span) -> Span:

@@ -13,6 +13,7 @@ from station.app.sessions.session_control import Launch
 from station.app.settings.first_start import FirstAnswers, answered, found_lines, student_level
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
+from station.drills.mastery.feedback_fading import Feedback
 from station.engine.messages import Bus, Play, SetLevel
 from station.motion.sticking.hand_notes import Hands
 from station.practice.lag.first_groove import first_groove
@@ -75,6 +76,8 @@ def test_a_newcomer_hears_the_first_groove_at_once(tmp_path: Path) -> None:
     station = station_on([line], store_with(tmp_path), Launch(first_groove(Settings())))
     station.dispatch(FinishFirstStart(FirstAnswers("Ann")))
     assert room(station).stage is Stage.PLAYING
+    told = station.parts.sessions.practice.session.session.feedback
+    assert told is Feedback.PADS, "nobody knows yet how late the equipment is"
     (play,) = [command for command in line.heard if isinstance(command, Play)]
     first_drum_ns = play.cues["at_ns"][play.cues["bus"] == Bus.DEMONSTRATION].min()
     assert first_drum_ns <= 5 * NS_PER_S, "after a bar of count-in at 60 beats a minute"

@@ -87,3 +87,13 @@ def test_a_closed_output_is_a_fault_of_the_world(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(sys, "stdout", None)
     with pytest.raises(DeviceError, match="closed"):
         print_json({})
+
+
+@pytest.mark.parametrize(
+    "words", [("practice", "rock-1", "--level"), ("practice", "rock-1", "--fold"), ("lesson", "list", "--kind")]
+)
+def test_a_long_wrong_word_is_shortened(words: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    assert main([*words, "x" * 7_000]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert len(line) < 420
+    assert line.startswith("station: ")

@@ -3,23 +3,31 @@
 import math
 import struct
 import zlib
+from collections.abc import Iterable
 
 import pytest
 
 from station.core.errors import BadInput
 from station.core.events import Hit
 from station.core.pieces import Articulation, Piece, Zone
+from station.core.units import NS_PER_S
 from station.devices.capture.capture import (
     MAGIC,
+    MOST_A_SECOND,
+    MOST_STROKES,
     CaptureRecord,
     RecordKind,
     RecordWriter,
+    check_strokes,
     device_of,
     device_record,
     parse_capture,
+    start_record,
     stroke_of,
     stroke_record,
 )
+from station.devices.capture.replay import replay
+from tests.fakes.captures import capture_bytes
 
 RECORDS = [
     device_record(1, 10, "Kit «ü»", "roland-td-17"),
@@ -116,3 +124,46 @@ NO_OPENNESS = struct.pack("<BBBBf", Piece.HIHAT, Zone.BOW, Articulation.NORMAL, 
 def test_a_stroke_that_cannot_be_read_is_the_files_fault(payload: bytes) -> None:
     with pytest.raises(BadInput, match="stroke at 5 ns"):
         stroke_of(CaptureRecord(RecordKind.STROKE, 2, 5, payload), "keyboard")
+
+
+@pytest.mark.parametrize(
+    ("at_ns", "fault"),
+    [
+        ([0, 24 * 3600 * NS_PER_S + 1], "more than a day apart"),
+        (range(0, (MOST_STROKES + 1) * NS_PER_S // 100, NS_PER_S // 100), f"more than {MOST_STROKES} strokes"),
+        ([5] * (MOST_A_SECOND + 1), "within a second"),
+        ([k * NS_PER_S // (MOST_A_SECOND + 1) for k in range(2 * MOST_A_SECOND)], "within a second"),
+    ],
+    ids=["ages apart", "too many", "at once", "too dense"],
+)
+def test_strokes_that_no_player_plays_are_refused(at_ns: Iterable[int], fault: str) -> None:
+    with pytest.raises(BadInput, match=fault):
+        check_strokes(at_ns)
+
+
+def test_the_longest_and_the_fastest_playing_is_taken() -> None:
+    check_strokes(range(0, 2 * 3600 * NS_PER_S, NS_PER_S // 20))
+    check_strokes([0, 24 * 3600 * NS_PER_S])
+    check_strokes([])
+
+
+def test_what_lies_more_than_a_day_from_its_beginning_is_damage() -> None:
+    """But a capture that goes on after the computer was started anew begins again."""
+    day_ns = 24 * 3600 * NS_PER_S
+    far = [start_record(0, 0), CaptureRecord(RecordKind.BYTES, 1, day_ns + 1, b"\x99\x26\x64")]
+    assert len(parse_capture(capture_bytes(far)).records) == 1
+    anew = [start_record(9 * day_ns, 0), start_record(5, 0), CaptureRecord(RecordKind.BYTES, 1, 6, b"\x99\x26\x64")]
+    assert len(parse_capture(capture_bytes(anew)).records) == 3
+
+
+def test_a_record_of_megabytes_is_damage() -> None:
+    huge = [start_record(0, 0), CaptureRecord(RecordKind.BYTES, 1, 5, bytes(10**6))]
+    assert len(parse_capture(capture_bytes(huge)).records) == 1
+
+
+def test_a_capture_of_more_devices_than_anybody_plugs_in_is_refused() -> None:
+    devices = [device_record(k, k, f"kit {k}", "general-midi") for k in range(1_000)]
+    with pytest.raises(BadInput, match="more than 64 devices"):
+        list(replay(parse_capture(capture_bytes(devices))))
+    again = [device_record(1, k, "kit", "general-midi") for k in range(1_000)]  # plugged in a thousand times
+    assert list(replay(parse_capture(capture_bytes(again)))) == []

@@ -108,6 +108,17 @@ def test_what_could_not_be_heard_is_unknown(events: list[EngineEvent], click: bo
     assert [note for note, label in enumerate(labels) if label is Label.MISS] == [20]
 
 
+def test_spans_that_overlap_are_told_as_one() -> None:
+    """A kit that is lost with its sound server, and then the engine that is started anew for it."""
+    events: list[EngineEvent] = [
+        DeviceLost(GONE[0], KIT),
+        DeviceFound(GONE[1] - BEAT_NS, KIT),
+        Unheard(GONE[0] + BEAT_NS, GONE[1]),
+    ]
+    result = Played(LOST, events).result
+    assert result.unheard == ((GONE[0] - FIRST_NS, GONE[1] - FIRST_NS),)
+
+
 def test_what_was_heard_all_the_same_is_judged() -> None:
     labels = Played([11], WAYS["the engine was killed"]).labels
     assert Counter(labels) == {Label.MATCH: NOTES - 1, Label.UNKNOWN: 1}

@@ -1,20 +1,18 @@
 """Who plays: the button that says it, and the list that it or the kit brings up, large in the middle."""
 
 from collections.abc import Callable
-from datetime import date
 
 from imgui_bundle import icons_fontawesome_4 as icons
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
 from station.app.actions.settings_actions import AskWhoPlays, PlayAs
-from station.app.sessions.who_plays import StudentLine, StudentsView
+from station.app.sessions.who_plays import QUESTION, StudentLine, StudentsView
 from station.app.settings.first_start import LONGEST_NAME
 from station.gui import theme
 from station.render import palette
 
 WHO_LABEL = "###who"
-WHO_PLAYS = "Who plays?"
 NEW_NAME, ADD_STUDENT, STAY_LABEL = "##new-student", "Add##add-student", "Nobody else##stay"
 _WIDE, _LINE, _NAME_SIZE = 560, 58, 24.0
 """Design pixels of the list, of a line and its letters: read at two metres (our choice)."""
@@ -58,12 +56,12 @@ class WhoPlaysPage:
         flags &= ~imgui.WindowFlags_.no_scrollbar
         if is_new:
             imgui.set_next_window_focus()
-        imgui.begin(WHO_PLAYS, None, flags)
-        theme.heading(WHO_PLAYS, 30)
+        imgui.begin(QUESTION, None, flags)
+        theme.heading(QUESTION, 30)
         theme.soft(_how(students))
         imgui.spacing()
         for number, line in enumerate(students.lines):
-            self._line(number, line, line.student.name == students.now)
+            self._line(number, line, line.name == students.now)
         self._new()
         if imgui.button(STAY_LABEL, imgui.ImVec2(-1, 0)):
             self._dispatch(AskWhoPlays(on=False))
@@ -76,22 +74,21 @@ class WhoPlaysPage:
         if is_now or line.is_meant:
             imgui.push_style_color(imgui.Col_.button, imgui.get_style_color_vec4(imgui.Col_.header))
         if imgui.button(f"###student-{number}", imgui.ImVec2(wide, high)):
-            self._dispatch(PlayAs(line.student.name))
+            self._dispatch(PlayAs(line.name))
         if is_now or line.is_meant:
             imgui.pop_style_color()
-        played = line.student.words(date.today())
-        theme.tooltip(f"{line.student.name}: {played}")
+        theme.tooltip(f"{line.name}: {line.played}")
         brush, pad, inset = imgui.get_window_draw_list(), theme.points(14), theme.points(6)
         ink, soft = imgui.get_color_u32(imgui.Col_.text), theme.packed(palette.INK_SOFT)
         imgui.push_font(None, _NAME_SIZE)
         words = imgui.calc_text_size(line.pad)
         right = at.x + wide - pad - words.x
         brush.add_text(imgui.ImVec2(right, at.y + (high - words.y) / 2), theme.packed(palette.BRAND), line.pad)
-        name = theme.one_line(line.student.name, right - at.x - 2 * pad)
+        name = theme.one_line(line.name, right - at.x - 2 * pad)
         brush.add_text(imgui.ImVec2(at.x + pad, at.y + inset), ink, name)
         below = at.y + inset + imgui.get_text_line_height()
         imgui.pop_font()
-        brush.add_text(imgui.ImVec2(at.x + pad, below), soft, "plays now" if is_now else played)
+        brush.add_text(imgui.ImVec2(at.x + pad, below), soft, "plays now" if is_now else line.played)
 
     def _new(self) -> None:
         """A name that is not in the list yet."""

@@ -87,4 +87,4 @@ class OutputPart:
 
 
 def _block_words(frames: int, rate_hz: int) -> str:
-    return f"{frames} frames, {1e3 * frames / rate_hz:.1f} ms" if frames else "the driver's block"
+    return f"{frames} frames, {1e3 * frames / rate_hz:.1f} ms" if frames else "driver's block"

@@ -88,11 +88,17 @@ class SoundPanel:
         self._leaves[self.leaf](state)
 
     def _tabs(self, state: State) -> None:
-        if not imgui.begin_tab_bar(TABS, imgui.TabBarFlags_.fitting_policy_shrink):
+        imgui.push_style_var(imgui.StyleVar_.frame_padding, imgui.ImVec2(theme.points(6), theme.points(7)))
+        is_seen = imgui.begin_tab_bar(TABS, imgui.TabBarFlags_.fitting_policy_shrink)
+        imgui.pop_style_var()
+        if not is_seen:
             return
         opens = self.leaf if self.leaf != self._front else ""
         for name, draw in self._leaves.items():
-            if imgui.begin_tab_item(name, None, imgui.TabItemFlags_.set_selected if name == opens else 0)[0]:
+            imgui.push_style_var(imgui.StyleVar_.frame_padding, imgui.ImVec2(theme.points(6), theme.points(7)))
+            is_front = imgui.begin_tab_item(name, None, imgui.TabItemFlags_.set_selected if name == opens else 0)[0]
+            imgui.pop_style_var()
+            if is_front:
                 if not opens or name == opens:
                     self.leaf = self._front = name
                 draw(state)

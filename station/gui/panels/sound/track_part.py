@@ -30,7 +30,7 @@ BPM_LABEL, TAP_LABEL, FIND_LABEL = "##track-bpm", "Tap##track", "Find##track"
 START_LABEL, HEAR_LABEL, STOP_LABEL, HERE_LABEL = "##track-start", "Listen##track", "Stop##track", "Here##track"
 NUDGES_MS = (-100, -10, 10, 100)
 _MOST_BPM = 400.0
-_BUTTON, _SMALL, _TINY, _NUMBER = 96.0, 58.0, 44.0, 104.0
+_BUTTON, _SMALL, _TINY, _NUMBER = 88.0, 54.0, 38.0, 88.0
 """Design pixels."""
 
 

@@ -1,9 +1,11 @@
 """Draws the highway into its place, lying or upright, with the play line across all lanes."""
 
+from station.music.score import Score
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
 from station.render.notation.screen.highway import MARK_UNITS, Highway, LaneGrid, lanes
+from station.render.notation.screen.kept_values import KeptValues
 from station.render.notation.screen.score_place import ScoreForm, ScorePlace
-from station.render.notation.screen.time_span import BEHIND_SHARE, MOST_AHEAD_S, two_bars_s
+from station.render.notation.screen.time_span import BEHIND_SHARE, MOST_AHEAD_S, two_bars_s, visible_bars
 from station.render.palette import BRAND, with_opacity
 from station.render.snapshot import Snapshot
 from station.render.text.atlas import Atlas
@@ -17,12 +19,16 @@ _FALLING_LINE, _FALLING_NAMES = 0.20, 0.08
 _FALLING_UNIT = 0.055
 """A unit of an upright one, as a share of its height: two bars of sixteenths stand apart (our choice)."""
 
+_UPBEAT_S = 1.0
+"""Strokes so long before the first bar that is seen are drawn, too: grace strokes, and what came early."""
+
 
 class HighwayView:
-    """Draws highways; keeps nothing."""
+    """Draws highways, the bars that are seen anew only where others come into sight."""
 
     def __init__(self, printer: ShapeRenderer, atlas: Atlas) -> None:
         self._printer, self._atlas = printer, atlas
+        self._kept = KeptValues()
 
     def draw_paper(self, snapshot: Snapshot, place: ScorePlace, size: tuple[int, int], form: ScoreForm) -> None:
         """Draw the lanes and their names."""
@@ -36,15 +42,28 @@ class HighwayView:
         way = _Way(snapshot, place, form)
         highway = Highway(snapshot, self._atlas, way.grid, way.per_s / way.unit)
         at_s, falls = snapshot.position_s, way.grid.falls
-        window_s = at_s - way.behind / way.per_s, at_s + (way.length - way.behind) / way.per_s
+        score, per_s = snapshot.score, way.per_s
+        bars = visible_bars(score, at_s - way.behind / per_s, at_s + (way.length - way.behind) / per_s)
+        window_s = _window_s(score, bars)
+        known = score, way.grid, bars, highway.units_per_s
+        rolled = self._kept.once("rolled", (*known, snapshot.limbs), lambda: highway.rolling(window_s))
+        judged = (*known, snapshot.marks, snapshot.extras)
+        marks = self._kept.once("marks", judged, lambda: highway.marks(window_s))
         line, across = with_opacity(BRAND, 0.95), way.grid.across * way.unit
         x, y = way.origin
         box = (x, y - 2.0, across, 4.0) if falls else (x - 2.0, y, 4.0, across)
         self._printer.fill(box, (line, line), Transform(size))
         rolling = Transform(size, way.origin, way.unit, at_s, way.per_s, way.fade, falls)
-        self._printer.draw(highway.rolling(window_s), rolling)
+        self._printer.draw(rolled, rolling)
         marked = Transform(size, way.origin, way.unit * MARK_UNITS, at_s, way.per_s, way.fade, falls)
-        self._printer.draw(highway.marks(window_s), marked)
+        self._printer.draw(marks, marked)
+
+
+def _window_s(score: Score, bars: range) -> tuple[float, float]:
+    """From when until when whole bars last, with what comes before the first beat of the first."""
+    starts = [score.tempo_map.bar_start(bar) for bar in (bars.start, bars.stop)]
+    start_s, end_s = score.tempo_map.seconds_at(starts).tolist()
+    return start_s - _UPBEAT_S, end_s
 
 
 class _Way:

@@ -4,10 +4,8 @@ A third form, the highway of lanes (`highway`), is for those who do not read mus
 (`staff_marks`), the same in all forms.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +17,7 @@ from station.render.notation.engraving import Engraver
 from station.render.notation.head_places import heads_x
 from station.render.notation.screen.free_strip import strip_paper, strip_shapes
 from station.render.notation.screen.highway_view import HighwayView
+from station.render.notation.screen.kept_values import KeptValues, same
 from station.render.notation.screen.score_lines import (
     ROWS,
     ScoreLine,
@@ -54,7 +53,6 @@ _BEFORE_LINE, _AFTER_LINE = 2.0, 1.5
 """Staff spaces that a line of a page leaves free before its first beat, for its bar line, and after its last."""
 _LINE_WIDTH, _GLOW_WIDTH = 0.28, 3.2
 
-T = TypeVar("T")
 _NO_LEGEND = Legend((), 0.0)
 _BarsKey = tuple[int, int]
 
@@ -81,7 +79,7 @@ class ScoreView:
         self._bars: dict[int, NDArray[np.void]] = {}
         self._lines: dict[_BarsKey, NDArray[np.void]] = {}
         self._marked: dict[_BarsKey, tuple[tuple[object, ...], NDArray[np.void]]] = {}
-        self._kept: dict[str, tuple[tuple[object, ...], object]] = {}
+        self._kept = KeptValues()
 
     # --- what stands still --------------------------------------------------------------------------------------------
 
@@ -93,16 +91,16 @@ class ScoreView:
         if snapshot.strip is not None:
             return ScorePaper(ScorePlace(left, top, width, height), form, is_free=True)
         score = snapshot.score
-        named = self._once("legend", (score,), partial(legend_of, score, self._atlas))
+        named = self._kept.once("legend", (score,), partial(legend_of, score, self._atlas))
         if not form.is_staff:
             return ScorePaper(ScorePlace(left, top, width, height), form, named)
         legend = named if has_legend else _NO_LEGEND
-        lead = self._once("lead", (score,), partial(lead_spaces, score)) + legend.width
-        reach = self._once("reach", (score, snapshot.limbs), lambda: staff_rows(score, snapshot.limbs).reach)
+        lead = self._kept.once("lead", (score,), partial(lead_spaces, score)) + legend.width
+        reach = self._kept.once("reach", (score, snapshot.limbs), lambda: staff_rows(score, snapshot.limbs).reach)
         if form is ScoreForm.SCROLLING:
-            across = self._once("rolls", (score,), partial(rolling_spaces, score))
+            across = self._kept.once("rolls", (score,), partial(rolling_spaces, score))
             return ScorePaper(ScorePlace(left, top, width, height, reach, _within(lead + across)), form, legend, lead)
-        across = self._once("lines", (score,), partial(line_spaces, score)) + _BEFORE_LINE + _AFTER_LINE
+        across = self._kept.once("lines", (score,), partial(line_spaces, score)) + _BEFORE_LINE + _AFTER_LINE
         place = ScorePlace(left, top, width, height, reach, _within(lead + across), ROWS)
         lines, before = self._lines_of(snapshot, place, lead)
         return ScorePaper(replace(place, rows=rows_of(lines, snapshot.comes_again, before)), form, legend, lead)
@@ -144,7 +142,7 @@ class ScoreView:
         first_x, right = place.left + paper.lead * space, place.left + place.width
         across = right - first_x
         ahead = (1 - BEHIND_SHARE) * across
-        coming_s = self._once("ahead", (score, ahead / space), partial(ahead_s, score, ahead / space))
+        coming_s = self._kept.once("ahead", (score, ahead / space), partial(ahead_s, score, ahead / space))
         per_s, line_x = ahead / coming_s, right - ahead
         fade = (first_x - 1.2 * space, first_x + space, right - 3 * space, right)
         rolling = Transform(size, (line_x, place.middle_line), space, snapshot.position_s, per_s, fade)
@@ -204,16 +202,9 @@ class ScoreView:
 
     # --- what is kept -------------------------------------------------------------------------------------------------
 
-    def _once(self, name: str, key: tuple[object, ...], make: Callable[[], T]) -> T:
-        """What `make` made of the very same `key` last time."""
-        known = self._kept.get(name)
-        if known is None or not _same(known[0], key):
-            known = self._kept[name] = key, make()
-        return known[1]  # type: ignore[return-value] # each name has one kind of value
-
     def _engraved(self, snapshot: Snapshot) -> Engraver:
         engraver, limbs = self._engraver, snapshot.limbs
-        if engraver is None or engraver.score is not snapshot.score or not _same((self._limbs,), (limbs,)):
+        if engraver is None or engraver.score is not snapshot.score or not same((self._limbs,), (limbs,)):
             engraver = Engraver(snapshot.score, self._atlas, limbs, snapshot.bar_numbers, snapshot.beat_ticks)
             if snapshot.spelling is not None:
                 engraver = engraver.of_take(snapshot.spelling)
@@ -247,7 +238,7 @@ class ScoreView:
         key = snapshot.marks, snapshot.extras, spaces_per_s
         known = self._marked.get(bars)
         if known is None or known[0][0] is not key[0] or known[0][1:] != key[1:]:
-            heads = self._once("heads", (snapshot.score,), partial(heads_x, snapshot.score))
+            heads = self._kept.once("heads", (snapshot.score,), partial(heads_x, snapshot.score))
             known = self._marked[bars] = key, staff_marks(snapshot, bars, heads, spaces_per_s, self._atlas)
         return known[1]
 
@@ -255,22 +246,11 @@ class ScoreView:
         """The lines of the score, and how many were shown of what was played before it."""
         across = place.width / place.space - lead - _BEFORE_LINE - _AFTER_LINE
         numbers, before = snapshot.bar_numbers, snapshot.before
-        lines = self._once("page", (snapshot.score, across), lambda: score_lines(snapshot.score, numbers, across))
+        lines = self._kept.once("page", (snapshot.score, across), lambda: score_lines(snapshot.score, numbers, across))
         if before is None:
             return lines, 0
         earlier = replace(numbers, passes=None)
-        return lines, self._once("before", (before, across), lambda: len(score_lines(before, earlier, across)))
-
-
-def _same(one: tuple[object, ...], other: tuple[object, ...]) -> bool:
-    """Whether all are the very same, or alike numbers or arrays."""
-    return all(_alike(a, b) for a, b in zip(one, other, strict=True))
-
-
-def _alike(a: object, b: object) -> bool:
-    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
-        return a is b or np.array_equal(a, b)
-    return a is b or (isinstance(a, float) and a == b)
+        return lines, self._kept.once("before", (before, across), lambda: len(score_lines(before, earlier, across)))
 
 
 def _within(spaces: float) -> float:
