@@ -123,7 +123,7 @@ def name_shapes(atlas: Atlas, size: tuple[float, float], band: float, letters: f
     return draw_list.shapes()
 
 
-_LEAST = 230.0, 100.0
+_LEAST = 150.0, 100.0
 """A scene smaller than that, in pixels, shows no words: they would cover it, and each other (our choice)."""
 
 

@@ -1,6 +1,6 @@
 """Pictures in two layers, the still one kept: they show what a picture drawn whole shows, and follow every change."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import moderngl
 import numpy as np
@@ -19,7 +19,6 @@ from station.render.gpu.gl import RenderTarget, standalone_context
 from station.render.painter import Painter
 from station.render.quality import QUALITIES
 from station.render.scene import Scene
-from station.render.snapshot import Hud
 from station.scenes.pictures import picture_of
 from tests.unit.render.scores import rock
 
@@ -99,24 +98,3 @@ def test_a_painter_goes_from_one_kit_to_another() -> None:
                 painter.draw(picture_of(drummer, 0.5), target.framebuffer, WHOLE, named(NamedView.FRONT))
             pictures.append(target.read().astype(np.int64))
         assert np.abs(pictures[0] - pictures[1]).mean() > 1.0, "the kit is another"
-
-
-def test_what_moves_passes_behind_the_words() -> None:
-    ctx = standalone_context()
-    with ctx:
-        painter, target = Painter(ctx, QUALITIES[0]), RenderTarget(ctx, SIZE)
-        near = named(NamedView.FRONT).zoomed(2.0)  # the figure is where a title stands
-
-        def drawn(title: str, has_figure: bool) -> NDArray[np.int64]:
-            snapshot = replace(picture_of(DRUMMER, 0.5), hud=Hud(title))
-            shown = snapshot if has_figure else replace(snapshot, pose=None)
-            painter.draw(shown, target.framebuffer, WHOLE, near)
-            return np.asarray(target.read().astype(np.int64).sum(axis=2))
-
-        bare, empty, worded, whole = (
-            drawn(t, f) for t, f in (("", True), ("", False), ("M" * 20, False), ("M" * 20, True))
-        )
-        letters = (worded - empty > 300) & (worded > 600)
-        behind = letters & (np.abs(bare - empty) > 60)
-        assert behind.sum() > 20, "the figure is behind some letters"
-        assert np.array_equal(whole[behind], worded[behind])

@@ -211,14 +211,8 @@ class ShapeRenderer:
         self._ctx.enable(moderngl.BLEND)
         self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
 
-    def draw_before_all(self, shapes: NDArray[np.void], sheet: Transform) -> None:
-        """Draw `shapes` over what is there, and before what a scene adds later."""
-        self._ctx.depth_func = "1"  # always; the shapes' depth is nearer than a camera's nearest
-        self.draw(shapes, sheet, moderngl.DEPTH_TEST)
-        self._ctx.depth_func = "<"
-
-    def draw(self, shapes: NDArray[np.void], sheet: Transform, also: int = moderngl.NOTHING) -> None:
-        """Draw `shapes`, first to last, over what is there, with `also` enabled."""
+    def draw(self, shapes: NDArray[np.void], sheet: Transform) -> None:
+        """Draw `shapes`, first to last, over what is there."""
         if not len(shapes):
             return
         if len(shapes) > self._capacity:
@@ -230,7 +224,6 @@ class ShapeRenderer:
         self._upload()
         self._set(sheet)
         self._blend()
-        self._ctx.enable(also)
         self._vertices.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(shapes))
 
     def _themed(self, shapes: NDArray[np.void]) -> NDArray[np.void]:

@@ -93,7 +93,11 @@ def test_a_scene_too_small_for_words_has_none(atlas: Atlas) -> None:
 
 
 FULL = Hud("Rock 2: the kick moves", "Pass 1 of 4", 2, 3, 4, 2, 84.0, right=25, judged=25)
-PICTURES = ((240.0, 120.0), (300.0, 200.0), (562.0, 190.0), SMALL, SCENE, (480.0, 900.0), (3840.0, 1200.0))
+PICTURES = (
+    *((160.0, 190.0), (240.0, 120.0), (300.0, 200.0), (562.0, 190.0), (480.0, 900.0), (3840.0, 1200.0)),
+    SMALL,
+    SCENE,
+)
 
 
 def boxes(shapes: np.ndarray) -> np.ndarray:
