@@ -199,11 +199,11 @@ class Window:
     def _draw(self, state: State) -> None:
         """Draw a result or the room, and in this what was struck while all that moves was drawn, the longest part."""
         left, low, width, height = central_area(self.params.docking_params)
+        band = band_height(state.choice, (left, low, width, height))
+        low, height = low + band, height - band
         if state.snapshot is None or self.frames % self.picture_every:
             self.viewport.clear()
         elif state.report is not None and state.shows_result and not state.room.listening:
-            band = band_height(state.choice, (left, low, width, height))
-            low, height = low + band, height - band
             height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
             self.viewport.draw_report(state.report, (left, low, width, height))
         else:
