@@ -27,8 +27,9 @@ from station.music.tempo import TempoMap
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.rising_tempo import Rise
 from station.scoring.align import align
-from station.scoring.analysis.device_lag import LagCause, LagRun, SharedLag, lag_runs, likely_lag_ms, shared_lag
+from station.scoring.analysis.device_lag import LagCause, LagRun, SharedLag, lag_runs, shared_lag
 from station.scoring.analysis.summary import Summary, summarise
+from station.scoring.matching.likely_lag import likely_lag_ms
 from station.scoring.report.advice import advise
 
 Floats = NDArray[np.float64]

@@ -11,10 +11,15 @@ from station.practice.lag.session_lag import LagAnswer
 from station.practice.records.next_steps import steps_in
 from station.practice.records.save_session import SessionFolder
 from station.practice.records.session_report import practice_document
+from station.practice.records.what_next import table_in
 from station.practice.session.device_latency import Latency
 
 _KEPT = ("mastery",)
 """Keys of a report that its passes wrote, and that no lag changes."""
+
+
+_TAKEN_OUT = ("input_latency_ms", "output_latency_ms", "latency")
+"""Keys of its session that say what was taken out."""
 
 
 def judged_again(saved: SavedSession, settings: Settings, latency: Latency | None) -> SavedSession:
@@ -31,7 +36,8 @@ def judged_again(saved: SavedSession, settings: Settings, latency: Latency | Non
     if latency is None:
         steps = steps_in(document)
     else:  # the score was this one all the while
-        document["session"] = saved.report.document["session"]  # type: ignore[assignment]
+        now, before = table_in(document, "session"), saved.report.document["session"]
+        document["session"] = {**before, **{key: now[key] for key in _TAKEN_OUT}}  # type: ignore[dict-item]
     document |= {key: saved.report.document[key] for key in _KEPT if key in saved.report.document}  # type: ignore[misc]
     fault = None
     try:

@@ -67,11 +67,14 @@ def choice_beside(practice: CurrentPractice, kit_starts: bool) -> ScreenChoice |
 def _whose_lag(lag_ms: float, there: Collection[Piece]) -> ScreenChoice:
     """Whose a lag of all strokes is, as the student says; two kicks say nothing, for they mean to play."""
     out, left = pads_for(2, there)
-    what = "late" if lag_ms > 0 else "early"
-    equipment = f"Every pad came {abs(lag_ms):.0f} ms {what}, at both tempi: that is your equipment, most likely"
     return ScreenChoice(
         (
-            Option(f"Take out {lag_ms:.0f} ms", AnswerLag(take_out=True), equipment, out),
-            Option("Leave it in", AnswerLag(take_out=False), "It is how you play: it counts", left),
+            Option(
+                f"Take out {abs(lag_ms):.0f} ms",
+                AnswerLag(take_out=True),
+                "My headphones, sound card or kit are late",
+                out,
+            ),
+            Option("Leave it in", AnswerLag(take_out=False), "It is how I play: it counts", left),
         )
     )

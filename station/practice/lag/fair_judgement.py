@@ -12,8 +12,9 @@ from station.core.units import ns_from_ms
 from station.practice.lag.session_lag import LagAnswer, SessionLag, lag_target
 from station.practice.session.session import SessionResult
 from station.scoring.align import align
-from station.scoring.analysis.device_lag import LagRun, lag_runs, likely_lag_ms, shared_lag
+from station.scoring.analysis.device_lag import LagRun, lag_runs, shared_lag
 from station.scoring.matching.alignment import Reference
+from station.scoring.matching.likely_lag import likely_lag_ms
 
 NOW = "now"
 """The take that this session's runs are of."""

@@ -9,6 +9,7 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_MS
 from station.practice.lag.fair_judgement import FairResult, judged_fairly
 from station.practice.lag.lag_document import runs_in
+from station.practice.lag.session_lag import LagAnswer
 from station.practice.records.kept_json import kept_document
 from station.practice.records.session_files import DOCUMENT_NAME, folder_name
 from station.practice.session.session import SessionResult
@@ -52,6 +53,8 @@ def _runs_in(session: Path, now: tuple[object, ...]) -> tuple[LagRun, ...]:
         document: Any = kept_document(session / DOCUMENT_NAME)
         facts = document["session"]
         there = tuple(facts[key] for key in ("device", "output", "input_latency_ms", "output_latency_ms"))
-        return runs_in(document["lag"], session.name) if there == now else ()
+        lag = document["lag"]
+        counts = lag is not None and there == now and lag["answer"] != LagAnswer.TAKEN_OUT.value
+        return runs_in(lag, session.name) if counts else ()  # what was taken out is in what the devices are known by
     except (BadInput, KeyError, TypeError, ValueError, AttributeError):
         return ()  # a session that was cut off, or from before reports had a lag

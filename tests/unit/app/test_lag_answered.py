@@ -16,9 +16,11 @@ from station.core.errors import DeviceError
 from station.core.events import DeviceFound, Hit
 from station.core.measured_latency import GROOVE, load_calibration
 from station.core.pieces import Piece, Zone
+from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import Sounding, Started
+from station.practice.session.device_latency import Latency, latency_of
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.rising_tempo import Rise
 from tests.fakes.human_takes import Added, Human, human_hits
@@ -28,9 +30,9 @@ KIT, OUTPUT = "TD-17", "Headphones"
 PLAN = plan_practice(find_lesson("first-groove"), PlanOptions(loops=6, demonstrations=0, rise=Rise(40, 6, 100)))
 
 
-def played(sessions: Path, late_ms: float, seed: int = 4) -> Controller:
+def played(sessions: Path, late_ms: float, seed: int = 4, latency: Latency | None = None) -> Controller:
     line = Line()
-    station = station_on([line], store_with(sessions, ask_first=False), Launch(PLAN))
+    station = station_on([line], store_with(sessions, ask_first=False), Launch(PLAN, latency=latency))
     station.dispatch(Begin())
     line.says += [DeviceFound(0, KIT), Sounding(OUTPUT), Started(NS_PER_S, OUTPUT)]
     rows = human_hits(PLAN.score, seed, Human(sd_ms=20.0, lean_sd_ms=3.0, stand_ms=-10.0), Added(shift_ms=late_ms))
@@ -79,6 +81,10 @@ def test_taken_out_it_is_stored_and_the_next_session_is_on_time(tmp_path: Path) 
     assert after["lag"]["answer"] == kept(tmp_path / "a")["lag"]["answer"] == "taken_out"
     assert after["session"]["output_latency_ms"] == pytest.approx(lag_ms, abs=0.01)
     station.close()
+    next_one = played(tmp_path / "a", 100.0, latency=latency_of(Settings(), load_calibration()))
+    assert room(next_one).lag_ms is None, "nor is the same lag found once more"
+    assert document(next_one)["score"] > 70
+    next_one.close()
 
 
 def test_left_in_it_counts_and_nobody_asks_again(tmp_path: Path) -> None:

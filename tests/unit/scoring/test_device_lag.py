@@ -13,9 +13,9 @@ from station.scoring.analysis.device_lag import (
     LagMean,
     LagRun,
     lag_runs,
-    likely_lag_ms,
     shared_lag,
 )
+from station.scoring.matching.likely_lag import likely_lag_ms
 from tests.fakes.human_takes import Added, Human, human_hits
 
 HAT, SNARE, KICK = Piece.HIHAT, Piece.SNARE, Piece.KICK
