@@ -9,7 +9,6 @@ with one foot. The drummers of the Groove MIDI Dataset stand beside their click 
 """
 
 import argparse
-import csv
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -19,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.pieces import Piece
-from station.core.units import NS_PER_MS, PPQ
+from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.library import find_lesson
 from station.music.formats.smf.standard_midi import performance_from_midi, read_midi
 from station.music.performance import HIT_DTYPE, Performance
@@ -34,6 +33,7 @@ from station.scoring.report.advice import advise
 
 Floats = NDArray[np.float64]
 LAGS_MS = (-40.0, 0.0, 25.0, 50.0, 75.0, 100.0, 125.0, 150.0)
+LEAST_S = 15.0
 TEMPI_BPM = (60.0, 90.0, 120.0, 150.0, 180.0)
 LESSONS = ("first-groove", "rock-1", "funk-sixteenths-1")
 
@@ -209,17 +209,11 @@ def gmd_table(folder: Path) -> None:
     any lag is added; what a take says beyond that is the lag.
     """
     takes: dict[str, list[tuple[float, Score, Performance]]] = {}
-    for row in csv.DictReader((folder / "info.csv").open()):
-        path = folder / row["midi_filename"]
-        if (
-            row["beat_type"] == "beat"
-            and row["time_signature"] == "4-4"
-            and path.is_file()
-            and float(row["duration"]) > 15
-        ):
-            performance = performance_from_midi(read_midi(path))
-            tempo = float(row["bpm"])
-            takes.setdefault(row["drummer"], []).append((tempo, quantised(performance, tempo), performance))
+    for path in sorted(folder.rglob("*_beat_4-4.mid")):
+        performance, tempo = performance_from_midi(read_midi(path)), float(path.stem.split("_")[-3])
+        if performance.hits["at_ns"].max() > LEAST_S * NS_PER_S:
+            drummer = path.relative_to(folder).parts[0]
+            takes.setdefault(drummer, []).append((tempo, quantised(performance, tempo), performance))
     print(
         "| drummers | pairs of takes | added | none | thin | equipment | tempo | pads | found less added | within 10 |"
     )

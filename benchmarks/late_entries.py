@@ -14,10 +14,18 @@ from itertools import chain
 
 import numpy as np
 
-from station.bench.rigs.journeys.late_entries import LEVELS, SHIFTS, EntryTake, gmd_entries, lesson_take
+from station.bench.rigs.journeys.late_entries import (
+    LEVELS,
+    OTHER,
+    SHIFTS,
+    EntryTake,
+    gmd_entries,
+    lesson_take,
+    other_take,
+)
+from station.practice.session.judging import Judging
 from station.scoring.align import align
 from station.scoring.analysis.entries import entries
-from station.scoring.following.follower import Follower
 
 _FEWEST = 8
 """Strokes of a take that is worth asking about."""
@@ -33,12 +41,12 @@ def told(take: EntryTake) -> float:
 
 def live(take: EntryTake) -> tuple[int | None, float]:
     """The stroke, from 1, at which an entry was first told while it was played, and the last word."""
-    follower, first = Follower(take.score, clocked=True), None
+    judging, first = Judging(take.score, clocked=True), None
     for number, hit in enumerate(take.performance, 1):
-        follower.hit(hit, hit.at_ns)
-        if first is None and follower.beats_behind:
+        judging.hit(hit)
+        if first is None and judging.beats_behind:
             first = number
-    return first, follower.beats_behind
+    return first, judging.beats_behind
 
 
 def report(takes: Iterable[EntryTake]) -> str:
@@ -60,7 +68,7 @@ def report(takes: Iterable[EntryTake]) -> str:
         "| who | beats late | an ear can tell | takes | right | none | other | live right | strokes (median, p95) |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
-    for level in (*LEVELS, "gmd"):
+    for level in (*LEVELS, OTHER, "gmd"):
         for shift in SHIFTS:
             lines += [
                 _line(level, shift, ear, verdicts, after) for ear in (True, False) if (level, shift, ear) in verdicts
@@ -88,7 +96,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--takes", type=int, default=2000)
     asked = parser.parse_args()
-    print(report(chain(map(lesson_take, range(asked.takes)), *(gmd_entries(seed) for seed in range(3)))))
+    others = map(other_take, range(asked.takes // 8))
+    print(report(chain(map(lesson_take, range(asked.takes)), others, *(gmd_entries(seed) for seed in range(3)))))
 
 
 if __name__ == "__main__":

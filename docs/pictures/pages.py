@@ -24,6 +24,7 @@ sys.path.insert(0, str(ROOT))
 
 from station.app.actions.file_actions import Export, Import  # noqa: E402
 from station.app.actions.phase_actions import OpenMotion, SeekMotion  # noqa: E402
+from station.app.actions.practice_actions import Begin  # noqa: E402
 from station.app.actions.settings_actions import SetView  # noqa: E402
 from station.app.actions.style_actions import EditStyle  # noqa: E402
 from station.app.room_state import Stage  # noqa: E402
@@ -141,16 +142,21 @@ def _result(drive: Drive, ctx: Context) -> None:
     drive.choose(ctx, passes=1)
     ctx.item_click("Start##start")
     drive.wait_for(ctx, Stage.RESULT)
-    ctx.yield_(2)
+    drive.answer(ctx)
     ctx.set_ref("//Transport")
-    if drive.room.question:
-        ctx.item_click("**/on")
-    ctx.yield_(3)
+    ctx.yield_(1)
+
+
+def _question(drive: Drive, ctx: Context) -> None:
+    drive.choose(ctx, passes=1)
+    ctx.item_click("Start##start")
+    drive.wait_for(ctx, Stage.RESULT)
+    ctx.yield_(12)
 
 
 def _compared(drive: Drive, ctx: Context) -> None:
     _result(drive, ctx)
-    ctx.item_click("**/Once more##again")
+    drive.station.dispatch(Begin())
     drive.wait_for(ctx, Stage.RESULT)
     ctx.yield_(3)
     ctx.set_ref("//Bars")
@@ -327,6 +333,7 @@ PAGES: Mapping[str, Callable[[Drive, Context], None]] = {
     "courses": _courses,
     "just-play": _just_play,
     "playing": _playing,
+    "question": _question,
     "result": _result,
     "hits": _beside_a_result(HITS),
     "compared": _compared,
@@ -337,7 +344,7 @@ _STUDENTS = {
     "welcome": NEWCOMER,
     **dict.fromkeys(("first-groove", "first-result"), f"{NEWCOMER},seed=2,sd_ms=30,bias_ms=95"),
     "courses": None,
-    **dict.fromkeys(("playing", "result", "hits", "compared", "double"), STUDENT),
+    **dict.fromkeys(("playing", "question", "result", "hits", "compared", "double"), STUDENT),
 }
 """Who plays on pages that need a window of their own: they leave something behind, or need it."""
 

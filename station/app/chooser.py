@@ -8,7 +8,7 @@ from typing import assert_never
 
 from station.app.actions.practice_actions import ChoiceAction, ChooseBars, JudgeAt, Select, TapBeat
 from station.app.lesson_cards import request_of
-from station.app.room_state import LessonCard, Stage
+from station.app.room_state import LessonCard, SessionRequest, Stage
 from station.app.selection import Selection
 from station.app.sessions.session_control import Launch, SessionControl
 from station.app.settings.settings_store import SettingsStore
@@ -16,6 +16,7 @@ from station.core.errors import BadInput
 from station.drills.daily.daily_items import DailyItem
 from station.drills.library import lessons_dir, read_any
 from station.practice.control.tap_tempo import TapTempo as Taps
+from station.practice.records.next_steps import NextStep, StepKind
 
 
 class Chooser:
@@ -76,13 +77,23 @@ class Chooser:
             known = replace(known, course=None)
         self.selection = known
 
-    def take_up(self, lesson: str) -> None:
-        """Choose the lesson of that name; raises `BadInput` where it is not there."""
+    def take_up(self, lesson: str, bars: tuple[int, int] | None = None) -> None:
+        """Choose the lesson of that name, or `bars` (from 1) of it; raises `BadInput` where it is not there."""
         found = next((card for card in self.selection.lessons if card.name == lesson), None)
         if found is None:
             still = "the lessons are still being read: again in a moment"
             raise BadInput(lesson, "", "this lesson is no longer there" if self._has_catalog else still)
-        self.selection = replace(self.selection, course=None, search="").choose(found)
+        is_listed = any(card.name == lesson for card in self.selection.visible())
+        listed = self.selection if is_listed else replace(self.selection, course=None, search="")
+        self.selection = replace(listed.choose(found), bars=bars)
+
+    def for_step(self, begun: SessionRequest, step: NextStep) -> SessionRequest:
+        """The session that `begun` becomes by a step; a tempo for the bars that are chosen is chosen from now on."""
+        tempo_bpm = begun.tempo_bpm if step.tempo_bpm is None else step.tempo_bpm
+        if step.kind is StepKind.TEMPO and begun.lesson == self.lesson_name and begun.bars == self.selection.bars:
+            self.selection = replace(self.selection, tempo_bpm=tempo_bpm)
+        asked = replace(begun, tempo_bpm=tempo_bpm, adapt=False)
+        return asked if step.bars is None else replace(asked, bars=step.bars, rise=None)
 
     def offer_all(self) -> None:
         """Offer every lesson there is, as soon as they are read."""

@@ -8,11 +8,11 @@ from collections.abc import Callable
 from threading import Thread
 from typing import Protocol
 
-from station.app.sound.click_flash import ClickFlash
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost, Hit
 from station.engine.messages import Command, EngineEvent, Ready, SetAirDrums, SetLevel, SetPiece, Sounding, Watch
 from station.practice.headless.live import EngineLink
+from station.practice.session.cues.click_flash import ClickFlash
 
 
 class RoomEngine(EngineLink, Protocol):

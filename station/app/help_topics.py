@@ -35,7 +35,8 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
             " then it is your turn.",
             (
                 ("The list", "from first steps to hard; the search finds words of title, level, author and tags"),
-                ("Import…", "or a file dropped on the window: music of any kind becomes a lesson of your own"),
+                ("+", "a new lesson, or Import…: music of any kind becomes one of your own, dropped on the window too"),
+                ("Your name", "whose progress it is; press it and another student plays, by mouse or by a pad"),
                 ("All lessons", "or one course, in its teacher's order; marks beside the lessons say how far you are"),
                 ("the tempo follows me", "each pass begins where the last one led, and says why"),
                 ("passes", "how often the loop is played"),
@@ -58,7 +59,7 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
         Topic.PLAYING: Help(
             "Listen, look at the drummer, and play along. Marks on the notes say what was heard.",
             (
-                ("Ring", "on time, within 25 ms; its tick is where your stroke fell"),
+                ("Ring", "on time by your level: ±30 ms as a beginner, ±5 in the studio; its tick is your stroke"),
                 ("Arrow to the left", "early; to the right: late"),
                 ("Barred ring", "missed; a square: the right time on a wrong pad; a cross: not written"),
                 ("Wedge", "above the note: far too loud; below: far too soft"),
@@ -73,7 +74,9 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
         Topic.QUESTION: Help(
             "Say first what you believe: rushed, dragged or on. Whoever guesses before looking learns to hear it.",
             (
-                ("Answer", "with a button, or a pad: hi-hat rushed, ride or floor tom dragged, snare on"),
+                ("Answer", "a pad, after a second of silence: hi-hat rushed, snare on, ride or floor tom dragged"),
+                ("1 to 3", "or the mouse: the same"),
+                ("Not now", "or Esc: the result without an answer"),
                 ("Panels, Practice", "has a tick for it: no question any more"),
             ),
         ),
@@ -89,7 +92,8 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("Hear and see a bar", "as the teacher plays it, as you did, and as you did yesterday: the translucent"
                  " sticks are yours"),
                 ("Panels, Every hit", "each stroke over the bars; the mouse asks, a click chooses its bar"),
-                ("Once more", "or Enter, or two kicks; Esc goes back to the lessons"),
+                ("The buttons below", "what comes next: Enter or two kicks take the first, 1 to 4 or its pad any"),
+                ("Esc", "back to the lessons"),
             ),
         ),
         Topic.EXAM: Help(

@@ -106,7 +106,8 @@ class RoomState:
     `paused` while a session stands still, `can_pause` where it may. `clock` is where a session is, None outside;
     `free` where no lesson is chosen, to just play; `exam` while a piece is looked at or played for marks, or its result
     is shown. `student` sent the result that is shown, empty for one's own. `lag_ms` is a lag of all strokes that the
-    result leaves out until somebody says whose it is, None where there is none to be answered.
+    result leaves out until somebody says whose it is, None where there is none to be answered. `judged` is the level by
+    which the lesson is judged, in words.
     """
 
     stage: Stage = Stage.IDLE
@@ -124,6 +125,7 @@ class RoomState:
     paused: bool = False
     exam: bool = False
     student: str = ""
+    judged: str = ""
     lag_ms: float | None = None
 
 

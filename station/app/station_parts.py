@@ -98,7 +98,7 @@ class StationParts:
 
     def choice(self) -> ScreenChoice | None:
         """What is to be chosen on the screen now."""
-        return self.who.choice() or choice_beside(self.sessions.practice)
+        return self.who.choice() or choice_beside(self.sessions.practice, self.store.now.kicks_start)
 
     def _rest(self) -> Callable[[], bool]:
         """Let the engine's devices go; returns what says whether it has. Raises `DeviceError` while somebody plays."""

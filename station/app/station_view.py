@@ -7,7 +7,6 @@ from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_view import SticksView
 from station.app.exam_page import ExamView
 from station.app.phase_page import PhaseView
-from station.app.sound.click_flash import DARK
 from station.app.sound.sound_page import SoundView
 from station.app.station_parts import StationParts
 from station.app.teacher_desk.assigned_page import AssignedView
@@ -16,6 +15,7 @@ from station.app.today_page import TodayView
 from station.app.window_state import State
 from station.core.measured_latency import StoredCalibration
 from station.core.settings import NOTHING
+from station.practice.session.cues.click_flash import DARK
 
 _NO_CALIBRATION = CalibrationView(StoredCalibration())
 

@@ -15,6 +15,7 @@ from station.app.room_state import Stage
 from station.app.settings.settings_store import SettingsStore
 from station.core.settings import Settings
 from station.drills.daily.daily_items import DailyItem
+from station.practice.book.day_progress import Block, BlockState
 from station.practice.book.lesson_book import DayPage, LessonBook, Returning
 
 CALENDAR_DAYS = 28
@@ -98,6 +99,12 @@ class TodayPage:
         """A block of today's plan; None where there is none."""
         items = () if self._view.today is None else self._view.today.kept.items
         return items[place] if 0 <= place < len(items) else None
+
+    def block_behind(self, place: int) -> Block | None:
+        """The block to play after the one at `place`; None where none is open."""
+        blocks = () if self._view.today is None else self._view.today.progress.blocks
+        is_open = (block for block in blocks if block.state is BlockState.OPEN and block.place != place)
+        return next(is_open, None)
 
     # --- what the user does ------------------------------------------------------------------------------------------
 

@@ -20,7 +20,6 @@ from station.app.sessions.who_plays import StudentsView
 from station.app.settings.preferences import PracticePreferences
 from station.app.settings.view_settings import ViewSettings
 from station.app.songs.song_page import SongView
-from station.app.sound.click_flash import DARK, Flash
 from station.app.sound.sound_page import SoundView
 from station.app.style_editor import StyleView
 from station.app.teacher_desk.assigned_page import AssignedView
@@ -29,6 +28,7 @@ from station.app.today_page import TodayView
 from station.core.settings import Settings
 from station.motion.sticking.hand_notes import Hands
 from station.music.score import Score
+from station.practice.session.cues.click_flash import DARK, Flash
 from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves
 

@@ -19,7 +19,7 @@ from station.core.settings import Settings, with_said
 from station.drills.lesson import Lesson
 from station.practice.records.earlier_lags import fair_session
 from station.practice.records.lesson_order import first_words, followed_course, shipped_title
-from station.practice.records.memory import Memory, Remembered
+from station.practice.records.memory import Memory, Remembered, following_lesson
 from station.practice.records.recovery import offer, recovered
 from station.practice.records.save_session import SessionFolder, save
 from station.practice.records.session_report import practice_document, with_truth
@@ -112,7 +112,8 @@ def _live(asked: AskedPractice, options: PracticeOptions, settings: Settings) ->
             played = asked.plan if remembered is None else remembered.adaptation
             outcome = practise_in_terminal(played, settings, folder.capture, until_saved, asked.backing)
             fair = fair_session(outcome.result, settings)
-            saved = save(folder, fair.result, practice_document(fair.result, settings, fair.lag), remembered)
+            following = following_lesson(settings, asked.plan.lesson, date.today()) if remembered is None else None
+            saved = save(folder, fair.result, practice_document(fair.result, settings, fair.lag, following), remembered)
         may_ask = settings.ask_first and outcome.is_attended and not options.json
         leave_report(folder, saved, options, settings, may_ask)
     if outcome.fault is not None:

@@ -38,6 +38,7 @@ from station.sound.drum_kit import DrumKit, Frames
 from station.sound.mixer import Mixer
 from station.sound.output.sound_output import open_output
 from station.sound.samples.load_kit import DEFAULT_KIT, load_kit
+from station.sound.synth.make_kit import make_kit_apart
 from station.sound.synth.synth_cache import is_made
 from station.sound.synth.synth_kits import MODELS
 
@@ -90,7 +91,7 @@ def _live(config: EngineConfig, inbox: Inbox, outbox: Outbox) -> bool:
         own_kit=own_kit,
         own_stick=own_stick,
     )
-    sounds = SoundLoader(SetSounds(config.drums, config.click), _kit, _click)
+    sounds = SoundLoader(SetSounds(config.drums, config.click), _kit_beside_sound, _click)
     card = _card(engine, config, sounds, outbox) if config.sound else None
     undisturbed = card.paused if card is not None else nullcontext
     claims = ClaimedPorts()
@@ -170,6 +171,12 @@ def _card(engine: Engine, config: EngineConfig, sounds: SoundLoader, outbox: Out
 @lru_cache(maxsize=2)  # the one that was chosen, and one that is tried
 def _kit(name: str, rate_hz: int) -> DrumKit:
     return load_kit(name, rate_hz)
+
+
+def _kit_beside_sound(name: str, rate_hz: int) -> DrumKit:
+    """The kit, read while others sound."""
+    make_kit_apart(name, rate_hz)
+    return _kit(name, rate_hz)
 
 
 @lru_cache(maxsize=4)

@@ -1,13 +1,13 @@
-"""Draws the click as light (`app.sound.click_flash`): beside the picture, so that no word is covered, on both sides."""
+"""Draws the click as light (`practice.session.cues.click_flash`) at both sides of the picture, where no words are."""
 
 from imgui_bundle import imgui
 
-from station.app.sound.click_flash import Flash
 from station.gui import theme
+from station.practice.session.cues.click_flash import Flash
 from station.render import palette
 from station.render.painter import Area
 
-_WIDE, _SHARE = 30.0, 0.04
+_WIDE, _SHARE = 20.0, 0.04
 """Design pixels of each side, and at most so much of the picture: words begin further in (our choice)."""
 _VEIL = 0.14
 """Of an accent's brightness lies over the whole picture (our choice: the corner of an eye sees it)."""

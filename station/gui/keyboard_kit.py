@@ -69,8 +69,8 @@ GROOVE_KEYS = ", ".join(
 """The keys of a first groove, in words."""
 
 COMMANDS: tuple[tuple[str, str], ...] = (
-    ("Enter", "start, or once more"),
-    ("Esc", "stop, or back to the lessons; a pad is not learnt"),
+    ("Enter", "start, or the first of what comes next"),
+    ("Esc", "stop, no answer, or back to the lessons; a pad is not learnt"),
     ("Backspace", "pause, or go on"),
     ("F1", "help: the page that is open, and these keys"),
     ("F2 to F9", "the named views, in the list's order"),
@@ -78,7 +78,7 @@ COMMANDS: tuple[tuple[str, str], ...] = (
     ("P", "second picture: hands, feet, none"),
     ("N", "score: scrolling, pages, highway"),
     ("E", "your double over the demonstrator, beside it, or not at all"),
-    ("1 to 8", "your own viewpoints"),
+    ("1 to 8", "your own viewpoints; 1 to 4 an answer, or what comes next"),
     ("Ctrl+1 to 8", "keep where you look from"),
     ("Ctrl+= and Ctrl+-", "larger and smaller panels"),
     ("W", "watch the demonstration, or stop it"),

@@ -11,7 +11,7 @@ from imgui_bundle import hello_imgui
 
 from station.app.actions.action import Action, Show
 from station.app.actions.player_actions import Seek
-from station.app.actions.practice_actions import Drill
+from station.app.actions.practice_actions import Drill, JudgeAt
 from station.app.exam_page import ExamStage
 from station.app.room_state import Stage
 from station.app.window_state import State
@@ -43,6 +43,7 @@ from station.gui.panels.transport_bar import TransportBar
 from station.gui.panels.view_popup import ViewActions
 from station.gui.view_keys import ViewKeys
 from station.gui.viewport import Viewport
+from station.gui.widgets.level_choice import level_choice
 
 LESSONS, TRANSPORT, BARS, GRAPH = "Lessons", "Transport", "Bars", "Graph"
 
@@ -192,9 +193,19 @@ class Pages:
 
     def _bars_gui(self, state: State) -> None:
         self._playback.is_listening = state.room.listening
+        self._next_level(state)
         bar = None if state.report is None else bars_panel(state.report, self._playback, can_drill=not state.room.exam)
         if bar is not None:
             self._dispatch(Drill(bar))
+
+    def _next_level(self, state: State) -> None:
+        """How strictly the lesson of one's own result is judged from the next session on."""
+        selection = state.selection
+        if selection.card is None or selection.level is None or state.room.exam or state.room.student or selection.free:
+            return
+        level = level_choice(selection.card.levels, selection.level, "From the next session on")
+        if level is not None:
+            self._dispatch(JudgeAt(selection.card.name, level))
 
     def _hits_gui(self, state: State) -> None:
         self._playback.is_listening = state.room.listening

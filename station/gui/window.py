@@ -31,6 +31,7 @@ from station.gui.file_drop import FileDrop, file_drop
 from station.gui.keyboard_kit import pressed
 from station.gui.panel_layout import Pages
 from station.gui.panel_size import Size, panel_factor, shares
+from station.gui.panels.choice_panel import band_height, choice_keys, draw_choice
 from station.gui.panels.editor.editor_keys import editor_keys
 from station.gui.panels.help_window import HelpWindow
 from station.gui.panels.welcome_page import WelcomePage
@@ -201,6 +202,8 @@ class Window:
         if state.snapshot is None or self.frames % self.picture_every:
             self.viewport.clear()
         elif state.report is not None and state.shows_result and not state.room.listening:
+            band = band_height(state.choice, (left, low, width, height))
+            low, height = low + band, height - band
             height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
             self.viewport.draw_report(state.report, (left, low, width, height))
         else:
@@ -227,6 +230,8 @@ class Window:
         if moved:
             self._controller.dispatch(Notify(moved))
         self._keys()
+        if self.state.choice is not None:
+            draw_choice(self.state.choice, central_area(self.params.docking_params), self._controller.dispatch)
         if not io.want_capture_mouse:
             self.viewport.steer(io)
         self.pages.who.gui(self.state.students)
@@ -258,6 +263,8 @@ class Window:
                 dispatch(StrikeKey(hit))
         if imgui.get_io().want_text_input:
             return
+        if self.state.choice is not None and choice_keys(self.state.choice, dispatch):
+            return
         if room.stage is Stage.IDLE and not room.free:
             self.pages.controls.key_wind = player_keys(self.state.player, dispatch)
         self.pages.view_keys.handle(self.state.view_settings)
@@ -287,9 +294,7 @@ class Window:
 
     @staticmethod
     def _enter_starts(room: RoomState) -> bool:
-        """Enter belongs to the control that has the keyboard's focus, if there is one; no result of an exam has it."""
-        if room.stage is Stage.RESULT:
-            return not room.exam and not room.student
+        """Enter belongs to the control that has the keyboard's focus, if there is one."""
         return room.stage is Stage.IDLE and (room.exam or not imgui.is_any_item_focused())
 
     def _help(self) -> None:

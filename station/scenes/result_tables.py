@@ -8,6 +8,7 @@ from station.practice.now.tempo_now import tempi_in_words
 from station.practice.records.stick_words import stick_lines
 from station.practice.session.session import SessionResult
 from station.render.report.result_facts import ResultFacts, ResultWords, result_facts
+from station.scoring.matching.hit_windows import Level
 from station.scoring.matching.right import right_notes
 from station.scoring.report.assessment_document import Json
 from station.scoring.report.technique_text import technique_lines
@@ -52,7 +53,7 @@ def _lag_words(document: dict[str, Json]) -> tuple[str, ...]:
 
 def _standing(document: dict[str, Json]) -> str:
     """By which level was judged, and where the student stands in the lesson, where the tempo followed them."""
-    mastery, judged = document.get("mastery"), f" · judged as {document['level']}"
+    mastery, judged = document.get("mastery"), f" · judged as {Level(str(document['level'])).words}"
     if not isinstance(mastery, dict):
         return judged
     return f" · {mastery['words']}" if mastery["stable"] else f"{judged} · {mastery['words']}"

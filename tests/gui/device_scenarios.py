@@ -135,7 +135,7 @@ def habits(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The practice panel: a tick, a gesture taken away, another learnt from the kit; the settings keep them."""
     open_panel(ctx, PRACTICE)
     ctx.set_ref(f"//{PRACTICE}")
-    ctx.item_uncheck("two kicks start")
+    ctx.item_uncheck("the kit starts")
     ctx.item_click("×##no-cc=64")
     ctx.item_click(LEARN_LABEL)
     drive.engine.play_bytes("99 31 50 99 33 50")

@@ -25,6 +25,7 @@ from station.core.units import ns_from_ms
 from station.drills.library import find_lesson
 from station.gui.display import Rectangle
 from station.gui.glfw_screen import glfw_screen
+from station.gui.panels.choice_panel import CHOICE, label_of
 from station.gui.panels.lessons.lesson_list import LIST
 from station.gui.panels.lessons_panel import EDIT_LABEL, OPTIONS, TURN_LABEL
 from station.gui.panels.panel import PANELS_LABEL
@@ -235,6 +236,13 @@ class Drive:
             longest, before = max(longest, now - before), now
         assert self.state.selection.card is not None
         return [self.state.selection.card.title, self.state.selection.card.kind, longest]
+
+    def answer(self, ctx: imgui.test_engine.TestContext) -> None:
+        """Answer "on" with the mouse where the question before a result is open."""
+        ctx.yield_(2)
+        if self.room.question:
+            ctx.item_click(f"//{CHOICE}/{label_of(1)}")
+        ctx.yield_(2)
 
     def choose(self, ctx: imgui.test_engine.TestContext, passes: int) -> None:
         """Take `LESSON` from the list and set its passes."""

@@ -54,7 +54,7 @@ def exam(drive: Drive, ctx: imgui.test_engine.TestContext, look: Look = lambda _
     assert marks is not None
     seen["band"], seen["total"] = marks.band.name, marks.total
     seen["unread of the marks"] = drive.unread(ctx)
-    seen["again"] = ctx.item_exists("//Transport/Once more##again")
+    seen["again"] = drive.state.choice is not None
     look("marked")
     ctx.set_ref(f"//{EXAM}")
     ctx.item_click(f"**/{NEXT_LABEL}")

@@ -7,6 +7,7 @@ from station.app.room_state import Stage
 from station.core.settings import load_settings
 from station.core.units import NS_PER_S
 from station.engine.messages import SetLevel
+from station.gui.panels.choice_panel import CHOICE, label_of
 from tests.gui.drive import Drive
 
 
@@ -53,8 +54,7 @@ def first_minute(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(3)
     drive.seen["lag"], drive.seen["asked"] = drive.room.lag_ms, drive.room.question
     drive.seen["fair"] = points(drive)
-    ctx.set_ref("//Transport")
-    ctx.item_click(TAKE_OUT)
+    ctx.item_click(f"//{CHOICE}/{label_of(0)}")
     ctx.yield_(3)
     drive.seen["answered"] = drive.room.lag_ms
     drive.seen["after"] = points(drive)
@@ -70,9 +70,6 @@ def points(drive: Drive) -> float | None:
     """The score that the result shows."""
     assert drive.state.report is not None
     return drive.state.report.facts.words.points
-
-
-TAKE_OUT = "###take-out"
 
 
 def helped(drive: Drive, ctx: imgui.test_engine.TestContext) -> str:

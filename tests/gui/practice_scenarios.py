@@ -14,7 +14,6 @@ from station.gui.panels.playback_row import STOP_LABEL as HITS_STOP
 from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
 from station.gui.widgets.level_choice import LEVEL_LABEL
 from station.music.formats.format_table import read_part
-from station.practice.session.self_estimate import SelfEstimate
 from station.render.notation.screen.score_place import ScoreForm
 from tests.gui.drive import MOST_FRAMES, TIMEOUT_S, Drive, open_panel, to_list, to_options
 
@@ -33,10 +32,8 @@ def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["frames"] = drive.wait_for(ctx, Stage.RESULT)
     drive.seen["asked"] = drive.room.question
     drive.seen["told before"] = drive.state.report is not None
-    ctx.yield_(3)
+    drive.answer(ctx)
     ctx.set_ref("//Transport")
-    ctx.item_click("on")
-    ctx.yield_(2)
     report = drive.state.report
     assert report is not None
     drive.seen["points"] = report.facts.words.points
@@ -133,11 +130,7 @@ def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.set_ref("//Lessons")
     ctx.item_click("Start##start")
     drive.wait_for(ctx, Stage.RESULT)
-    ctx.yield_(2)
-    for guess in SelfEstimate:
-        if drive.room.question:
-            ctx.item_click(f"//Transport/{guess.value}")
-            ctx.yield_(2)
+    drive.answer(ctx)
     report = drive.state.report
     assert report is not None
     drive.seen["cells"] = {f"{bar} {limb.name}": cell.notes for (bar, limb), cell in report.heat.cells.items()}

@@ -14,6 +14,7 @@ import numpy as np
 from imgui_bundle import hello_imgui
 
 from station.render.files.png_file import write_png
+from tests.gui.choice_scenarios import choices
 from tests.gui.device_scenarios import calibration, devices, habits, sticks
 from tests.gui.drive import NEWCOMER, PICTURE_EVERY, SIZE, Drive, Scenario
 from tests.gui.editor_scenarios import (
@@ -42,6 +43,7 @@ from tests.gui.view_scenarios import legible, look, resized, score, viewpoints, 
 
 SCENARIOS: dict[str, Scenario] = {
     "practise": practise,
+    "choices": choices,
     "keys": keys,
     "just_play": just_play,
     "highway": highway,
@@ -91,6 +93,7 @@ SIZES = {
     "planned_day": (1280, 900),
     "whose_in_a_large_window": (1280, 720),
     "exam": (1280, 720),
+    "choices": (1280, 720),
     "player": (1280, 560),
     "phase": (1280, 720),
     "song": (1280, 800),
@@ -109,6 +112,7 @@ STUDENTS = {
     "first_minute": f"{NEWCOMER},seed=2,sd_ms=30,bias_ms=95",
     "drill": "beginner,seed=3",
     "practise": "pro,seed=4",
+    "choices": "pro,seed=4",
     "exam": "seed=1,sd_ms=4",
     "exam_in_a_small_window": "seed=1,sd_ms=4",
     "there_and_back": "intermediate,seed=2",

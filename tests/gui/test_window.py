@@ -69,8 +69,8 @@ def test_a_lesson_is_chosen_played_and_judged(environment: dict[str, str], tmp_p
     assert seen["started"] == "PLAYING"
     assert seen["title"] == "Rock 2: the kick moves"
     assert (seen["suggested"], seen["level"]) == ("beginner", "advanced")
-    assert "judged as advanced" in seen["told"]
-    assert "did you rush" in seen["asked"]
+    assert "judged as advanced, ±10 ms" in seen["told"]
+    assert "rushed, on, or dragged?" in seen["asked"]
     assert not seen["told before"], "the result waits for the answer"
     assert seen["notes"] == 26  # two bars: 16 on the hi-hat, 4 on the snare, 6 on the kick
     assert seen["points"] > 80, "a professional plays this well"
@@ -106,6 +106,22 @@ def test_search_keys_and_faults_in_one_window(environment: dict[str, str], tmp_p
     a_fault_is_said_in_one_line(seen["fault"])
     keys_play_the_kit_and_escape_stops(seen["keys"])
     a_free_take_is_recorded_and_heard_again(seen["just_play"])
+
+
+def test_a_question_is_answered_and_what_comes_next_begins_by_pad_key_and_mouse(
+    environment: dict[str, str], tmp_path: Path
+) -> None:
+    """The second step is once more; where nothing is played nothing else is offered."""
+    seen = run("choices", environment, tmp_path)
+    assert not seen["answered by the music"], "a stroke right after the end is no answer"
+    assert seen["answered by a pad"]
+    assert seen["pads"][:2] == [["SNARE"], ["TOM_1"]]
+    assert seen["unread"] == []
+    assert seen["strays"] == "RESULT", "no kick of a groove begins anything"
+    assert seen["meant"] == 1
+    assert [seen[by].split()[0] for by in ("by key", "by mouse", "by enter", "by kicks")] == [
+        seen["by pad"].split()[0]
+    ] * 4
 
 
 def test_a_newcomer_answers_three_questions_by_keyboard_and_plays(environment: dict[str, str], tmp_path: Path) -> None:

@@ -167,10 +167,11 @@ def resized(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
             if imgui.get_io().display_size.x == width:
                 break
         ctx.yield_(6)
-        size = drive.seen[f"{width}"] = {}
+        size: dict[str, object] = {}
+        drive.seen[f"{width}"] = size
         size["letters"] = imgui.get_style().font_scale_main
         size["lessons"] = _width_of(ctx, "//Lessons") / width
-        size["unread"] = drive.unread(ctx)
+        unread = drive.unread(ctx)
         ctx.key_press(imgui.Key.f1)
         ctx.yield_(3)
         ctx.item_click("//Help/##leaves/Keys")
@@ -180,7 +181,8 @@ def resized(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
             help_window = ctx.window_info("//Help").window
             assert help_window is not None
             size[f"help {scale:g}"] = _inside(help_window, width, height)
-            size["unread"] += [line for line in drive.unread(ctx) if line.startswith("Help")]
+            unread += [line for line in drive.unread(ctx) if line.startswith("Help")]
+        size["unread"] = unread
         drive.station.dispatch(SetView(replace(drive.state.view_settings, scale=1.0)))
         ctx.key_press(imgui.Key.f1)
         ctx.yield_(3)

@@ -11,6 +11,7 @@ from station.app.actions.practice_actions import Dismiss, EndSession
 from station.app.actions.settings_actions import SetPreferences, SetView
 from station.app.room_state import Stage
 from station.app.window_state import State
+from station.gui.panels.choice_panel import CHOICE, label_of
 from station.gui.panels.devices.devices_panel import DEVICES
 from station.gui.panels.lessons.who_plays import WHO_LABEL
 from station.gui.panels.playback_row import PREVIOUS_LABEL, STUDENT_LABEL
@@ -99,8 +100,7 @@ def lag_found(room: RealRoom, ctx: Context) -> None:
 
 def lag_taken_out(room: RealRoom, ctx: Context) -> None:
     """One click takes it out; what to do next."""
-    ctx.set_ref("//Transport")
-    ctx.item_click("###take-out")
+    ctx.item_click(f"//{CHOICE}/{label_of(0)}")
     ctx.yield_(10)
 
 

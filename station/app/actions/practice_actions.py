@@ -61,6 +61,13 @@ class Drill:
 
 
 @dataclass(frozen=True, slots=True)
+class TakeStep:
+    """Begin one (from 0) of what comes next beside a result."""
+
+    place: int
+
+
+@dataclass(frozen=True, slots=True)
 class EndSession:
     """End the session; what was played is judged and kept."""
 
@@ -115,4 +122,4 @@ class StrikeKey:
 
 
 SessionAction = EndSession | Veto | Answer | Dismiss | Listen | HearBar
-PracticeAction = Begin | Drill | Pause | Leave | StrikeKey | SessionAction
+PracticeAction = Begin | Drill | TakeStep | Pause | Leave | StrikeKey | SessionAction

@@ -14,11 +14,13 @@ from station.app.actions.practice_actions import (
     Pause,
     PracticeAction,
     StrikeKey,
+    TakeStep,
 )
 from station.app.actions.today_actions import StartBlock
 from station.app.room_state import Stage
 from station.app.station_parts import StationParts
 from station.core.errors import DeviceError
+from station.practice.records.next_steps import StepKind, block_step
 
 
 def choose(parts: StationParts, action: ChoiceAction) -> None:
@@ -40,6 +42,8 @@ def practise(parts: StationParts, action: PracticeAction) -> None:
             _begin(parts)
         case Drill(bar):
             _begin(parts, bar)
+        case TakeStep(place):
+            _take_step(parts, place)
         case Pause(strokes):
             parts.pads.forget()
             parts.sessions.practice.turn(strokes)
@@ -58,6 +62,9 @@ def begin_block(parts: StationParts, action: StartBlock) -> None:
     if item is not None:
         parts.chooser.take_block(item)
         _begin(parts)
+        following = parts.today.block_behind(action.place)
+        step = None if following is None else block_step(following.place, following.item.title, following.item.why)
+        parts.sessions.practice.next_block = step
 
 
 def sit_exam(parts: StationParts, action: ExamAction) -> None:
@@ -88,9 +95,28 @@ def _turn_back(parts: StationParts) -> None:
     parts.chooser.show_anew()
 
 
+def _take_step(parts: StationParts, place: int) -> None:
+    """Begin what comes next, where a result is shown that has it; raises `StationError`."""
+    sessions = parts.sessions
+    steps, begun = sessions.practice.last_result.steps, sessions.begun
+    if sessions.practice.stage is not Stage.RESULT or place >= len(steps) or begun is None:
+        return
+    step = steps[place]
+    if step.kind is StepKind.BLOCK and step.place is not None:
+        begin_block(parts, StartBlock(step.place))
+    elif step.kind is StepKind.LESSON:
+        parts.chooser.take_up(step.lesson, step.bars)
+        _begin(parts)
+    else:
+        parts.make_ready()
+        sessions.start(begun if step.kind is StepKind.AGAIN else parts.chooser.for_step(begun, step))
+
+
 def _begin(parts: StationParts, bar: int | None = None) -> None:
     parts.make_ready()
     _leave_look(parts)
+    if bar is None:
+        parts.sessions.practice.next_block = None
     parts.chooser.begin(bar)
 
 

@@ -17,6 +17,7 @@ from station.app.settings.settings_store import SettingsStore
 from station.core.errors import StationError
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
+from station.practice.records.next_steps import NextStep
 from station.practice.session.self_estimate import SelfEstimate
 from station.render.snapshot import Snapshot
 from station.sound.track import PreparedTrack
@@ -40,6 +41,8 @@ class CurrentPractice:
         self.is_free = False
         """Whether no lesson is shown: the kit alone, to just play."""
         self._was_free = False  # before a student's result was looked at
+        self.next_block: NextStep | None = None
+        """The block behind the one of the day's plan that is played; None where there is none, or no plan."""
         self.fault: StationError | None = None
         """What went wrong with the last session or take when it ended."""
 
@@ -63,6 +66,11 @@ class CurrentPractice:
         """Who sent the result that is shown, empty where it is one's own, or none is."""
         report = self.last_result.report
         return report.student if report is not None and self.stage is Stage.RESULT else ""
+
+    @property
+    def lag_ms(self) -> float | None:
+        """The lag that the shown result leaves out until its student has said whose it is."""
+        return self.last_result.lag_ms if self.stage is Stage.RESULT and not self._sender else None
 
     # --- one after the other -----------------------------------------------------------------------------------------
 
@@ -119,6 +127,8 @@ class CurrentPractice:
         if saved.fault is not None:
             self._notify(str(saved.fault))
         is_open = saved.fair is not None and saved.fair.is_open  # one question at a time
+        if self.next_block is not None and saved.steps:
+            saved = saved.leading_to(self.next_block)
         self.last_result.keep(saved, settings.ask_first and saved.marks is None and not is_open)
         self.stage = Stage.RESULT
 
@@ -168,7 +178,7 @@ class CurrentPractice:
             free=self.is_free,
             question=self.last_result.question,
             student=self._sender,
-            lag_ms=self.last_result.lag_ms if self.stage is Stage.RESULT and not self._sender else None,
+            lag_ms=self.lag_ms,
         )
         return state if self.is_free else self.session.state_in(state)
 

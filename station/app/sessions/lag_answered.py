@@ -8,6 +8,7 @@ from station.core.errors import StationError
 from station.core.settings import Settings
 from station.practice.lag.fair_judgement import FairResult, as_it_came
 from station.practice.lag.session_lag import LagAnswer
+from station.practice.records.next_steps import steps_in
 from station.practice.records.save_session import SessionFolder
 from station.practice.records.session_report import practice_document
 from station.practice.session.device_latency import Latency
@@ -26,7 +27,11 @@ def judged_again(saved: SavedSession, settings: Settings, latency: Latency | Non
     if latency is not None and saved.fair.lag is not None:
         lag = replace(saved.fair.lag, answer=LagAnswer.TAKEN_OUT)
         fair = FairResult(replace(saved.fair.result, latency=latency), lag)
-    document = practice_document(fair.result, settings, fair.lag)
+    document, steps = practice_document(fair.result, settings, fair.lag), saved.steps
+    if latency is None:
+        steps = steps_in(document)
+    else:  # the score was this one all the while
+        document["session"] = saved.report.document["session"]  # type: ignore[assignment]
     document |= {key: saved.report.document[key] for key in _KEPT if key in saved.report.document}  # type: ignore[misc]
     fault = None
     try:
@@ -34,4 +39,4 @@ def judged_again(saved: SavedSession, settings: Settings, latency: Latency | Non
     except StationError as refused:
         fault = refused
     shown = shown_result(fair.result, document, saved.report.folder, saved.report.before)
-    return SavedSession(fair.result, shown, fault, saved.marks, fair)
+    return SavedSession(fair.result, shown, fault, saved.marks, fair, steps)

@@ -17,6 +17,7 @@ from station.practice.demonstration.compare_by_ear import (
     previous_tempo,
     students_bar,
 )
+from station.practice.records.next_steps import NextStep
 from station.practice.session.cues.listening import Listening
 from station.practice.session.self_estimate import QUESTION, SelfEstimate, answered, is_worth_asking
 from station.render.snapshot import Snapshot
@@ -73,6 +74,11 @@ class LastResult:
     def put(self, saved: SavedSession) -> None:
         """The same session, judged again."""
         self._saved, self._curves, self._compared = saved, None, None
+
+    @property
+    def steps(self) -> tuple[NextStep, ...]:
+        """What comes next, the best first; none while the question is open."""
+        return () if self.is_asking or self._saved is None else self._saved.steps
 
     @property
     def marks(self) -> Marks | None:

@@ -8,6 +8,7 @@ result when the session is over. Where the tempo follows the student, each pass 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from datetime import date
 
 from station.app.engine_client import EngineClient
 from station.app.room_state import PlaceNow, RoomState, ShownResult, Stage
@@ -19,6 +20,7 @@ from station.core.events import Hit, StickPose
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.exam.rubric import Marks
+from station.drills.mastery.agenda import Turn
 from station.drills.mastery.feedback_fading import Feedback
 from station.engine.messages import Command, EngineEvent
 from station.practice.exam.exam_take import exam_runner
@@ -27,6 +29,8 @@ from station.practice.lag.fair_judgement import FairResult
 from station.practice.lag.first_groove import FIRST_GROOVE
 from station.practice.now.whereabouts import place_of
 from station.practice.records.earlier_lags import fair_session
+from station.practice.records.memory import following_lesson
+from station.practice.records.next_steps import steps_in
 from station.practice.records.previous_session import find_previous
 from station.practice.records.save_session import SessionFolder, SessionRecord, save
 from station.practice.records.session_report import practice_document
@@ -226,6 +230,7 @@ class LessonSession:
             can_pause=room.stage is Stage.PLAYING and self.session.can_pause and self.sitting is None,
             paused=self.paused,
             clock=clock,
+            judged=self.plan.level.words,
         )
 
     # --- the end -----------------------------------------------------------------------------------------------------
@@ -238,10 +243,17 @@ class LessonSession:
         assert self._folder is not None, "it was begun"
         result = self._runner.finish()
         fair = fair_session(result, settings) if self.sitting is None else FairResult(result)
-        saved = save(self._folder, fair.result, practice_document(fair.result, settings, fair.lag), self._followed)
+        document = practice_document(fair.result, settings, fair.lag, self._following_lesson(settings))
+        saved = save(self._folder, fair.result, document, self._followed)
         marks, refused = self._marked(result)
-        report = self._report(saved, self._folder)
-        return SavedSession(fair.result, report, saved.fault or refused or fault, marks, fair)
+        fault = saved.fault or refused or fault
+        steps = steps_in(saved.document) if marks is None else ()
+        return SavedSession(fair.result, self._report(saved, self._folder), fault, marks, fair, steps)
+
+    def _following_lesson(self, settings: Settings) -> Turn | None:
+        """What to turn to after practice that has not followed the student; theirs knows it itself."""
+        is_asked = self._followed is None and self.sitting is None
+        return following_lesson(settings, self.plan.lesson, date.today()) if is_asked else None
 
     def _marked(self, result: SessionResult) -> tuple[Marks | None, StationError | None]:
         """The marks of an exam, kept, and what the disk refused; nothing of practice."""

@@ -20,7 +20,7 @@ from station.app.settings.settings_store import SettingsStore
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
 from station.music.score import Score
-from station.practice.control.pad_choice import PadChoice
+from station.practice.control.pad_choice import ANSWERS, BEGINS, PadChoice
 from station.practice.control.pad_commands import PadCommands
 from station.practice.control.pad_gestures import BEFORE_NS
 
@@ -35,7 +35,7 @@ class PadControl:
         self._store, self._preferences, self._who = store, preferences, who
         self._struck: deque[Hit] = deque(maxlen=_REMEMBERED)
         self._options: tuple[Option, ...] = ()
-        self._is_question = False
+        self._is_question = self._kicks_choose = False
         self._choice: PadChoice | None = None
         self._might_start = True
         self._go_by(score)
@@ -52,10 +52,12 @@ class PadControl:
         """From now on `choice` is on the screen; the same as before goes on."""
         options = () if choice is None else choice.options
         self._is_question = choice is not None and bool(choice.question)
+        self._kicks_choose = choice is not None and choice.kicks
         if options != self._options:
             self._options = options
             hears = any(option.pads for option in options)
-            self._choice = PadChoice([option.pads for option in options], now_ns) if hears else None
+            still = ANSWERS if self._is_question else BEGINS
+            self._choice = PadChoice([option.pads for option in options], now_ns, still) if hears else None
 
     def heard(self, choice: ScreenChoice, now_ns: int) -> ScreenChoice:
         """The choice with what pads do to it now."""
@@ -112,7 +114,7 @@ class PadControl:
             return None
         if practice.is_session:
             return Pause()
-        return self._options[0].action if self._options else Begin()
+        return self._options[0].action if self._options and self._kicks_choose else Begin()
 
 
 def _asked_by(store: SettingsStore) -> tuple[str, bool]:

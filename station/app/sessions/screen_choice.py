@@ -1,13 +1,16 @@
-"""A choice that stands large on the screen: the question before a result, or what comes after it."""
+"""A choice that stands large on the screen: the question before a result, whose a lag is, or what comes after it."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from station.app.actions.action import Action
-from station.app.actions.practice_actions import Answer
+from station.app.actions.equipment_actions import AnswerLag
+from station.app.actions.practice_actions import Answer, TakeStep
 from station.app.room_state import Stage
 from station.app.sessions.current_practice import CurrentPractice
 from station.core.pieces import Piece
-from station.practice.session.self_estimate import PADS_OF, QUESTION
+from station.practice.control.pad_choice import pads_for
+from station.practice.session.self_estimate import PADS_OF, QUESTION, SelfEstimate
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,10 +38,40 @@ class ScreenChoice:
     kicks: bool = False
 
 
-_QUESTION = ScreenChoice(tuple(Option(guess.value, Answer(guess), pads=PADS_OF[guess]) for guess in PADS_OF), QUESTION)
+_MEANS = {
+    SelfEstimate.RUSHED: "ahead of the click",
+    SelfEstimate.ON: "with the click",
+    SelfEstimate.DRAGGED: "behind the click",
+}
+_ANSWERS = tuple(
+    Option(guess.value.capitalize(), Answer(guess), _MEANS[guess], pads) for guess, pads in PADS_OF.items()
+)
+_QUESTION = ScreenChoice(_ANSWERS, QUESTION)
 
 
-def choice_beside(practice: CurrentPractice) -> ScreenChoice | None:
-    """What is to be chosen beside what is practised; None where nothing is."""
-    is_open = practice.stage is Stage.RESULT and practice.last_result.is_asking
-    return _QUESTION if is_open else None
+def choice_beside(practice: CurrentPractice, kit_starts: bool) -> ScreenChoice | None:
+    """What is to be chosen beside what is practised, None where nothing is; `kit_starts` where strokes may begin it."""
+    if practice.stage is not Stage.RESULT:
+        return None
+    if practice.last_result.is_asking:
+        return _QUESTION
+    steps = practice.last_result.steps
+    there = frozenset(practice.session.plan.kit.pieces) if kit_starts else frozenset[Piece]()
+    if practice.lag_ms is not None:
+        return _whose_lag(practice.lag_ms, there)
+    options = zip(steps, pads_for(len(steps), there), strict=True)
+    made = tuple(Option(step.label, TakeStep(place), step.why, pads) for place, (step, pads) in enumerate(options))
+    return ScreenChoice(made, kicks=kit_starts) if made else None
+
+
+def _whose_lag(lag_ms: float, there: Collection[Piece]) -> ScreenChoice:
+    """Whose a lag of all strokes is, as the student says; two kicks say nothing, for they mean to play."""
+    out, left = pads_for(2, there)
+    what = "late" if lag_ms > 0 else "early"
+    equipment = f"Every pad came {abs(lag_ms):.0f} ms {what}, at both tempi: that is your equipment, most likely"
+    return ScreenChoice(
+        (
+            Option(f"Take out {lag_ms:.0f} ms", AnswerLag(take_out=True), equipment, out),
+            Option("Leave it in", AnswerLag(take_out=False), "It is how you play: it counts", left),
+        )
+    )

@@ -101,6 +101,8 @@ class SessionControl:
         """Whether the demonstration alone is shown: its lesson is being written."""
         self._heard_ns: int | None = None
         self._waiting: LessonSession | None = None  # it begins once its track is ready
+        self.begun: SessionRequest | None = None
+        """What was asked for last of all sessions that began."""
 
     # --- what is shown -----------------------------------------------------------------------------------------------
 
@@ -242,6 +244,7 @@ class SessionControl:
         session = self._laid_out(request)
         self._make_room()
         self._begin(session)
+        self.begun = request
         if self._waiting is not None:
             self._notify("the band's sound is being made ready for this tempo: it begins by itself")
 

@@ -1,11 +1,12 @@
 """A result as it is shown: one's own when a session is over, a student's when their return is opened."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from station.app.room_state import ShownResult
 from station.core.errors import StationError
 from station.drills.exam.rubric import Marks
 from station.practice.lag.fair_judgement import FairResult
+from station.practice.records.next_steps import NextStep, with_block
 from station.practice.records.previous_session import NONE_KEPT, PreviousSession
 from station.practice.session.session import SessionResult
 from station.scenes.heat_map import heat_map
@@ -19,7 +20,8 @@ from station.scoring.report.assessment_document import Json
 class SavedSession:
     """What a session that is over leaves: its `result`, the `report` of it, and what went wrong, if anything did.
 
-    `marks` are those of an exam, `fair` is how it was judged where a lag was looked for.
+    `marks` are those of an exam, `fair` is how it was judged where a lag was looked for, `steps` what comes next, the
+    best first, none of an exam or of another student.
     """
 
     result: SessionResult
@@ -27,6 +29,14 @@ class SavedSession:
     fault: StationError | None = None
     marks: Marks | None = None
     fair: FairResult | None = None
+    steps: tuple[NextStep, ...] = ()
+
+    def leading_to(self, block: NextStep) -> "SavedSession":
+        """The same as a block of the day's plan, which has another behind it: that comes first, on the page too."""
+        words = self.report.facts.words
+        advice = (f"{block.label}.", *words.advice)[: max(len(words.advice), 1)]
+        facts = replace(self.report.facts, words=replace(words, advice=advice))
+        return replace(self, report=replace(self.report, facts=facts), steps=with_block(self.steps, block))
 
 
 def shown_result(

@@ -46,14 +46,14 @@ class WhoPlays:
     @property
     def is_open(self) -> bool:
         """Whether the list is there, so that strokes choose and command nothing else."""
-        return self.choice is not None
+        return self._choice is not None
 
     def ask(self, on: bool) -> None:
         """Show the list, or put it away."""
         if on is self.is_open:
             return
         if not on:
-            self.choice = None
+            self._choice = None
             return
         self._students.look_again()
         known, today = self._students.known, date.today()

@@ -51,9 +51,9 @@ class SoundView:
 
     `pattern` is what clicks over bars of `beats` beats, `levels` the channels that were set, `solo` those that are
     heard alone, `muted` those whose level comes back; `shelf` what kits and outputs there are, None while it is looked;
-    `tried` the kit or click that is heard to try it; `changing` whether another output is being opened; `is_playing`
-    while a session has the sound; `output` what was chosen, and `sounding` where the sound goes; `track` what is played
-    along to.
+    `tried` the kit or click that is heard to try it, `is_awaited` while it is read; `changing` whether another output
+    is being opened; `is_playing` while a session has the sound; `output` what was chosen, `sounding` where the sound
+    goes; `track` what is played along to.
     """
 
     pattern: ClickPattern = PLAIN
@@ -63,6 +63,7 @@ class SoundView:
     muted: frozenset[str] = frozenset()
     shelf: SoundShelf | None = None
     tried: str = ""
+    is_awaited: bool = False
     changing: bool = False
     is_playing: bool = False
     output: OutputChoice = field(default_factory=lambda: choice_of(Settings()))
@@ -119,6 +120,7 @@ class SoundPage:
             muted=frozenset(self._muted),
             shelf=self._shelf,
             tried=self.tried.name,
+            is_awaited=self.tried.is_awaited,
             changing=self.output.is_changing,
             is_playing=self._sessions.practice.is_playing,
             output=self.output.chosen,

@@ -24,6 +24,11 @@ class TriedSounds:
         self._listening: Listening | None = None
         self._is_heard = False
 
+    @property
+    def is_awaited(self) -> bool:
+        """Whether what is tried is still being read."""
+        return self._listening is not None and not self._is_heard and not self._sessions.player.player.playing
+
     def hear(self, name: str, sounds: SetSounds, listening: Listening) -> None:
         """Try these sounds by letting something be heard; raises `DeviceError`."""
         if self._sessions.practice.is_playing:

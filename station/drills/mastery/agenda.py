@@ -81,6 +81,22 @@ def next_turn(
     return _beyond(current, turns, rules, ahead)
 
 
+def other_turn(
+    others: Sequence[ItemState], today: date, rules: Rules = DEFAULT_RULES, ahead: Ahead = ALONE
+) -> Turn | None:
+    """What a student may turn to who wants something else than what they practise, which is not among `others`."""
+    turns = waiting(others, today, rules)
+    if turns.due:
+        return Turn(turns.due[0].item, "it is due for review")
+    if ahead.asked is not None:
+        return Turn(ahead.asked, ahead.asked_why)
+    if ahead.after is not None:
+        return Turn(ahead.after, f"it comes next in {ahead.course}")
+    if turns.fresh:
+        return Turn(turns.fresh[0].item, "it is not stable yet")
+    return Turn(turns.settled[0].item, KEPT_WHY) if turns.settled else None
+
+
 def _pressing(current: ItemState, turns: Waiting, rules: Rules, ahead: Ahead) -> Turn | None:
     """What leaves no choice."""
     if turns.due:

@@ -25,7 +25,11 @@ LEARN_LABEL, GIVE_UP_LABEL = "Learn from the kit##learn", "Give up##learn"
 _STEPS = ((2, 4), (4, 4), (5, 8), (10, 8))
 """Beats a minute and bars (our choice): hardly felt, a step of TEACHING's ladder, brisk, a dare."""
 _TICKS = (
-    ("kicks_start", "two kicks start", "Two kicks within a second do what Enter does, between sessions"),
+    (
+        "kicks_start",
+        "the kit starts",
+        "Two kicks that stand alone do what Enter does, and a pad begins what comes next beside a result",
+    ),
     (
         "auto_pause",
         "wait when I stop",
@@ -36,7 +40,7 @@ _TICKS = (
         "the kit asks who plays",
         "Between sessions, what pauses one lists the students; pads choose",
     ),
-    ("ask_first", "ask me before a result", "Did you rush or drag? At most once a lesson; pads answer"),
+    ("ask_first", "ask me before a result", "Did you rush or drag? At most once a lesson; a pad answers after silence"),
     ("guide", "the drummer sounds along", "The demonstration's strokes sound in the passes too, from the next session"),
 )
 

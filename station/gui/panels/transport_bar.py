@@ -10,8 +10,7 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
-from station.app.actions.equipment_actions import AnswerLag
-from station.app.actions.practice_actions import Answer, Begin, Dismiss, EndSession, Pause, Veto
+from station.app.actions.practice_actions import Dismiss, EndSession, Pause, Veto
 from station.app.actions.settings_actions import SetView
 from station.app.room_state import RoomState, Stage
 from station.app.sessions.demo_picture import PlayerView
@@ -24,15 +23,12 @@ from station.gui.panels.player_controls import PlayerControls, counter
 from station.gui.panels.ruler import Ruler
 from station.gui.panels.view_popup import LOOK_LABEL, POPUP, ViewActions, view_settings_popup
 from station.gui.widgets.flow_row import LINE_HEIGHT, FlowRow
-from station.practice.session.self_estimate import SelfEstimate
 from station.render.camera import VIEW_NAMES
 
 PAUSE_LABEL, GO_ON_LABEL = "Pause##hold", "Go on##hold"
 VETO_LABEL = "As it was##veto"
 STOP_LABEL = "Stop##stop"
-AGAIN_LABEL = "Once more##again"
 BACK_LABEL = "Back to the lessons##back"
-TAKE_OUT_LABEL, LEAVE_LABEL = "Take out {:.0f} ms###take-out", "Leave it in##leave-in"
 
 _PAUSE = "The score waits (Backspace; both crashes at once or a foot switch, as the Practice panel says)"
 _GO_ON = "A bar of count-in, then on from the bar of your last stroke (Backspace, or two kicks)"
@@ -95,13 +91,10 @@ class TransportBar:
 
     @staticmethod
     def _has_second_line(room: RoomState) -> bool:
-        return (room.stage is Stage.IDLE and not room.free) or (room.stage is Stage.RESULT and bool(room.question))
+        return room.stage is Stage.IDLE and not room.free
 
     def _second_line(self, room: RoomState, player: PlayerView) -> None:
-        """The player's controls, or the question that the first line's buttons answer."""
-        if room.stage is Stage.RESULT:
-            imgui.text_wrapped(room.question)
-            return
+        """The player's controls."""
         row = FlowRow(height=LINE_HEIGHT)
         self.controls.gui(player, row)
         _lines(found(room), row)
@@ -110,11 +103,6 @@ class TransportBar:
         """Where one is in the music, or what is to be answered or done."""
         if room.stage is Stage.PLAYING:
             self._session(room, row)
-        elif room.stage is Stage.RESULT and room.question:
-            for guess in SelfEstimate:
-                if row.button(guess.value, 96):
-                    self._dispatch(Answer(guess))
-                theme.tooltip(room.question)
         elif room.stage is Stage.RESULT:
             self._result(room, row)
         elif room.free:
@@ -123,29 +111,11 @@ class TransportBar:
             self._ruler.gui(player.player, player.now_ns, row.left_px)
 
     def _result(self, room: RoomState, row: FlowRow) -> None:
-        """What comes after a result; one that a student sent, or of an exam, is not played once more."""
-        if room.lag_ms is not None:
-            self._lag(room.lag_ms, row)
-        if not room.student and not room.exam:
-            row.place(theme.points(150))
-            again = theme.main_button if room.lag_ms is None else _plain_button
-            if again(AGAIN_LABEL, (theme.points(150), theme.points(LINE_HEIGHT))):
-                self._dispatch(Begin())
-            theme.tooltip("The same lesson, the same tempo (Enter)")
+        """The way back from a result; what comes next stands large below it."""
         if row.button(BACK_LABEL, 190):
             self._dispatch(Dismiss())
-        theme.tooltip("Choose another lesson (Esc)")
+        theme.tooltip("Choose another lesson (Esc; while a question is open Esc puts that aside first)")
         _lines((f"played by {room.student}",) if room.student else found(room), row)
-
-    def _lag(self, lag_ms: float, row: FlowRow) -> None:
-        """Whose a lag of all strokes is, as the student says."""
-        row.place(theme.points(150))
-        if theme.main_button(TAKE_OUT_LABEL.format(lag_ms), (theme.points(150), theme.points(LINE_HEIGHT))):
-            self._dispatch(AnswerLag(take_out=True))
-        theme.tooltip("Your equipment's: leave it out of this score, and of all that you play on it")
-        if row.button(LEAVE_LABEL, 110):
-            self._dispatch(AnswerLag(take_out=False))
-        theme.tooltip("Your own: judge this again with it, and ask no more")
 
     def _session(self, room: RoomState, row: FlowRow) -> None:
         """How to end the session, its time, how far it is."""
@@ -163,6 +133,10 @@ class TransportBar:
         if room.clock is not None:
             row.place(theme.points(150))
             counter(room.clock.time_s, room.clock.bar, room.clock.beat)
+        if row.fits(theme.points(_LEAST_PROGRESS) + imgui.calc_text_size(room.judged).x):
+            row.place(0)
+            imgui.text_disabled(room.judged)
+            theme.tooltip(f"You are judged as {room.judged}: what is nearer to its time is on time")
         if row.fits(theme.points(_LEAST_PROGRESS)):
             row.place(0)
             imgui.progress_bar(room.progress or 0.0, imgui.ImVec2(row.left_px, theme.points(LINE_HEIGHT)), "")
@@ -196,11 +170,6 @@ class TransportBar:
         )
         imgui.end_group()
         return replace(chosen, view=NamedView(index) if changed else view_settings.view, mirrored=bool(mirrored))
-
-
-def _plain_button(label: str, size: tuple[float, float]) -> bool:
-    """One that is not the first thing to do."""
-    return bool(imgui.button(label, imgui.ImVec2(*size)))
 
 
 def _views_width() -> float:

@@ -9,8 +9,8 @@ from station.scoring.matching.hit_windows import Level
 LEVEL_LABEL = "##level"
 
 
-def level_choice(levels: LevelRange, level: Level) -> Level | None:
-    """Draw it as wide as the line; returns the level that was chosen, None where none was."""
+def level_choice(levels: LevelRange, level: Level, since: str = "") -> Level | None:
+    """Draw it as wide as the line; `since` says when it holds. Returns the level that was chosen, None for none."""
     width = imgui.get_content_region_avail().x
     room = width - imgui.get_frame_height() - 2 * imgui.get_style().frame_padding.x
     forms = (f"judged as {level.words}", level.words, f"{level}")
@@ -20,9 +20,9 @@ def level_choice(levels: LevelRange, level: Level) -> Level | None:
     is_open = imgui.begin_combo(LEVEL_LABEL, preview)
     if not is_open:
         theme.tooltip(
-            f"You are judged as {level.words} in this lesson: on time is within {level.on_time_ms:g} ms, and a pass is"
-            " clean at this level's mark; the score stays the same. When you hold the lesson at it, the next level"
-            " holds from the next time on"
+            f"{f'{since} you' if since else 'You'} are judged as {level.words} in this lesson: on time is within"
+            f" {level.on_time_ms:g} ms, and a pass is clean at this level's mark; the score stays the same. When you"
+            " hold the lesson at it, the next level holds from the next time on"
         )
         return None
     for each in levels.choices:

@@ -31,7 +31,7 @@ LEGEND = (
 
 def level_words(level: Level) -> str:
     """How strictly the marks are set."""
-    return f"judged as {level}: on time is within {level.windows.edges_ms[0]:g} ms"
+    return f"judged as {level}: on time is within {level.on_time_ms:g} ms"
 
 
 def mark_of(verdict: Judgement, windows: Windows) -> str:

@@ -1,6 +1,5 @@
 """Whether a student plays beside the click, steadily, and by how much: said while they play."""
 
-from station.core.units import PPQ
 from station.drills.mastery.feedback_fading import Feedback
 from station.practice.session.session import Session
 from station.scoring.analysis.entries import in_words
@@ -13,6 +12,4 @@ def entry_words(session: Session) -> str:
         return ""
     meter = session.plan.section.tempo_map.meter_at(0)
     by = in_words(abs(quarters), session.plan.lesson.beat_ticks, meter.bar_ticks)
-    if quarters * PPQ % meter.bar_ticks == 0:
-        return f"You are {by} {'behind' if quarters > 0 else 'ahead of'} the click: your strokes count there"
     return f"You came in {by} {'late' if quarters > 0 else 'early'}: your strokes count there"

@@ -4,27 +4,39 @@ from station.drills.mastery.agenda import Turn
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.practice_steps import PracticeItem, PracticeStep
 from station.drills.mastery.rules import Rules
+from station.practice.records.next_steps import NextStep, StepKind, followed_steps, steps_document
 from station.practice.records.what_next import MOST_STEPS, advice_of
 from station.practice.session.adaptation import Adaptation, PlayedPass, held_words
 from station.scoring.report.assessment_document import Json
 
 
-def with_mastery(document: dict[str, Json], adaptation: Adaptation, turn: Turn | None = None) -> dict[str, Json]:
+def with_mastery(
+    document: dict[str, Json], adaptation: Adaptation, turn: Turn | None = None, other: Turn | None = None
+) -> dict[str, Json]:
     """The report with every pass and its reason, the state of mastery, and what comes next: a step, then the advice.
 
-    `turn` is what to practise next of all that the student knows, None where nothing is remembered.
+    `turn` is what to practise next of all that the student knows, None where nothing is remembered; `other` another
+    lesson that they may turn to.
     """
     session, state = document["session"], adaptation.state
     assert isinstance(session, dict), "the report is ours"
     counts, said = document["counts"], session["next"]
     assert isinstance(counts, dict), "the report is ours"
     assert isinstance(said, list), "the report is ours"
+    plan = adaptation.rounds[0].result.plan if adaptation.rounds else adaptation.plan
+    steps = followed_steps(document, plan, _on_from_here(adaptation), turn, other)
+    lead = [f"{steps[0].label}: {steps[0].why}."] if steps[0].kind is StepKind.LESSON else []
     # what is said where nothing stands out speaks of the tempo, which is the policy's here
     grown = [held_words(adaptation.level, adaptation.next_level)] if adaptation.has_grown else []
-    steps: list[Json] = [*grown, adaptation.step.why, *advice_of(document)]
+    on_words = adaptation.step.why if lead else f"{adaptation.step.why} {steps[0].label}."
+    said_next: list[Json] = [*lead, *grown, on_words, *advice_of(document)]
     return {
         **document,
-        "session": {**session, "next": steps[:MOST_STEPS] if counts["hits"] else said},
+        "session": {
+            **session,
+            "next": said_next[:MOST_STEPS] if counts["hits"] else said,
+            "steps": steps_document(steps),
+        },
         "mastery": {
             "target_tempo_bpm": round(state.item.target_bpm, 3),
             "mastery_pct": state.mastery_pct,
@@ -38,6 +50,12 @@ def with_mastery(document: dict[str, Json], adaptation: Adaptation, turn: Turn |
             "turn": None if turn is None else _turn(turn),
         },
     }
+
+
+def _on_from_here(adaptation: Adaptation) -> NextStep:
+    """The same lesson from where it was."""
+    step, item = adaptation.next_time, adaptation.state.item
+    return NextStep(StepKind.AGAIN, f"Go on at {item.beats(step.pct)}", adaptation.step.why.rstrip("."))
 
 
 def _turn(turn: Turn) -> dict[str, Json]:

@@ -5,22 +5,26 @@
 set aside under another name, never written over.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
 from station.core.errors import BadInput
+from station.core.settings import Settings
 from station.drills.course import Course
+from station.drills.daily.asked import Asked
 from station.drills.lesson import Lesson
-from station.drills.mastery.agenda import Turn, next_turn
+from station.drills.library import shipped_courses
+from station.drills.mastery.agenda import Turn, next_turn, other_turn
 from station.drills.mastery.mastery_json import document_of, state_from
 from station.drills.mastery.mastery_state import ItemState
+from station.drills.mastery.rules import DEFAULT_RULES
 from station.practice.records.kept_json import kept_document, recalled
-from station.practice.records.lesson_order import ahead_of
+from station.practice.records.lesson_order import ahead_of, followed_course
 from station.practice.records.lesson_progress import progress_of
 from station.practice.records.session_files import folder_name, student_folder, write_document
-from station.practice.records.teachers_wishes import NO_WISHES, Wishes
+from station.practice.records.teachers_wishes import NO_WISHES, Wishes, wishes_of
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
@@ -136,6 +140,15 @@ class Remembered:
         ahead = ahead_of(followed.lesson, self.course, progress_of([*others, here]), followed.struggles, asked)
         return next_turn(here, others, followed.today, followed.rules, ahead)
 
+    def other_turn(self) -> Turn | None:
+        """Another lesson that the student may turn to; None where nothing is remembered, or there is none."""
+        if self.memory is None:
+            return None
+        here = self.adaptation
+        known = _all_in(self.memory.path.parent)
+        asked = self.wishes.next(known, here.today, here.rules)
+        return _other(here.lesson, self.course, known, here.today, asked)
+
     def keep(self) -> None:
         """Remember what was learnt; raises `DeviceError`."""
         if self.memory is None:
@@ -144,6 +157,31 @@ class Remembered:
         if self.adaptation.has_grown:
             levels = LevelMemory(self.memory.path.with_name(LEVELS_NAME))
             levels.keep(self.adaptation.lesson.name, self.adaptation.next_level)
+
+
+def following_lesson(settings: Settings, lesson: Lesson, today: date) -> Turn | None:
+    """The lesson to turn to after `lesson`: due, asked for, next in the course, or begun; None where there is none.
+
+    Who follows no course goes on in the first that ships with the lesson.
+    """
+    known = remembered(settings.sessions_dir, settings.student)
+    asked = wishes_of(settings, today).next(known, today, DEFAULT_RULES)
+    return _other(lesson, followed_course(settings), known, today, asked)
+
+
+def _other(
+    lesson: Lesson, course: Course | None, known: Sequence[ItemState], today: date, asked: Asked | None
+) -> Turn | None:
+    asked = None if asked is not None and asked.item.name == lesson.name else asked
+    ahead = ahead_of(lesson, _course_with(lesson, course), progress_of(known), struggles=False, asked=asked)
+    return other_turn([state for state in known if state.item.name != lesson.name], today, ahead=ahead)
+
+
+def _course_with(lesson: Lesson, followed: Course | None) -> Course | None:
+    """The course that is followed, where it has the lesson, else the first that ships and has it."""
+    if followed is not None and lesson.name in followed.lesson_names:
+        return followed
+    return next((course for course in shipped_courses() if lesson.name in course.lesson_names), None)
 
 
 def remembered(sessions: Path, student: str) -> list[ItemState]:

@@ -98,7 +98,7 @@ def save(
 ) -> SessionRecord:
     """Keep a session that is over; where the tempo has `followed` the student the report tells of every pass."""
     if followed is not None:
-        document = with_mastery(document, followed.adaptation, followed.next_turn())
+        document = with_mastery(document, followed.adaptation, followed.next_turn(), followed.other_turn())
     fault = None
     try:
         folder.write(result, document)

@@ -18,11 +18,13 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_MS, NS_PER_S, ms_from_ns
 from station.devices.mapping.device_file import own_kit
 from station.drills.lesson import Goals
+from station.drills.mastery.agenda import Turn
 from station.engine.engine import KEYBOARD
 from station.practice.lag.lag_document import lag_document
 from station.practice.lag.session_lag import LagAnswer, SessionLag
 from station.practice.records.assigned_lessons import assigned_by
 from station.practice.records.mastery_report import passes_text
+from station.practice.records.next_steps import next_steps, steps_document
 from station.practice.records.phase_words import phase_document, phase_lines
 from station.practice.records.stick_words import sticking_lines, sticks_document, sticks_text
 from station.practice.records.tempo_report import clean_up_to, tempo_rows, tempo_text
@@ -57,11 +59,17 @@ def kit_facts(settings: Settings, device: str | None = None) -> KitFacts:
     return KitFacts(MappingProxyType(thresholds), max(settings.mask_ms, deaf_ms))
 
 
-def practice_document(result: SessionResult, settings: Settings, lag: SessionLag | None = None) -> dict[str, Json]:
-    """The report of a session and its `lag`; computer keys have no velocity, so of them nothing is said of dynamics."""
+def practice_document(
+    result: SessionResult, settings: Settings, lag: SessionLag | None = None, following: Turn | None = None
+) -> dict[str, Json]:
+    """The report of a session and its `lag`; computer keys have no velocity, so of them nothing is said of dynamics.
+
+    `following` is the lesson to turn to after it (`memory.following_lesson`), None where nobody knows one.
+    """
     plan = result.plan
     document = assessment(summarise(result.score, result.performance, result.alignment, session_view(result, settings)))
     measured, tempi = measured_session(result, document["score"]), tempo_rows(result)
+    steps = next_steps(document, plan, measured, following, result.complete)
     given = assigned_by(settings.sessions_dir, settings.student, plan.lesson.name)
     document["session"] = {
         "lesson": plan.lesson.name,
@@ -88,7 +96,8 @@ def practice_document(result: SessionResult, settings: Settings, lag: SessionLag
         ],
         "unheard": unheard_rows(result),
         "goals_missed": missed_document(plan, measured),
-        "next": [*what_next(document, plan, measured)],
+        "next": [*what_next(document, plan, measured, steps[0])],
+        "steps": steps_document(steps),
         "assignments": [taken.id for taken in given],
         "teacher": [words for taken in given for name, words in taken.said if name == plan.lesson.name],
     }

@@ -8,10 +8,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from math import ceil, floor
 
+from station.core.units import PPQ
 from station.drills.mastery.goals_missed import Miss, missed_goals
 from station.drills.mastery.pass_measures.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.rules import Rules
 from station.engine.engine import KEYBOARD
+from station.practice.records.next_steps import SAME_TEMPO, NextStep, StepKind, next_steps, title_of
 from station.practice.records.said_already import says_so
 from station.practice.session.plan import Plan
 from station.practice.session.session import SessionResult
@@ -38,8 +40,13 @@ def _rules(plan: Plan) -> Rules:
     return Rules().for_lesson(plan.lesson, plan.level)
 
 
-def what_next(document: dict[str, Json], plan: Plan, measured: PassResult) -> tuple[str, ...]:
-    """At least one sentence for whoever practised `plan`; `document` is the assessment, `measured` all passes."""
+def what_next(
+    document: dict[str, Json], plan: Plan, measured: PassResult, first: NextStep | None = None
+) -> tuple[str, ...]:
+    """At least one sentence for whoever practised `plan`; `document` is the assessment, `measured` all passes.
+
+    `first` is the step that is offered first (`next_steps`), by default that of who has no other lesson to turn to.
+    """
     counts = table_in(document, "counts")
     if not counts["notes"]:
         return (_NOTHING_PLAYED,)
@@ -48,7 +55,8 @@ def what_next(document: dict[str, Json], plan: Plan, measured: PassResult) -> tu
     missed = missed_goals(measured, _rules(plan))
     if advice := advice_of(document):
         return (*advice, *_besides(document, missed))[:MOST_STEPS]
-    return (missed[0].sentence if missed else _go_on(plan, measured),)
+    first = first or next_steps(document, plan, measured)[0]
+    return (missed[0].sentence if missed else _go_on(plan, measured, first),)
 
 
 def _besides(document: dict[str, Json], missed: Iterable[Miss]) -> Iterator[str]:
@@ -89,17 +97,23 @@ def _with_hint(advice: dict[str, Json]) -> str:
     return f"{advice['text']} {advice['hint']}" if advice.get("hint") else str(advice["text"])
 
 
-def _go_on(plan: Plan, measured: PassResult) -> str:
+def _go_on(plan: Plan, measured: PassResult, first: NextStep) -> str:
     rules, spread_ms = _rules(plan), measured.sd_ms or 0.0
-    below = plan.tempo_bpm < plan.lesson.target_tempo_bpm * (1 - _SAME_TEMPO)
     limit_ms = rules.sd_limit_ms(measured.interval_ms)
     why = f" (a spread of {ceil(spread_ms)} ms is within the {floor(limit_ms)} of a clean pass)"
     reason = why if spread_ms > rules.sd_floor_ms else ""  # who lies closer together does not ask
-    return f"Nothing stands out{reason}: {'raise the tempo' if below else 'take the next lesson, or raise the tempo'}."
+    return f"Nothing stands out{reason}: {_onwards(plan, first)}."
 
 
-_SAME_TEMPO = 0.01
-"""Tempi that nobody tells apart (our choice)."""
+def _onwards(plan: Plan, first: NextStep) -> str:
+    """The first step in the middle of a sentence."""
+    if first.kind is StepKind.LESSON:
+        return f"take the next lesson, {title_of(first.lesson)}"
+    if first.kind is StepKind.TEMPO and first.tempo_bpm is not None:
+        has_arrived = plan.tempo_bpm >= plan.lesson.target_tempo_bpm * (1 - SAME_TEMPO)
+        beats = f"raise the tempo to {first.tempo_bpm * PPQ / plan.lesson.beat_ticks:.0f} bpm"
+        return f"take the next lesson, or {beats}" if has_arrived else beats
+    return first.why or "once more"
 
 
 def table_in(of: dict[str, Json], key: str) -> dict[str, Json]:

@@ -141,6 +141,14 @@ class Adaptation:
         return self.lesson.levels.after(self.level) if is_held else self.level
 
     @property
+    def next_time(self) -> PracticeStep:
+        """The first pass of a session that goes on today from where this one ended."""
+        if self.options.tempo_bpm is not None:
+            return self.step
+        level = self.next_level
+        return begin(self.state.at_level(level), self.today, self._rules_at(level)).step
+
+    @property
     def has_grown(self) -> bool:
         """Whether the next session is judged more strictly than this one."""
         return self.next_level is not self.level

@@ -12,9 +12,11 @@ import numpy as np
 
 from station.core.events import Choke, Hit
 from station.core.pieces import Limb
+from station.core.units import PPQ
 from station.music.judgement import Judgement, Label
 from station.music.performance import Performance
 from station.music.score import Score
+from station.scoring.analysis.entries import STEADY_HITS, is_right_there
 from station.scoring.following.follower import Follower
 from station.scoring.matching.unheard import Span, notes_within
 
@@ -64,8 +66,21 @@ class Judging:
 
     @property
     def beats_behind(self) -> float:
-        """Quarters by which the student is behind the click and plays on, as far as the hits show; negative ahead."""
-        return self._follower.beats_behind
+        """Quarters by which the student came in behind the click and plays on there; negative ahead of it.
+
+        Whole bars are told where nothing was played before: else bars were left out or are played again.
+        """
+        quarters = self._follower.beats_behind
+        if not quarters or not self.hits:
+            return 0.0
+        last = range(max(len(self.hits) - STEADY_HITS, 0), len(self.hits))
+        labels = [self.of_hit[hit].label for hit in last if hit in self.of_hit]
+        is_steady = len(labels) >= STEADY_HITS // 2 and is_right_there(labels)
+        tempo_map = self._score.tempo_map
+        is_whole = quarters * PPQ % tempo_map.meter_at(0).bar_ticks == 0
+        due_ns = int(tempo_map.ns_at(max(round(quarters * PPQ) - PPQ // 2, 0)))
+        is_late = quarters > 0 and self.hits[0].at_ns >= due_ns
+        return quarters if is_steady and (is_late or not is_whole) else 0.0
 
     @property
     def pace(self) -> float:

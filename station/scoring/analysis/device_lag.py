@@ -7,14 +7,15 @@ clock bear,
 
     e² = s²/n · (1 + ρ)/(1 − ρ),    ρ = lag-1 of the moments, bias put back, at least .35 (HUMANS: .21 to .45),
 
-and each pad in it likewise. Over runs of beats b_i a line is fitted by least squares of weights 1/e_i²,
+and each pad in it likewise. L is the mean over runs, by 1/e². Over their beats b_i a line is fitted by least squares,
+weighed by their covariance: e_i², and where there are several takes 11² between runs of one, which share the player's
+stand of that day (HUMANS: static lean),
 
     m_i = L + g·(b_i − b̄),
 
 whose rise between the slowest and the fastest tempo is D = g·(b_max − b_min). A lag of the equipment has D = 0, one
 that is a share of the beat D = L·(b_max − b_min)/b̄; A = L − g·b̄, what is left of the line at a beat of nothing, is
-what no share of the beat explains. Takes of different sessions have a stand of their own each, of 11 ms (HUMANS:
-static lean), which their e bears. With intervals of 95 % (of pads 99 %, for there are some four), and not bare figures:
+what no share of the beat explains. With intervals of 95 % (of pads 99 %: there are some four), and not bare figures:
 
 * a habit by tempo where D lies wholly beyond ±10 ms, and A may lie where people stand beside a click;
 * a habit by pad where a pad less the others lies wholly beyond ±10 ms, and the least late pad stands where people do;
@@ -244,8 +245,6 @@ def shared_lag(runs: Iterable[LagRun]) -> SharedLag:
     known = [run for run in runs if run.whole.moments >= LEAST_MOMENTS]
     if not known:
         return NO_LAG
-    if len({run.take for run in known}) > 1:
-        known = [replace(run, whole=_moved_by_take(run.whole)) for run in known]
     line, pads = _line(known), _pads(known)
     apart = _apart(pads)
     found = SharedLag(
@@ -258,10 +257,6 @@ def shared_lag(runs: Iterable[LagRun]) -> SharedLag:
         pads=len(pads),
     )
     return replace(found, cause=_cause(found, line, pads))
-
-
-def _moved_by_take(mean: LagMean) -> LagMean:
-    return replace(mean, error_ms=math.hypot(mean.error_ms, _TAKE_SD_MS))
 
 
 def _cause(found: SharedLag, line: "_Line", pads: Mapping[Piece, LagMean]) -> LagCause:
@@ -311,19 +306,30 @@ class _Line:
 
 def _line(runs: Sequence[LagRun]) -> _Line:
     """Fitted to the tempi of `runs`; of tempi that are one nothing rises, and nothing is known at a beat of nothing."""
-    lag, beats = _pooled([run.whole for run in runs]), np.array([run.beat_ms for run in runs])
+    beats, means = (
+        np.array(column) for column in zip(*((run.beat_ms, run.whole.mean_ms) for run in runs), strict=True)
+    )
+    weights = np.linalg.inv(_covariance(runs))
+    lag = _pooled([run.whole for run in runs])
     if beats.max() < LEAST_APART * beats.min():
         return _Line(lag, None, (-math.inf, math.inf), 0.0)
-    weights = np.array([1.0 / run.whole.variance for run in runs])
-    middle, span = float(weights @ beats / weights.sum()), float(beats.max() - beats.min())
+    middle, span = float(weights.sum(axis=0) @ beats / weights.sum()), float(beats.max() - beats.min())
     off = beats - middle
-    square = float(weights @ off**2)
-    slope = float((weights * off) @ np.array([run.whole.mean_ms for run in runs])) / square
+    square = float(off @ weights @ off)
+    slope = float(off @ weights @ means) / square
     rise, half = slope * span, lag.t * span / math.sqrt(square)
     rest, rest_half = lag.mean_ms - slope * middle, lag.t * math.hypot(lag.error_ms, middle / math.sqrt(square))
-    return _Line(
-        lag, (rise, rise - half, rise + half), (rest - rest_half, rest + rest_half), lag.mean_ms * span / middle
-    )
+    share = lag.mean_ms * span / middle
+    return _Line(lag, (rise, rise - half, rise + half), (rest - rest_half, rest + rest_half), share)
+
+
+def _covariance(runs: Sequence[LagRun]) -> Floats:
+    """Of the means of `runs` (k, k) in ms²: each its own error, those of a take the stand that they share."""
+    takes = np.array([run.take for run in runs])
+    own = np.diag([run.whole.variance for run in runs])
+    if (takes == takes[0]).all():  # what a single stand is can be told from nothing
+        return own
+    return np.asarray(own + _TAKE_SD_MS**2 * (takes[:, None] == takes))
 
 
 def _pads(runs: Sequence[LagRun]) -> Mapping[Piece, LagMean]:

@@ -5,12 +5,14 @@ strokes are judged where they are meant, so that a late entry is one fault and n
 then had no time for is `passed`: its notes are missed, and named by the entry alone. Without a click there is no entry.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import PPQ
+from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import Score
 from station.scoring.matching.alignment import Alignment, Reference
@@ -22,6 +24,11 @@ LEAST_BEATS = 0.4
 
 _EARLY_TICKS = PPQ // 8
 """A stroke so little before a bar belongs to it (our choice, as where a jump lands in `journey`)."""
+
+STEADY_SHARE, STEADY_HITS = 0.7, 16
+"""So much of what is played beside the click is right there, else it is no entry but something else that is played: of
+another lesson's strokes a quarter are, of a beginner's more than eight in ten (benchmarks/late_entries.py). While it is
+played as many strokes are looked at, and half as many at least (our choice: two bars of eighths)."""
 
 _STRAYS = 3
 """Strokes of before the beginning that are not yet a beginning (our choice)."""
@@ -52,29 +59,41 @@ def entries(score: Score, performance: Performance, alignment: Alignment) -> tup
         return ()
     found, before = list[Entry](), 0.0
     for first, hits in _runs(alignment):
-        quarters = _behind(score, performance, alignment, hits)
+        behind = _behind(score, performance, alignment, hits)
         place = int(score.tempo_map.ticks_at_ns(max(int(alignment.hit_score_ns[first]), 0))) + _EARLY_TICKS
         bar_quarters = score.tempo_map.meter_at(place).bar_ticks / PPQ
-        bars = quarters / bar_quarters
-        is_whole = abs(bars - round(bars)) < _WHOLE and not _is_beginning(score, performance, first, quarters)
-        is_new = abs(quarters - before) >= LEAST_BEATS
-        if is_new and abs(quarters) >= LEAST_BEATS and not is_whole and bars > -1 - _WHOLE:
-            bar = min(int(score.tempo_map.bars_at(place)), score.bar_count - 1)
-            found.append(Entry(first, bar, quarters, len(hits)))
-        before = quarters
+        quarters = behind - round(before / bar_quarters) * bar_quarters  # against the bars that were left out or again
+        if abs(behind - before) >= LEAST_BEATS and abs(quarters) >= LEAST_BEATS:
+            is_entry = _is_entry(score, performance, first, quarters, bar_quarters)
+            if is_entry and is_right_there(alignment.hit_label[hits].tolist()):
+                bar = min(int(score.tempo_map.bars_at(place)), score.bar_count - 1)
+                found.append(Entry(first, bar, quarters, len(hits)))
+        before = behind
     return tuple(found)
 
 
+def is_right_there(labels: Sequence[int]) -> bool:
+    """Whether strokes that were judged so are played where they are judged."""
+    return sum(label == Label.MATCH for label in labels) >= STEADY_SHARE * max(len(labels), 1)
+
+
+def _is_entry(score: Score, performance: Performance, first: int, quarters: float, bar_quarters: float) -> bool:
+    """Whether a run from hit `first` on is one that came in so late: no more than a bar, but at the beginning."""
+    bars = quarters / bar_quarters
+    if quarters > 0 and _is_beginning(score, performance, first, quarters):
+        return True
+    is_whole = abs(bars - round(bars)) < _WHOLE
+    return abs(bars) < 1 + _WHOLE and (not is_whole or (quarters < 0 and first <= _STRAYS))
+
+
 def _is_beginning(score: Score, performance: Performance, first: int, quarters: float) -> bool:
-    """Whether nothing was played before the run that begins with hit `first`, or before its player could be due.
+    """Whether the run that begins with hit `first` is the beginning: nothing was played before it could be due.
 
     In a loop of bars that are alike the first strokes of who is a bar late fit the second bar as well.
     """
-    if first <= _STRAYS:
-        return True
     due_ns = int(score.tempo_map.ns_at(max(round(quarters * PPQ) - PPQ // 2, 0)))
     written, played = (int((at_ns < due_ns).sum()) for at_ns in (score.onset_ns, performance.hits["at_ns"]))
-    return played <= _STRAYS < written
+    return played <= _STRAYS and (first <= _STRAYS or written > _STRAYS)
 
 
 def _runs(alignment: Alignment) -> list[tuple[int, NDArray[np.int64]]]:

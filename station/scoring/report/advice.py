@@ -72,10 +72,15 @@ def _remark(finding: Finding, summary: Summary) -> Advice:
         stops=stops,
         at=stops and f" in {stops}",
         tempo=tempo,
-        slow=SLOWER * tempo,
+        slow=_slower(tempo),
     )
     drill, hint = _drill(finding, tempo), summary.view.hints.get(finding.fault, "")
     return Advice(finding.fault, text, bars, finding.effect, finding.ci, finding.alternatives, drill, hint)
+
+
+def _slower(tempo: float) -> float:
+    """The tempo to practise at, in whole beats, as the sentence says it."""
+    return float(round(SLOWER * tempo))
 
 
 def _row_of(fault: str) -> str:
@@ -113,4 +118,4 @@ def _drill(finding: Finding, tempo: float) -> Drill:
     alone = [limb for limb in _LIMBS if finding.fault.endswith(limb)]
     if finding.fault in PIECE_WORDS:
         alone = ["hihat_pedal" if finding.fault in FAULTS else finding.fault.partition("_")[2]]
-    return Drill(bars, round(tempo if finding.fault in _AT_TEMPO else SLOWER * tempo, 1), tuple(alone))
+    return Drill(bars, round(tempo, 1) if finding.fault in _AT_TEMPO else _slower(tempo), tuple(alone))

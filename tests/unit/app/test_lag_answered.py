@@ -95,6 +95,29 @@ def test_left_in_it_counts_and_nobody_asks_again(tmp_path: Path) -> None:
     again.close()
 
 
+def test_sessions_before_it_on_the_same_devices_make_it_surer(tmp_path: Path) -> None:
+    widths = []
+    for seed in (4, 5):
+        station = played(tmp_path, 100.0, seed)
+        low_ms, high_ms = document(station)["lag"]["ci"]
+        widths.append(high_ms - low_ms)
+        station.close()
+        for folder in (tmp_path / "student").iterdir():  # the next one is on another day
+            if not folder.name.startswith("2001"):
+                folder.rename(folder.with_name(f"2001-01-01T10-00-0{seed}_first-groove"))
+    assert document_lag(tmp_path)["answer"] == "open"
+    once = document_lag(tmp_path)["runs"]
+    assert [round(run["tempo_bpm"]) for run in once] == [100, 60], "its own runs alone are kept"
+    assert widths[1] < widths[0]
+
+
+def document_lag(sessions: Path) -> dict[str, Any]:
+    """The lag in the last report."""
+    last = sorted(sessions.glob("student/*/report.json"))[-1]
+    lag: dict[str, Any] = json.loads(last.read_text())["lag"]
+    return lag
+
+
 def test_the_terminal_finds_the_lag_that_the_last_session_left_open(tmp_path: Path) -> None:
     station = played(tmp_path / "a", 100.0)
     settings = station.view().settings

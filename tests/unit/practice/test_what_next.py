@@ -54,21 +54,21 @@ SWUNG = replace(find_lesson("shuffle-1"), goals=Goals(target_tempo_bpm=300.0))  
 @pytest.mark.parametrize(
     ("made", "goals", "said"),
     [
-        (measured(), {}, "raise the tempo."),
+        (measured(), {}, "raise the tempo to 86 bpm."),
         (measured(89), {}, "89 % of the notes were right, 90 % are the goal"),
         (measured(94), {"min_accuracy": 0.95}, "94 % of the notes were right, 95 % are the goal"),
-        (measured(94), {"min_accuracy": 0.94}, "raise the tempo."),
+        (measured(94), {"min_accuracy": 0.94}, "raise the tempo to 86 bpm."),
         (measured(extras=20), {}, "83 % of the notes were right (20 strokes too many count as notes left out), 90 %"),
         (measured(96, wrong_pads=3), {}, "3 strokes went to a wrong pad and 2 may"),
         (measured(sd_ms=35.5), {}, "spread by 36 ms and 35 are the goal"),
-        (measured(sd_ms=25.5), {}, "a spread of 26 ms is within the 35 of a clean pass): raise the tempo."),
+        (measured(sd_ms=25.5), {}, "a spread of 26 ms is within the 35 of a clean pass): raise the tempo to 86 bpm."),
         (measured(sd_ms=25.4), {"max_sd_ms": 24.0}, "spread by 25 ms and 24 are the goal"),
-        (measured(sd_ms=25.5), {"max_sd_ms": 30.0}, "raise the tempo."),
-        (measured(sd_ms=None), {}, "raise the tempo."),
-        (measured(lean_ms=-12.5), {}, "raise the tempo."),
+        (measured(sd_ms=25.5), {"max_sd_ms": 30.0}, "raise the tempo to 86 bpm."),
+        (measured(sd_ms=None), {}, "raise the tempo to 86 bpm."),
+        (measured(lean_ms=-12.5), {}, "raise the tempo to 86 bpm."),
         (measured(lean_ms=-12.4), {"max_lean_ms": 10.0}, "12 ms early on average and the lesson allows 10"),
         (measured(), {"min_score": 95.0}, "The score is 90 and 95 is the goal"),
-        (measured(loudness_error_db=4.21), {}, "raise the tempo."),
+        (measured(loudness_error_db=4.21), {}, "raise the tempo to 86 bpm."),
         (measured(loudness_error_db=4.21), {"max_loudness_error_db": 4.0}, "4.3 dB off the written loudness"),
     ],
 )
@@ -79,8 +79,8 @@ def test_what_is_said(made: PassResult, goals: dict[str, float | None], said: st
 @pytest.mark.parametrize(
     ("held", "goals", "said"),
     [
-        (1.6, Goals(), "raise the tempo."),
-        (1.6, Goals(max_swing_error=0.4), "raise the tempo."),
+        (1.6, Goals(), "raise the tempo to 85 bpm."),
+        (1.6, Goals(max_swing_error=0.4), "raise the tempo to 85 bpm."),
         (1.59, Goals(max_swing_error=0.4), "You swing 1.59:1, 2.00:1 is written and the lesson allows 0.4"),
     ],
 )
@@ -181,7 +181,10 @@ def test_the_spread_of_a_clean_pass_depends_on_the_tempo(tempo_bpm: float, limit
 
 
 def test_at_the_goal_the_next_lesson_comes_first() -> None:
-    assert said_of(measured(), lesson(), 110.0) == "Nothing stands out: take the next lesson, or raise the tempo."
+    assert (
+        said_of(measured(), lesson(), 110.0)
+        == "Nothing stands out: take the next lesson, or raise the tempo to 116 bpm."
+    )
 
 
 def test_a_session_without_a_hit_is_reported() -> None:

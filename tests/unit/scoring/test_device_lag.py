@@ -55,6 +55,16 @@ def test_takes_of_different_days_prove_less() -> None:
     assert shared_lag(days).cause is LagCause.THIN, "the stand of a player moves by 11 ms from take to take"
 
 
+def test_an_earlier_day_takes_nothing_from_two_tempi_of_one_session() -> None:
+    today = [LagRun(each.tempo_bpm, each.whole, each.pads, "today") for each in (run(60, 100), run(100, 98))]
+    before = LagRun(80.0, LagMean(24, 88.0, 6.0), run(80, 88).pads, "before")
+    alone, both = shared_lag(today), shared_lag([*today, before])
+    assert alone.cause is both.cause is LagCause.EQUIPMENT
+    assert alone.rise_ms is not None
+    assert both.rise_ms is not None
+    assert both.rise_ms[2] - both.rise_ms[1] <= alone.rise_ms[2] - alone.rise_ms[1] + 1e-9
+
+
 def test_nothing_played_is_no_lag() -> None:
     assert shared_lag([]).cause is LagCause.NONE
 

@@ -11,6 +11,7 @@ from station.core.events import Hit
 from station.core.units import NS_PER_S, PPQ
 from station.music.judgement import Label
 from station.music.performance import Performance
+from station.practice.session.judging import Judging
 from station.scoring.align import align
 from station.scoring.analysis.entries import in_words
 from station.scoring.analysis.summary import Summary, summarise
@@ -144,3 +145,14 @@ def test_who_sits_out_the_first_bar_of_a_loop_and_plays_its_passes_came_in_a_bar
     performance = Performance.from_hits([hit for hit in hits if hit.at_ns <= loop.length_ns + NS_PER_S])
     (said, *_) = advise(summarise(loop, performance, align(loop, performance, clocked=True)))
     assert said.fault in ("came_in_late", "left_out_bars")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_who_plays_something_else_came_in_nowhere(seed: int) -> None:
+    """Other bars on the click, of the same pieces: wrong as they are, and no entry."""
+    other = through_composed(BARS, 120.0, 40 + seed)
+    hits = [stroke.hit for stroke in travel(other, [Leg(0, BARS)], seed, SLIPS).strokes]
+    assert not {one.fault for one in advise(judged(hits))} & {"came_in_late", "came_in_early"}
+    judging = Judging(SCORE, clocked=True)
+    told = [judging.beats_behind for hit in hits if judging.hit(hit) is not None]
+    assert not any(told)

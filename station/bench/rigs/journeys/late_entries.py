@@ -51,18 +51,28 @@ class EntryTake:
     can_be_told: bool
 
 
-def lesson_take(seed: int) -> EntryTake:
-    """A take of a shipped lesson that was drawn by `seed`: bars, passes, level and shift."""
+def lesson_take(seed: int, level: str = "", shift: str = "") -> EntryTake:
+    """A take of a shipped lesson: bars and passes drawn by `seed`, and `level` and `shift` where they are not said."""
     rng = np.random.default_rng([seed, 1])
     names = lesson_names()
     lesson = find_lesson(names[int(rng.integers(len(names)))])
     bars = min(int(rng.choice([1, 2, 4])), lesson.score.bar_count)
     first = int(rng.integers(lesson.score.bar_count - bars + 1))
     score = lesson.score.bars(first, first + bars - 1).repeated(int(rng.integers(2, 5)))
-    level = str(rng.choice(list(LEVELS)))
+    level = level or str(rng.choice(list(LEVELS)))
     spec: StudentSpec = replace(LEVELS[level], seed=seed)
     played = VirtualStudent(spec).play(score).performance
-    return _shifted(lesson.name, level, str(rng.choice(SHIFTS)), score, played, lesson.beat_ticks)
+    return _shifted(lesson.name, level, shift or str(rng.choice(SHIFTS)), score, played, lesson.beat_ticks)
+
+
+OTHER = "another lesson"
+"""Who plays something else than the score, as an intermediate player, on the click."""
+
+
+def other_take(seed: int) -> EntryTake:
+    """The strokes of one lesson over the score of another."""
+    one, other = (lesson_take(k, "intermediate", "0") for k in (2 * seed, 2 * seed + 1))
+    return replace(one, level=OTHER, performance=other.performance)
 
 
 def gmd_entries(seed: int) -> Iterator[EntryTake]:

@@ -6,6 +6,7 @@ from imgui_bundle import imgui
 
 from station.app.actions.action import Action
 from station.app.actions.sound_actions import ChooseDrums, HearDrums, LookForSounds
+from station.app.sound.kit_shelf import KitCard
 from station.app.sound.sound_page import SoundView
 from station.gui import theme
 from station.gui.file_chooser import FolderChooser, has_file_chooser
@@ -43,10 +44,11 @@ class DrumsPart:
         if view.shelf is None:
             theme.soft("Looking what there is…")
             return
-        for card in view.shelf.kits:
-            self._kit(card.name, card.about, card.place, drums)
-        if drums not in {card.name for card in view.shelf.kits}:
-            self._kit(drums, "A folder or file of your own", "", drums)
+        cards = view.shelf.kits
+        if drums not in {card.name for card in cards}:
+            cards = (*cards, KitCard(drums, "A folder or file of your own"))
+        for card in cards:
+            self._kit(card, drums, view.is_awaited and view.tried == card.name)
         theme.part("A kit of your own")
         imgui.set_next_item_width(-1)
         flags = imgui.InputTextFlags_.enter_returns_true
@@ -67,10 +69,10 @@ class DrumsPart:
             self._dispatch(LookForSounds())
         theme.tooltip("Kits that were put into the folder kits of the station's data are listed by their names")
 
-    def _kit(self, name: str, about: str, place: str, drums: str) -> None:
-        if theme.radio_button(f"{name}##kit-{name}", name == drums):
-            self._dispatch(ChooseDrums(name))
-        self._trial.item(f"drums {name}", HearDrums(name))
-        if place:
-            theme.tooltip(place)
-        theme.soft(about)
+    def _kit(self, card: KitCard, drums: str, is_awaited: bool) -> None:
+        if theme.radio_button(f"{card.name}##kit-{card.name}", card.name == drums):
+            self._dispatch(ChooseDrums(card.name))
+        self._trial.item(f"drums {card.name}", HearDrums(card.name))
+        if card.place:
+            theme.tooltip(card.place)
+        theme.soft("Getting it ready…" if is_awaited else card.about)

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from station.app.sound.click_flash import DARK, FLASH_NS, ClickFlash
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.engine.messages import Play, Started, Stop
 from station.music.tempo import MeterChange, TempoChange, TempoMap
+from station.practice.session.cues.click_flash import DARK, FLASH_NS, ClickFlash
 from station.practice.session.cues.click_pattern import ClickPattern, click_cues
 
 ZERO_NS = 5 * NS_PER_S
