@@ -30,6 +30,8 @@ LEAD_S = 1.0
 """Motion begins so long before its first bar, so that the first preparation is there; our choice."""
 AHEAD_S = 4.0
 """Motion knows of the strokes so long after its end: a bar at 60 bpm (our choice; a hand prepares for a second)."""
+MOST_BEYOND = 2_000
+"""So many strokes may come later and are planned for all the same (our choice: it costs a second)."""
 RING_S = 1.0
 """A video goes on so long after the score's end, so that what rings is heard; our choice."""
 MOST_LOOP_S = 60.0
@@ -177,9 +179,10 @@ def _span(score: Score, options: AnimateOptions, ring_s: float) -> tuple[float, 
 
 
 def as_far_as_asked(score: Score, options: AnimateOptions) -> Score:
-    """The strokes that the motion shows, and those that it is already on its way to: over the bars of `score`."""
+    """Of a score that goes on for very long the strokes that are shown, and those soon after, over the same bars."""
     start_s, length_s = _span(score, options, 0.0)
-    return score.until_ns(ns_from_s(start_s + length_s + AHEAD_S))
+    near = score.until_ns(ns_from_s(start_s + length_s + AHEAD_S))
+    return near if len(score) - len(near) > MOST_BEYOND else score
 
 
 def _check_fps(options: AnimateOptions) -> None:
