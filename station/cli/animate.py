@@ -14,7 +14,7 @@ from station.cli.drummer_options import assigned, drums_of, led_score
 from station.cli.input.read_scores import words_of
 from station.cli.options.option_fields import Command
 from station.core.errors import BadInput
-from station.core.units import NS_PER_S
+from station.core.units import NS_PER_S, ns_from_s
 from station.motion.drummer import Drummer
 from station.motion.kinematics.figure import GREATEST_STATURE_M, LEAST_STATURE_M, Figure, figure_of
 from station.motion.motion_plan import MotionPlan
@@ -28,6 +28,10 @@ from station.scenes.score_words import ScoreWords
 MIN_FPS, MAX_FPS = 1.0, 1000.0
 LEAD_S = 1.0
 """Motion begins so long before its first bar, so that the first preparation is there; our choice."""
+AHEAD_S = 4.0
+"""Motion knows of the strokes so long after its end: a bar at 60 bpm (our choice; a hand prepares for a second)."""
+MOST_BEYOND = 2_000
+"""So many strokes may come later and are planned for all the same (our choice: it costs a second)."""
 RING_S = 1.0
 """A video goes on so long after the score's end, so that what rings is heard; our choice."""
 MOST_LOOP_S = 60.0
@@ -52,6 +56,8 @@ def run(options: AnimateOptions) -> int:
     style, words = _directed(propose_style(score) if options.style == PROPOSED else load_style(options.style), options)
     if ending == _LOOP:
         score, style = _looped(whole, style, options)
+    if ending in WRITERS:
+        score = as_far_as_asked(score, options)
     plan = _planned(score, style, options)
     drummer = Drummer(score, plan.kit, plan.figure, style, plan)
     if ending in WRITERS:
@@ -170,6 +176,13 @@ def _span(score: Score, options: AnimateOptions, ring_s: float) -> tuple[float, 
     start_s, end_s = score.tempo_map.seconds_at([first, last]).tolist()
     length_s = end_s - start_s + LEAD_S + (ring_s if last >= score.end_tick else 0.0)
     return start_s - LEAD_S, length_s if most_s is None else min(length_s, most_s)
+
+
+def as_far_as_asked(score: Score, options: AnimateOptions) -> Score:
+    """Of a score that goes on for very long the strokes that are shown, and those soon after, over the same bars."""
+    start_s, length_s = _span(score, options, 0.0)
+    near = score.until_ns(ns_from_s(start_s + length_s + AHEAD_S))
+    return near if len(score) - len(near) > MOST_BEYOND else score
 
 
 def _check_fps(options: AnimateOptions) -> None:

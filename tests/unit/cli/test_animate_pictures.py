@@ -7,8 +7,11 @@ import numpy as np
 import pytest
 
 from station.app.equipment.diagnostics import check_video
+from station.cli.animate import AHEAD_S, as_far_as_asked
+from station.cli.animation.animate_options import AnimateOptions
 from station.cli.command_line import main
 from station.cli.console import progress_line
+from station.cli.options.option_fields import read_options
 from station.drills.library import find_lesson
 from station.scenes.film import FilmLoop
 from tests.fakes.sound_files import stroke
@@ -110,3 +113,14 @@ def test_progress_tells_how_much_is_left() -> None:
     assert progress_line(100, 400, 10.0) == "███████" + "░" * 23 + "  25 %  100 of 400 pictures, 10 a second, 30 s left"
     assert progress_line(600, 12_000, 10.0).endswith("5 %  600 of 12000 pictures, 60 a second, 3 min 10 s left")
     assert "left" not in progress_line(3, 400, 0.2)
+
+
+def test_of_an_hour_of_strokes_motion_is_planned_as_far_as_it_is_asked_for() -> None:
+    options = read_options(AnimateOptions, ["rock-1", "--out", "x.npz", "--seconds", "3"])
+    hour = find_lesson("rock-1").score.repeated(600)
+    near = as_far_as_asked(hour, options)
+    assert near.end_tick == hour.end_tick
+    assert float(near.onset_s.max()) < 3.0 + AHEAD_S
+    assert near.notes.tobytes() == hour.notes[: len(near)].tobytes()
+    minutes = hour.bars(0, 99)
+    assert as_far_as_asked(minutes, options) is minutes  # as ever

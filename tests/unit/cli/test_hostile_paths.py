@@ -195,7 +195,7 @@ def _sample(word: Word, shelf: Path, out: Path) -> Path | str:
 
 
 ENDING = {
-    ("animate",): ".png",
+    ("animate",): ".npz",
     ("sheet",): ".pdf",
     ("limbs",): ".txt",
     ("assess",): ".csv",
