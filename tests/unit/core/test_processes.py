@@ -2,6 +2,8 @@
 
 import os
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from multiprocessing import get_context
 
@@ -38,3 +40,12 @@ def test_a_child_does_not_end_by_ctrl_c(heard: list[int]) -> None:
     assert child.exitcode == 0
     strike_oneself()
     assert heard == [signal.SIGINT], "its parent hears it as before"
+
+
+def test_what_a_library_prints_goes_nowhere_and_our_own_words_are_shown() -> None:
+    program = (
+        "import os, sys; from station.core.processes import silence_libraries; silence_libraries();"
+        " os.write(2, b'CheckRes error'); print('ours', file=sys.stderr)"
+    )
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert ended.stderr == "ours\n"
