@@ -18,11 +18,12 @@ from station.app.sessions.session_control import Launch
 from station.app.settings.settings_store import SettingsStore
 from station.core.clock import Clock, MonotonicClock
 from station.core.measured_latency import load_calibration
-from station.drills.library import find_lesson
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
+from station.practice.lag.first_groove import first_groove
 from station.practice.session.device_latency import latency_of
-from station.practice.session.plan import PlanOptions, plan_practice
+from station.practice.session.leading_hand import hands_of
+from station.practice.session.plan import PlanOptions
 from station.render.snapshot import Snapshot
 from station.simulation.student_spec import StudentSpec
 from tests.gui.drive import NEWCOMER, Drive
@@ -44,10 +45,10 @@ class RealRoom(Drive):
         self, lesson: str, options: PlanOptions, store: SettingsStore, student: StudentSpec | None
     ) -> tuple[Controller, DirectEngine, Clock]:
         """The station as `station` opens it; nothing of its engine is played."""
-        del student
+        del lesson, options, student
         store = SettingsStore(self.settings, {"kit": self.student.device})
         wake = lambda: self._engines.enter_context(EngineSupervisor(EngineConfig.from_settings(store.now)))  # noqa: E731
-        launch = Launch(plan_practice(find_lesson(lesson), options), True, latency_of(store.now, load_calibration()))
+        launch = Launch(first_groove(store.now, hands_of(store.now)), False, latency_of(store.now, load_calibration()))
         nobody = cast("DirectEngine", SimpleNamespace(sent=[]))
         return Controller(ChildPrograms(wake), store, launch), nobody, MonotonicClock()
 
