@@ -59,6 +59,8 @@ class RealRoom(Drive):
 
     def keep(self, ctx: Context, path: Path) -> None:
         """A picture of the screen; what imgui has cut off, or written over itself, is told."""
+        if not imgui.is_any_item_hovered() or "sound" not in path.name:  # a preview stays
+            ctx.mouse_move_to_pos(imgui.ImVec2(imgui.get_io().display_size.x - 3.0, 3.0))
         write_jpeg(self.shot(ctx), path.with_suffix(".jpg"))
         for fault in self.faults:
             sys.stderr.write(f"{path.name}: {fault}\n")

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from time import monotonic
 
 from imgui_bundle import imgui
 from pty_student import CRASH, FLOOR_TOM, HIHAT, KICK, SNARE, TOM_1, Playing
@@ -57,6 +58,19 @@ def home(room: RealRoom, ctx: Context) -> None:
     ctx.yield_(3)
     for page in room.window.pages.tools:
         room.window.params.docking_params.dockable_window_of_name(page.name).is_visible = False
+    ctx.yield_(3)
+
+
+def wait(ctx: Context, seconds: float) -> None:
+    """Let frames pass for so long by the clock; the test engine's own pause takes no time."""
+    until = monotonic() + seconds
+    while monotonic() < until:
+        ctx.yield_()
+
+
+def heard(room: RealRoom, ctx: Context) -> None:
+    """Let frames pass until a pad may choose from what is on the screen."""
+    room.wait_until(ctx, lambda state: state.choice is not None and state.choice.hears)
     ctx.yield_(3)
 
 
@@ -117,16 +131,14 @@ def question(room: RealRoom, ctx: Context) -> None:
     """Whether they rushed, dragged, or were on."""
     practise(room, ctx, Playing("beginner,seed=3,bias_ms=-25", LATE_MS))
     room.wait_until(ctx, lambda state: state.room.stage is Stage.RESULT)
-    ctx.sleep(1.5)
-    ctx.yield_(5)
+    heard(room, ctx)
 
 
 def next_steps(room: RealRoom, ctx: Context) -> None:
     """Answered on a pad: the result, and what comes next on buttons."""
     room.student.strike(SNARE)
     room.wait_until(ctx, lambda state: not state.room.question and state.report is not None)
-    ctx.sleep(2.5)
-    ctx.yield_(5)
+    heard(room, ctx)
 
 
 def step_by_pad(room: RealRoom, ctx: Context) -> None:
@@ -163,12 +175,12 @@ def paused(room: RealRoom, ctx: Context) -> None:
 
 def goes_on(room: RealRoom, ctx: Context) -> None:
     """Two kicks, a bar of count-in, and on."""
-    ctx.sleep(2.5)
+    wait(ctx, 2.5)
     room.student.strike(KICK, KICK, apart_s=0.4)
     room.wait_until(ctx, lambda state: not state.room.paused)
     room.wait_until(ctx, lambda state: state.snapshot is not None and state.snapshot.hud.count_in is None)
     room.wait_until(ctx, judged)
-    ctx.sleep(2.0)
+    wait(ctx, 2.0)
 
 
 def late_entry(room: RealRoom, ctx: Context) -> None:
@@ -186,7 +198,7 @@ def replayed(room: RealRoom, ctx: Context) -> None:
     ctx.yield_(5)
     ctx.set_ref("//Bars")
     ctx.item_click(f"**/{STUDENT_LABEL}")
-    ctx.sleep(1.2)
+    wait(ctx, 1.2)
 
 
 def compared(room: RealRoom, ctx: Context) -> None:
@@ -194,7 +206,7 @@ def compared(room: RealRoom, ctx: Context) -> None:
     room.wait_until(ctx, lambda state: not state.room.listening)
     ctx.set_ref("//Bars")
     ctx.item_click(f"**/{PREVIOUS_LABEL}")
-    ctx.sleep(1.2)
+    wait(ctx, 1.2)
 
 
 # --- reading ----------------------------------------------------------------------------------------------------------
@@ -210,13 +222,13 @@ def scrolling(room: RealRoom, ctx: Context) -> None:
 def highway(room: RealRoom, ctx: Context) -> None:
     """A lane for every piece."""
     show_score(room, ScoreForm.HIGHWAY)
-    ctx.sleep(2.0)
+    wait(ctx, 2.0)
 
 
 def falling(room: RealRoom, ctx: Context) -> None:
     """The same upright."""
     show_score(room, ScoreForm.FALLING)
-    ctx.sleep(2.0)
+    wait(ctx, 2.0)
 
 
 def just_play(room: RealRoom, ctx: Context) -> None:
@@ -231,7 +243,7 @@ def just_play(room: RealRoom, ctx: Context) -> None:
     ctx.item_click("**/Start##start")
     room.wait_until(ctx, lambda state: state.room.stage is Stage.PLAYING)
     room.student.strike(KICK, HIHAT, SNARE, HIHAT, KICK, TOM_1, FLOOR_TOM, CRASH, apart_s=0.3)
-    ctx.sleep(2.6)
+    wait(ctx, 2.6)
 
 
 # --- within reach -----------------------------------------------------------------------------------------------------
@@ -243,7 +255,7 @@ def _sound(leaf: str) -> Stop:
         open_panel(ctx, SOUND)
         if room.window.pages.sound.leaf != leaf:
             ctx.item_click(f"//{SOUND}/{TABS}/{leaf}")
-        ctx.sleep(1.0)
+        wait(ctx, 1.0)
 
     show.__name__ = f"sound_{leaf.lower()}"
     return show
@@ -260,7 +272,8 @@ def who_plays(room: RealRoom, ctx: Context) -> None:
     ctx.yield_(5)
     ctx.set_ref("//Lessons")
     ctx.item_click(f"**/{WHO_LABEL}")
-    ctx.sleep(1.5)
+    room.wait_until(ctx, lambda state: state.students.hears)
+    ctx.yield_(3)
 
 
 def chosen_by_pad(room: RealRoom, ctx: Context) -> None:
@@ -274,7 +287,7 @@ def _panel(name: str) -> Stop:
     def show(room: RealRoom, ctx: Context) -> None:
         home(room, ctx)
         open_panel(ctx, name)
-        ctx.sleep(1.0)
+        wait(ctx, 1.0)
 
     show.__name__ = name.lower()
     return show
@@ -284,7 +297,7 @@ def devices(room: RealRoom, ctx: Context) -> None:
     """What the kit sends."""
     _panel(DEVICES)(room, ctx)
     room.student.strike(SNARE, HIHAT, TOM_1, KICK, SNARE, HIHAT, apart_s=0.25)
-    ctx.sleep(2.0)
+    wait(ctx, 2.0)
 
 
 def look(room: RealRoom, ctx: Context) -> None:

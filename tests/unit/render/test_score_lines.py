@@ -175,3 +175,10 @@ def test_bars_of_other_meters_share_a_line_by_their_length() -> None:
     score = Score.from_notes([Note(k * PPQ, Piece.SNARE) for k in range(24)], TempoMap.build([], meters))
     lines = score_lines(score, BarNumbers(), WIDE)
     assert [(line.first, line.after, line.share) for line in lines] == [(0, 4, 1.0), (4, 8, 0.5)]
+
+
+def test_the_line_that_comes_again_bears_no_marks_of_this_pass() -> None:
+    """What was played on it was the pass that is nearly over; the next one has not begun."""
+    again = {shown.line.first: shown.is_again for shown in shown_lines(LINES, 15.0, comes_again=True)}
+    assert again == {6: False, 0: True}
+    assert not any(shown.is_again for shown in shown_lines(LINES, 5.0, comes_again=True))

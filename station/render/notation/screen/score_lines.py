@@ -50,7 +50,7 @@ class ScoreLine:
 class ShownLine:
     """A line that is seen: on which `row` of the page, and between which shares of its own width.
 
-    `is_played`: the play line is on it.
+    `is_played`: the play line is on it. `is_again`: it is to be played once more, and bears no marks yet.
     """
 
     line: ScoreLine
@@ -58,6 +58,7 @@ class ShownLine:
     is_played: bool = False
     left: float = 0.0
     right: float = 1.0
+    is_again: bool = False
 
 
 def _gap_ticks(score: Score) -> float:
@@ -152,14 +153,15 @@ def shown_lines(
     other = 1 - row
     before = lines[k - 1] if k else None
     if k + 1 < len(lines) or comes_again:
-        coming = lines[(k + 1) % len(lines)]
+        is_again = k + 1 == len(lines)
+        coming = lines[0] if is_again else lines[k + 1]
         kept_s = min(KEPT_S, _KEPT_OF_LINE * (lines[k].end_s - lines[k].start_s))
         if before is None or position_s - lines[k].start_s >= kept_s:
-            return [played, ShownLine(coming, other)]
+            return [played, ShownLine(coming, other, is_again=is_again)]
         seam = (1 - KEPT_SHARE) * before.share
         return [
             played,
-            ShownLine(coming, other, right=min(seam / coming.share, 1.0)),
+            ShownLine(coming, other, right=min(seam / coming.share, 1.0), is_again=is_again),
             ShownLine(before, other, left=1 - KEPT_SHARE),
         ]
     return [played] if before is None else [played, ShownLine(before, other)]

@@ -174,7 +174,8 @@ class ScoreView:
         ends = (left + shown.right * wide - space, left + shown.right * wide) if shown.right < 1 else (1e6, 1e6 + 1)
         sheet = Transform(size, (left, place.middle_line), space, line.start_s, per_s, (*starts, *ends))
         self._printer.draw(self._line_shapes(snapshot, line), sheet)
-        self._printer.draw(self._marks(snapshot, (line.first, line.after), per_s / space), sheet)
+        if not shown.is_again:
+            self._printer.draw(self._marks(snapshot, (line.first, line.after), per_s / space), sheet)
 
     def _draw_play_line(self, place: ScorePlace, x: float, size: tuple[int, int]) -> None:
         plain, glow, line = Transform(size), with_opacity(BRAND, 0.07), with_opacity(BRAND, 0.95)
