@@ -59,7 +59,7 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
         Topic.PLAYING: Help(
             "Listen, look at the drummer, and play along. Marks on the notes say what was heard.",
             (
-                ("Ring", "on time, within 25 ms; its tick is where your stroke fell"),
+                ("Ring", "on time, as your level says; its tick is where your stroke fell"),
                 ("Arrow to the left", "early; to the right: late"),
                 ("Barred ring", "missed; a square: the right time on a wrong pad; a cross: not written"),
                 ("Wedge", "above the note: far too loud; below: far too soft"),

@@ -28,6 +28,10 @@ MARK_DTYPE = np.dtype([("label", np.int8), ("asynchrony_ms", np.float32), ("velo
 """A note's judgement: `Label` or `PENDING`; played − written, NaN where nothing was played."""
 
 
+ON_TIME_MS = 25.0
+"""Within this a stroke is on time where no level says otherwise (HUMANS: mild to 25 ms)."""
+
+
 class TimingCue(IntEnum):
     """The one coarse live cue: what the last strokes were like."""
 
@@ -189,8 +193,9 @@ class Snapshot:
     the kit alone. Where there is a `strip`, it stands in place of the score. `double` is the student beside the
     demonstrator, for those who want to see it. `comes_again`: after the score's end its first bars come once more, in
     this picture's score or in the next one's; `before` is the score that was played before this one, None where none
-    was. `is_replay`: what was played is heard again, to be studied. `view` is from where the lesson's teacher wants it
-    to be seen, None where they leave it to whoever looks.
+    was. `is_replay`: what was played is heard again, to be studied. So far from its note a stroke is shown as on time
+    as `on_time_ms` says, the student's level. `view` is from where the lesson's teacher wants it to be seen, None where
+    they leave it to whoever looks.
     """
 
     score: Score
@@ -211,4 +216,5 @@ class Snapshot:
     comes_again: bool = False
     before: Score | None = None
     is_replay: bool = False
+    on_time_ms: float = ON_TIME_MS
     view: NamedView | None = None

@@ -85,6 +85,7 @@ class Comparison:
             marks=self._marks,
             extras=self._extras,
             is_replay=True,
+            on_time_ms=self._windows.on_time_ms,
             strikes=strikes(past, now_ns),
             hud=self._hud,
             bar_numbers=BarNumbers(self._lesson_bar, 1),

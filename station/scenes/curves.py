@@ -14,7 +14,7 @@ from station.engine.engine import KEYBOARD
 from station.motion.drummer import Drummer
 from station.music.score import Score
 from station.practice.session.session import SessionResult
-from station.render.snapshot import PENDING, BarNumbers
+from station.render.snapshot import ON_TIME_MS, PENDING, BarNumbers
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 class StudentStrokes:
     """The student's strokes, one a judged note (n,): `asynchrony_ms` NaN where it was missed, `velocity` 1–127.
 
-    `label` of `Label`.
+    `label` of `Label`; so far from its note a stroke is on time as `on_time_ms` says.
     """
 
     time_s: Array
@@ -31,6 +31,7 @@ class StudentStrokes:
     asynchrony_ms: Array
     velocity: Array
     written: Array
+    on_time_ms: float = ON_TIME_MS
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,14 +49,14 @@ class ScoreCurves:
         return self.drummer.score
 
 
-def played_of_marks(score: Score, marks: NDArray[np.void]) -> StudentStrokes:
+def played_of_marks(score: Score, marks: NDArray[np.void], on_time_ms: float) -> StudentStrokes:
     """What the student has been shown of the strokes so far; `marks` (n,) of `MARK_DTYPE`."""
     judged = marks["label"] != PENDING
     written = score.notes["velocity"][judged].astype(np.float64)
     asynchrony_ms = marks["asynchrony_ms"][judged].astype(np.float64)
     label = marks["label"][judged].astype(np.uint8)
     return StudentStrokes(
-        score.onset_s[judged], label, asynchrony_ms, written + marks["velocity_error"][judged], written
+        score.onset_s[judged], label, asynchrony_ms, written + marks["velocity_error"][judged], written, on_time_ms
     )
 
 
@@ -68,4 +69,6 @@ def played_of_result(result: SessionResult) -> StudentStrokes:
     if result.device != KEYBOARD:  # keys cannot tell how hard they are struck
         velocity[paired] = result.performance.fine_velocity[hit[paired]]
     written = result.score.notes["velocity"].astype(np.float64)
-    return StudentStrokes(result.score.onset_s, result.alignment.note_label, asynchrony_ms, velocity, written)
+    on_time_ms = result.plan.level.windows.on_time_ms
+    label = result.alignment.note_label
+    return StudentStrokes(result.score.onset_s, label, asynchrony_ms, velocity, written, on_time_ms)

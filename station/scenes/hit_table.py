@@ -15,6 +15,7 @@ from station.core.units import NS_PER_MS
 from station.music.judgement import Label
 from station.practice.session.lesson_places import PLACE_DTYPE, places_of, ticks_of_hits
 from station.practice.session.session import SessionResult
+from station.render.snapshot import ON_TIME_MS
 
 DOT_DTYPE = np.dtype(
     [
@@ -28,9 +29,13 @@ DOT_DTYPE = np.dtype(
 
 @dataclass(frozen=True, eq=False)
 class EveryHit:
-    """`dots` (n,) of `DOT_DTYPE`: the notes in the score's order, then the strokes that answer none."""
+    """`dots` (n,) of `DOT_DTYPE`: the notes in the score's order, then the strokes that answer none.
+
+    So far from its note a stroke is on time as `on_time_ms` says.
+    """
 
     dots: NDArray[np.void]
+    on_time_ms: float = ON_TIME_MS
 
     @property
     def bars(self) -> tuple[int, int]:
@@ -58,7 +63,7 @@ def every_hit(result: SessionResult) -> EveryHit:
     strokes = _dots(result, ticks_of_hits(result, result.performance.hits["at_ns"][extra]))
     strokes["piece"], strokes["label"] = result.performance.hits["piece"][extra], Label.EXTRA
     strokes["late_ms"] = np.nan
-    return EveryHit(np.concatenate([notes, strokes]))
+    return EveryHit(np.concatenate([notes, strokes]), result.plan.level.windows.on_time_ms)
 
 
 def _dots(result: SessionResult, ticks: NDArray[np.int64]) -> NDArray[np.void]:

@@ -1,5 +1,7 @@
 """A session's result as the results page shows it."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from station.core.units import NS_PER_S
@@ -35,7 +37,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         first_bar=plan.first_bar,
         starts=plan.pass_starts,
     )
-    return result_facts(
+    facts = result_facts(
         result.score,
         result.alignment.note_label,
         result.alignment.asynchrony_ns,
@@ -43,6 +45,7 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         np.asarray(result.performance.hits["at_ns"][extra] / NS_PER_S),
         words,
     )
+    return replace(facts, on_time_ms=result.plan.level.windows.on_time_ms)
 
 
 def _lag_words(document: dict[str, Json]) -> tuple[str, ...]:

@@ -156,6 +156,7 @@ class SessionView:
             double=double,
             comes_again=self._comes_again(part),
             before=self._before(part),
+            on_time_ms=session.plan.level.windows.on_time_ms,
             view=direction_of(session).view,
         )
 
@@ -165,7 +166,8 @@ class SessionView:
         part, position_s = (self._demonstration, 0.0) if transport_ns is None else self._part_at(transport_ns)
         if not part.is_ready:
             return None
-        played = played_of_marks(part.score, self._marks) if part is self._passes else None
+        on_time_ms = self.plan.level.windows.on_time_ms
+        played = played_of_marks(part.score, self._marks, on_time_ms) if part is self._passes else None
         return ScoreCurves(part.drummer(self._demonstrator.style), position_s, part.bar_numbers, played)
 
     def make_ahead(self) -> None:

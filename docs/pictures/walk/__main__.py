@@ -15,6 +15,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from imgui_bundle import imgui
+
 ROOT = Path(__file__).parents[3]
 sys.path.insert(0, str(ROOT))
 
@@ -43,7 +45,7 @@ def _filmed(size: str, path: Path | None) -> Iterator[None]:
         camera.communicate()
 
 
-def walk(size: str, scale: float, folder: Path, film: Path | None, only: int | None) -> None:
+def walk(size: str, scale: float, folder: Path, film: Path | None, only: list[str]) -> None:
     """Walk on this screen, and keep a picture of every stop in `folder`."""
     width, height = map(int, size.split("x"))
     with tempfile.TemporaryDirectory() as home, PtyStudent(Path(home) / "ttyUSB0") as student:
@@ -52,7 +54,11 @@ def walk(size: str, scale: float, folder: Path, film: Path | None, only: int | N
         room = RealRoom(sessions, student, (width, height), scale)
 
         def whole(room: RealRoom, ctx: Context) -> None:
-            for place, stop in enumerate(STOPS[:only], 1):
+            if only and only[0] != STOPS[0].__name__:
+                ctx.key_press(imgui.Key.escape)
+            for place, stop in enumerate(STOPS, 1):
+                if only and stop.__name__ not in only:
+                    continue
                 sys.stderr.write(f"{place:02d} {stop.__name__}\n")
                 stop(room, ctx)
                 room.keep(ctx, folder / f"{place:02d}-{stop.__name__.replace('_', '-')}")
@@ -74,7 +80,7 @@ def main() -> None:
     parser.add_argument("--scale", type=float, default=1.0)
     parser.add_argument("--to", type=Path, default=Path(__file__).parents[1] / "hour")
     parser.add_argument("--film", type=Path)
-    parser.add_argument("--only", type=int, help="the first so many stops")
+    parser.add_argument("only", nargs="*", metavar="STOP", help="these alone; all by default")
     parser.add_argument("--here", action="store_true")
     asked = parser.parse_args()
     if asked.here:

@@ -44,6 +44,8 @@ def practise(room: RealRoom, ctx: Context, playing: Playing, lesson: str = "rock
     ctx.item_input_value("##search", "Rock 2")
     ctx.item_click(f"**/###{lesson}")
     to_options(ctx)
+    if room.state.selection.adapt:
+        ctx.item_click("**/the tempo follows me")
     ctx.item_input_value("##passes", passes)
     ctx.yield_(3)
     ctx.set_ref("//Lessons")

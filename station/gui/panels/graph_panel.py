@@ -172,7 +172,7 @@ def _draw_strokes(played: StudentStrokes) -> None:
         there = ~np.isnan(velocity)
         implot.plot_stems(words, played.time_s[there], velocity[there], 0.0, look)
     implot.set_axes(implot.ImAxis_.x1, implot.ImAxis_.y1)
-    plots.strokes(played.time_s, played.label, played.asynchrony_ms, _DOT)
+    plots.strokes(played.time_s, played.label, played.asynchrony_ms, played.on_time_ms, _DOT)
 
 
 def _flags(has_legend: bool) -> int:

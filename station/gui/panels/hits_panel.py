@@ -12,7 +12,6 @@ from station.gui.panels.playback_row import PlaybackRow
 from station.gui.widgets import plots
 from station.gui.widgets.flow_row import FlowRow
 from station.render import palette
-from station.render.notation.screen.judgement_marks import ON_TIME_MS
 from station.render.report.stroke_plot import AXIS_MS, LINES, heights_ms, line_words
 from station.render.text.draw_list import Colour
 from station.scenes.hit_table import EveryHit, dot_label, nearest
@@ -67,8 +66,8 @@ class HitsPanel:
         height = max(imgui.get_content_region_avail().y, theme.points(_LEAST_HEIGHT))
         if implot.begin_plot("##hits", imgui.ImVec2(-1, height), plots.FIXED):
             _axes(hits.bars, height)
-            _paper(hits.bars, self.playback.bar)
-            plots.strokes(dots["place"], dots["label"], dots["late_ms"], _DOT)
+            _paper(hits, self.playback.bar)
+            plots.strokes(dots["place"], dots["label"], dots["late_ms"], hits.on_time_ms, _DOT)
             self.at = plots.pixels(dots["place"], heights_ms(dots["label"], dots["late_ms"]))
             self._point(dots)
             implot.end_plot()
@@ -101,9 +100,10 @@ def _axes(bars: tuple[int, int], height: float) -> None:
     implot.setup_axis_ticks(implot.ImAxis_.y1, [*LINES], line_words(letter_ms))
 
 
-def _paper(bars: tuple[int, int], chosen: int) -> None:
+def _paper(hits: EveryHit, chosen: int) -> None:
     """What is on time, and the chosen bar."""
-    _band("##on time", (bars[0], bars[1] + 1), (-ON_TIME_MS, ON_TIME_MS), palette.GOOD)
+    bars = hits.bars
+    _band("##on time", (bars[0], bars[1] + 1), (-hits.on_time_ms, hits.on_time_ms), palette.GOOD)
     if bars[0] <= chosen <= bars[1]:
         _band("##chosen", (chosen, chosen + 1), AXIS_MS, palette.BRAND)
     plots.across("##0", [0.0], plots.spec(palette.INK_SOFT))

@@ -66,10 +66,10 @@ def across(name: str, heights: Sequence[float], look: implot.Spec) -> None:
     implot.plot_inf_lines(name, np.array(heights, np.float64), look)
 
 
-def strokes(x: Array, label: NDArray[np.uint8], asynchrony_ms: Array, radius: float) -> None:
+def strokes(x: Array, label: NDArray[np.uint8], asynchrony_ms: Array, on_time_ms: float, radius: float) -> None:
     """Draw strokes at `x` as `stroke_plot` says; `radius` design pixels a dot."""
     at_ms = heights_ms(label, asynchrony_ms)
-    for kind, rows in by_kind(label, asynchrony_ms):
+    for kind, rows in by_kind(label, asynchrony_ms, on_time_ms):
         is_line = kind.mark not in _FILLED
         look = spec(kind.colour, _EDGE if is_line else 1.0, radius * kind.radius, _MARKERS[kind.mark])
         if is_line:

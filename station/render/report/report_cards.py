@@ -6,7 +6,7 @@ Units are the page's (`report_layout`).
 import numpy as np
 
 from station.music.judgement import Label
-from station.render.notation.screen.judgement_marks import ON_TIME_MS, timing_colour
+from station.render.notation.screen.judgement_marks import timing_colour
 from station.render.palette import BRAND, GOOD, INK, INK_FAINT, INK_SOFT, PANEL, PANEL_EDGE, with_opacity
 from station.render.report.report_layout import ReportBox
 from station.render.report.result_facts import PieceLean, ResultFacts, in_words, leans, ticks
@@ -40,9 +40,10 @@ class Plot:
         self._draw_list.text(
             "Every stroke", (self._box.left + PADDING, self._box.top + 27), TypeStyle(18, INK, Face.BOLD)
         )
-        band = self._height_of(-ON_TIME_MS) - self._height_of(ON_TIME_MS)
+        on_time_ms = self._facts.on_time_ms
+        band = self._height_of(-on_time_ms) - self._height_of(on_time_ms)
         left, width = self._left - 8, self._right - self._left + 16
-        self._draw_list.box((left, self._height_of(ON_TIME_MS)), (width, band), with_opacity(GOOD, 0.10))
+        self._draw_list.box((left, self._height_of(on_time_ms)), (width, band), with_opacity(GOOD, 0.10))
         for ms, words in LINES.items():
             y = self._height_of(ms)
             self._draw_list.box((left, y - 0.5), (width, 1.0), INK_FAINT if ms else INK_SOFT)
@@ -75,7 +76,7 @@ class Plot:
         label = np.concatenate([facts.label, np.full(extras, Label.EXTRA, np.uint8)])
         asynchrony_ms = np.concatenate([facts.asynchrony_ms, np.full(extras, np.nan)])
         at_ms = heights_ms(label, asynchrony_ms)
-        for kind, rows in by_kind(label, asynchrony_ms):
+        for kind, rows in by_kind(label, asynchrony_ms, facts.on_time_ms):
             for x, ms in zip(time_s[rows].tolist(), at_ms[rows].tolist(), strict=True):
                 stroke(self._draw_list, kind, (self._place_of(x), self._height_of(ms)), size)
 
@@ -117,7 +118,7 @@ class Pieces:
             return
         scale = self._reach / _LEAN_REACH_MS
         at = self._centre + scale * float(np.clip(lean.mean_ms, -_LEAN_REACH_MS, _LEAN_REACH_MS))
-        colour = timing_colour(lean.mean_ms)
+        colour = timing_colour(lean.mean_ms, self._facts.on_time_ms)
         if lean.sd_ms is not None:  # what spreads farther ends where the counts and the words begin
             left = max(at - lean.sd_ms * scale, self._centre - self._reach)
             right = min(at + lean.sd_ms * scale, self._centre + self._reach)

@@ -13,6 +13,7 @@ from station.core.labels import piece_name
 from station.core.pieces import Piece
 from station.music.judgement import Label
 from station.music.score import Score
+from station.render.snapshot import ON_TIME_MS
 
 ON_THE_BEAT_MS = 10.0
 """Full marks within 10 ms (HUMANS, Velocity and ears)."""
@@ -31,7 +32,7 @@ class ResultFacts:
 
     Rows of the arrays are the notes that were judged: `time_s`, `piece`, `label` of `Label`, `asynchrony_ms` NaN where
     nothing was played, `right` whether it was. `extra_s` when unwritten hits fell, `bar_s` where bars begin and the
-    last ends, `points` 0–100.
+    last ends; so far from its note a stroke is on time as `on_time_ms` says.
     """
 
     words: "ResultWords"
@@ -42,6 +43,7 @@ class ResultFacts:
     right: NDArray[np.bool_]
     extra_s: NDArray[np.float64]
     bar_s: NDArray[np.float64]
+    on_time_ms: float = ON_TIME_MS
 
     @property
     def known(self) -> NDArray[np.bool_]:

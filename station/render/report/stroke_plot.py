@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.music.judgement import Label
-from station.render.notation.screen.judgement_marks import ON_TIME_MS
 from station.render.palette import EARLY, EXTRA, GOOD, INK_SOFT, LATE, MISSED, WRONG, with_opacity
 from station.render.text.draw_list import Colour
 
@@ -61,10 +60,10 @@ _ON_TIME, _EARLY, _LATE, _WRONG, _MISSED, _NOT_WRITTEN, _UNKNOWN = range(len(KIN
 
 
 def by_kind(
-    label: NDArray[np.uint8], asynchrony_ms: NDArray[np.float64]
+    label: NDArray[np.uint8], asynchrony_ms: NDArray[np.float64], on_time_ms: float
 ) -> Iterator[tuple[StrokeKind, NDArray[np.intp]]]:
     """The kinds that occur, with the rows of each; `label` of `Label` and `asynchrony_ms` are (n,)."""
-    timed = np.select([asynchrony_ms < -ON_TIME_MS, asynchrony_ms > ON_TIME_MS], [_EARLY, _LATE], _ON_TIME)
+    timed = np.select([asynchrony_ms < -on_time_ms, asynchrony_ms > on_time_ms], [_EARLY, _LATE], _ON_TIME)
     untimed = [label == Label.WRONG_PIECE, label == Label.MISS, label == Label.EXTRA]
     untimed += [label == Label.UNKNOWN]
     kind_of = np.select(untimed, [_WRONG, _MISSED, _NOT_WRITTEN, _UNKNOWN], timed)

@@ -25,6 +25,11 @@ class Windows:
         distance = abs(asynchrony_ms)
         return sum(distance > edge for edge in self.edges_ms)
 
+    @property
+    def on_time_ms(self) -> float:
+        """How far from its time a stroke still is on time, for whoever shows it: the innermost edge."""
+        return self.edges_ms[0]
+
     def lean(self, asynchrony_ms: float) -> int:
         """−1 early, 0 inside the innermost window, 1 late."""
         return 0 if self.grade(asynchrony_ms) == 0 else (-1 if asynchrony_ms < 0 else 1)

@@ -76,7 +76,7 @@ def test_strokes_of_the_student_as_they_were_marked() -> None:
     marks = no_marks(score)
     mark(marks, Judgement(Label.MATCH, 0, 0, asynchrony_ns=-12_000_000, velocity_error=5))
     mark(marks, Judgement(Label.MISS, 2, None))
-    played = played_of_marks(score, marks)
+    played = played_of_marks(score, marks, 25.0)
     assert played.time_s.tolist() == [0.0, 1.0]
     assert played.asynchrony_ms.tolist()[0] == -12.0
     assert (played.velocity.tolist()[0], played.written.tolist()) == (85.0, [80.0, 82.0])

@@ -9,7 +9,7 @@ from station.music.judgement import Judgement, Label
 from station.music.score import Note, Score
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.render.notation import note_shapes
-from station.render.notation.screen.judgement_marks import draw_dynamics, draw_mark, off_db, timing_colour
+from station.render.notation.screen.judgement_marks import MarkScale, draw_dynamics, draw_mark, off_db, timing_colour
 from station.render.notation.screen.score_place import ScorePlace
 from station.render.notation.screen.score_view import lead_spaces
 from station.render.notation.screen.time_span import BEHIND_SHARE, ahead_s, rolling_spaces, two_bars_s, visible_bars
@@ -30,9 +30,11 @@ def test_visible_bars(first_s: float, last_s: float, bars: list[int]) -> None:
 
 
 def test_timing_colours() -> None:
-    assert timing_colour(0) == timing_colour(25) == timing_colour(-25) == GOOD
-    assert timing_colour(-25.1) == EARLY
-    assert timing_colour(25.1) == LATE
+    assert timing_colour(0, 25.0) == timing_colour(25, 25.0) == timing_colour(-25, 25.0) == GOOD
+    assert timing_colour(-25.1, 25.0) == EARLY
+    assert timing_colour(25.1, 25.0) == LATE
+    assert timing_colour(27, 30.0) == GOOD, "what is on time is the level's word"
+    assert timing_colour(27, 10.0) == LATE
 
 
 def test_the_staff_fills_its_place() -> None:
@@ -45,7 +47,7 @@ def marked(label: Label, asynchrony_ms: float = np.nan) -> set[ShapeKind]:
     row = np.zeros(1, MARK_DTYPE)
     row["label"], row["asynchrony_ms"] = label, asynchrony_ms
     draw_list = DrawList(Atlas())
-    draw_mark(draw_list, row[0], (0.0, 0.0), 12.0)
+    draw_mark(draw_list, row[0], (0.0, 0.0), MarkScale(12.0, 25.0))
     return {ShapeKind(int(k)) for k in draw_list.shapes()["kind"]}
 
 
@@ -61,7 +63,7 @@ def test_arrows_point_where_the_hit_fell(asynchrony_ms: float, side: int) -> Non
     row = np.zeros(1, MARK_DTYPE)
     row["label"], row["asynchrony_ms"] = Label.MATCH, asynchrony_ms
     draw_list = DrawList(Atlas())
-    draw_mark(draw_list, row[0], (0.0, 0.0), 12.0)
+    draw_mark(draw_list, row[0], (0.0, 0.0), MarkScale(12.0, 25.0))
     arrow = draw_list.shapes()[draw_list.shapes()["kind"] == ShapeKind.TRIANGLE][0]
     assert np.sign(arrow["centre"][0]) == side
     assert np.sign(arrow["axis"][0]) == side
@@ -87,7 +89,7 @@ def test_every_piece_has_a_name_of_its_own() -> None:
 
 
 def test_a_right_note_whose_time_is_not_told_is_neither_early_nor_late() -> None:
-    assert timing_colour(np.nan) == GOOD
+    assert timing_colour(np.nan, 25.0) == GOOD
     assert marked(Label.MATCH) == {ShapeKind.ELLIPSE}
 
 

@@ -11,7 +11,7 @@ LATE_MS = np.array([-25.0, 25.0, -26.0, 26.0, 300.0, -10.0, np.nan, np.nan])
 
 
 def test_every_stroke_bears_the_mark_of_its_kind() -> None:
-    marks = {int(row): kind.mark for kind, rows in by_kind(LABEL, LATE_MS) for row in rows}
+    marks = {int(row): kind.mark for kind, rows in by_kind(LABEL, LATE_MS, 25.0) for row in rows}
     assert [marks[row] for row in range(8)] == [
         StrokeMark.DISC,
         StrokeMark.DISC,
@@ -22,7 +22,7 @@ def test_every_stroke_bears_the_mark_of_its_kind() -> None:
         StrokeMark.BARRED_RING,
         StrokeMark.CROSS,
     ]
-    assert not list(by_kind(LABEL[:0], LATE_MS[:0]))
+    assert not list(by_kind(LABEL[:0], LATE_MS[:0], 25.0))
     assert len({kind.mark for kind in KINDS}) == len(KINDS), "told apart by shape alone"
 
 

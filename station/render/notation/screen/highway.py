@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from station.core.labels import LIMB_LETTERS, piece_name
 from station.core.pieces import Dynamic, Limb, Piece
 from station.music.score import Score
-from station.render.notation.screen.judgement_marks import draw_dynamics, draw_mark, off_db
+from station.render.notation.screen.judgement_marks import MarkScale, draw_dynamics, draw_mark, off_db
 from station.render.notation.staff import PLACES
 from station.render.notation.staff_rows import OPEN_FROM, WIDE_FROM
 from station.render.palette import EXTRA, INK, INK_FAINT, NIGHT, piece_colour, with_opacity
@@ -135,13 +135,14 @@ class Highway:
         """Judgements between two times, in staff spaces of `MARK_UNITS`."""
         draw_list, snapshot, grid = DrawList(self.atlas), self.snapshot, self.grid
         score, marks = snapshot.score, snapshot.marks
+        scale = MarkScale(self.units_per_s / MARK_UNITS, snapshot.on_time_ms, grid.falls)
         if marks is not None:
             first, last = np.searchsorted(score.onset_s, window_s).tolist()
             judged = first + np.flatnonzero((marks["label"][first:last] != PENDING) & ~score.is_grace[first:last])
             for i in judged.tolist():
                 draw_list.time_s = float(score.onset_s[i])
                 at = self._mark_at(Piece(int(score.notes["piece"][i])))
-                draw_mark(draw_list, marks[i], at, self.units_per_s / MARK_UNITS, grid.falls)
+                draw_mark(draw_list, marks[i], at, scale)
                 error = float(marks["velocity_error"][i])
                 draw_dynamics(draw_list, off_db(int(score.notes["velocity"][i]), error), at)
         size = _EXTRA_SIZE / MARK_UNITS

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.music.judgement import Label
-from station.render.notation.screen.judgement_marks import draw_asynchrony, draw_dynamics, draw_mark, off_db
+from station.render.notation.screen.judgement_marks import MarkScale, draw_asynchrony, draw_dynamics, draw_mark, off_db
 from station.render.notation.staff import PLACES, height
 from station.render.palette import EXTRA
 from station.render.snapshot import PENDING, Snapshot
@@ -26,7 +26,7 @@ def staff_marks(
 ) -> NDArray[np.void]:
     """The marks in `bars`, first and the one after the last, where heads stand `heads_x` (n,) beside their times."""
     draw_list, score, marks = DrawList(atlas), snapshot.score, snapshot.marks
-    tempo_map = score.tempo_map
+    tempo_map, scale = score.tempo_map, MarkScale(spaces_per_s, snapshot.on_time_ms)
     ticks = [tempo_map.bar_start(bar) for bar in bars]
     if marks is not None:
         first, last = np.searchsorted(score.notes["tick"], ticks).tolist()
@@ -36,10 +36,10 @@ def staff_marks(
         for i, time_s, is_told in zip(judged.tolist(), times_s.tolist(), has_room, strict=True):
             draw_list.time_s = time_s
             at = float(heads_x[i]), height(PLACES[Piece(int(score.notes["piece"][i]))].step)
-            draw_mark(draw_list, marks[i], at, spaces_per_s)
+            draw_mark(draw_list, marks[i], at, scale)
             draw_dynamics(draw_list, off_db(int(score.notes["velocity"][i]), float(marks["velocity_error"][i])), at)
             if is_told and marks["label"][i] == Label.MATCH:
-                draw_asynchrony(draw_list, float(marks["asynchrony_ms"][i]), at)
+                draw_asynchrony(draw_list, float(marks["asynchrony_ms"][i]), at, snapshot.on_time_ms)
     start_s = -np.inf if bars[0] == 0 else float(tempo_map.seconds_at(ticks[0]))
     end_s = np.inf if bars[1] >= score.bar_count else float(tempo_map.seconds_at(ticks[1]))
     for extra in snapshot.extras:
