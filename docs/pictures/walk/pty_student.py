@@ -18,7 +18,7 @@ from station.practice.session.session import Session
 from station.simulation.student_spec import parse_spec
 from station.simulation.virtual_student import VirtualStudent
 
-SNARE, KICK, TOM_1, TOM_2, FLOOR_TOM, HIHAT, CRASH, RIDE = 38, 36, 48, 45, 43, 42, 49, 51
+SNARE, KICK, TOM_1, TOM_2, FLOOR_TOM, HIHAT, CRASH, RIDE = 38, 36, 50, 48, 43, 42, 49, 51
 """What a General MIDI kit sends."""
 
 

@@ -11,10 +11,11 @@ from real_room import Context, RealRoom
 from station.app.actions.practice_actions import Dismiss, EndSession
 from station.app.actions.settings_actions import SetPreferences, SetView
 from station.app.room_state import Stage
+from station.app.sessions.who_plays import QUESTION
 from station.app.window_state import State
 from station.gui.panels.choice_panel import CHOICE, label_of
 from station.gui.panels.devices.devices_panel import DEVICES
-from station.gui.panels.lessons.who_plays import WHO_LABEL
+from station.gui.panels.lessons.who_plays import NEW_NAME, WHO_LABEL
 from station.gui.panels.playback_row import PREVIOUS_LABEL, STUDENT_LABEL
 from station.gui.panels.practice_panel import PRACTICE
 from station.gui.panels.sound.sound_panel import CLICK_TAB, DRUMS_TAB, LEVELS_TAB, OUTPUT_TAB, SOUND, TABS
@@ -269,9 +270,9 @@ def who_plays(room: RealRoom, ctx: Context) -> None:
     ctx.set_ref("//Lessons")
     ctx.item_click(f"**/{WHO_LABEL}")
     ctx.yield_(5)
-    ctx.item_input_value("//$FOCUSED/**/##new-student", "Bea")
-    ctx.item_click("//$FOCUSED/**/Add##add-student")
-    ctx.yield_(5)
+    ctx.set_ref(f"//{QUESTION}")
+    ctx.item_input_value(NEW_NAME, "Bea")
+    room.wait_until(ctx, lambda state: not state.students.asks)
     ctx.set_ref("//Lessons")
     ctx.item_click(f"**/{WHO_LABEL}")
     room.wait_until(ctx, lambda state: state.students.hears)
