@@ -25,7 +25,7 @@ sys.path.insert(0, str(ROOT))
 from station.app.actions.file_actions import Export, Import  # noqa: E402
 from station.app.actions.phase_actions import OpenMotion, SeekMotion  # noqa: E402
 from station.app.actions.practice_actions import Begin  # noqa: E402
-from station.app.actions.settings_actions import SetView  # noqa: E402
+from station.app.actions.settings_actions import AskWhoPlays, SetView  # noqa: E402
 from station.app.actions.style_actions import EditStyle  # noqa: E402
 from station.app.room_state import Stage  # noqa: E402
 from station.core.imu import Mounting  # noqa: E402
@@ -378,6 +378,7 @@ def _shown(page: str, size: tuple[int, int], path: Path) -> Scenario:
 
 
 def _close_tools(drive: Drive) -> None:
+    drive.station.dispatch(AskWhoPlays(on=False))
     for page in drive.window.pages.tools:
         drive.window.params.docking_params.dockable_window_of_name(page.name).is_visible = False
 

@@ -1,8 +1,9 @@
-"""What the window shows in passing: one or two lines that go away by themselves."""
+"""What the window shows in passing: one or two lines that go away by themselves, long paths in them shortened."""
 
 from collections.abc import Callable
 
 from station.core.errors import StationError
+from station.core.short_names import short_paths
 from station.core.units import NS_PER_S
 
 SHOWN_NS = 8 * NS_PER_S
@@ -34,7 +35,7 @@ class Toasts:
     def update(self, now_ns: int) -> None:
         """Show what waits; what was shown long enough goes."""
         if self._waiting:
-            self.text, self._until_ns = "\n".join(self._waiting[-MOST_LINES:]), now_ns + SHOWN_NS
+            self.text, self._until_ns = short_paths("\n".join(self._waiting[-MOST_LINES:])), now_ns + SHOWN_NS
             self._waiting = []
         elif now_ns >= self._until_ns:
             self.text = ""

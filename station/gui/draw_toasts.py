@@ -6,8 +6,8 @@ from station.gui import theme
 from station.render.hud import FreeLine
 from station.render.painter import Area
 
-ABOVE_RESULT = 58.0
-"""Design pixels that a result leaves free for toasts above it."""
+ABOVE_RESULT = 52.0
+"""Design pixels that a result leaves free for toasts above it: two lines with their edges."""
 _TOP, _EDGE = 4.0, 8.0
 """Design pixels from the picture's upper edge where there is no band, and from its sides."""
 _PADDING, _BORDER = (12.0, 3.0), 1.0

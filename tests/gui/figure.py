@@ -71,11 +71,11 @@ def own_styles(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         drive.state.style.options.is_changed,
     ]
     ctx.item_click("##figure/Arms")
-    ctx.item_check("##figure/Arms/each for itself")
+    ctx.item_check("##figure/Arms/each joint on its own")
     ctx.item_input_value("##figure/Arms/##amplitude_wrist", 80.0)
     ctx.yield_(2)
     seen["unconstrained"] = [drive.state.style.options.value(f"amplitude_{joint}") for joint in JOINTS]
-    ctx.item_uncheck("##figure/Arms/each for itself")
+    ctx.item_uncheck("##figure/Arms/each joint on its own")
     ctx.yield_(2)
     seen["shared"] = [round(drive.state.style.options.value(f"amplitude_{joint}"), 3) for joint in JOINTS]
     ctx.item_click("Reset##all")

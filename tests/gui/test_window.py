@@ -165,6 +165,10 @@ def test_panels_follow_the_window_s_size(environment: dict[str, str], tmp_path: 
     for size in (large, small):
         assert size["unread"] == []
         assert [size[f"help {scale}"] for scale in ("1", "2.5", "0.75")] == [True] * 3
+        for scale in ("1", "2.5", "0.75"):
+            high, bottom = size[f"list {scale}"]
+            assert high > 2 * 17 * float(scale), "two lines of the list are seen at least"
+            assert bottom <= size[f"start {scale}"], "Start lies below the list"
 
 
 def a_stick_is_seen_and_put_in_a_hand(seen: dict[str, Any]) -> None:

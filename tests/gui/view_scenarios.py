@@ -11,6 +11,7 @@ from station.core.named_view import NamedView
 from station.core.settings import load_settings
 from station.gui.display import Rectangle
 from station.gui.keyboard_kit import VIEW_KEYS
+from station.gui.panels.lessons.lesson_list import LIST
 from station.gui.panels.player_controls import MORE_LABEL
 from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.panels.view_popup import LEGEND_LABEL
@@ -158,7 +159,7 @@ def behind_buttons(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 
 def resized(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
-    """The window is made larger and small again while it is open: letters, places of panels, what is read, the help."""
+    """The window is made larger and small again while it is open: letters, panels, Start, what is read, the help."""
     assert drive.monitors is not None
     for width, height in ((1280, 720), (760, 480)):
         drive.monitors.move(Rectangle(0, 0, width, height))
@@ -181,6 +182,10 @@ def resized(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
             help_window = ctx.window_info("//Help").window
             assert help_window is not None
             size[f"help {scale:g}"] = _inside(help_window, width, height)
+            lessons = ctx.window_info(f"//Lessons/{LIST}").window
+            assert lessons is not None
+            size[f"list {scale:g}"] = [lessons.rect().max.y - lessons.rect().min.y, lessons.rect().max.y]
+            size[f"start {scale:g}"] = ctx.item_info("//Lessons/Start##start").rect_full.min.y
             unread += [line for line in drive.unread(ctx) if line.startswith("Help")]
         size["unread"] = unread
         drive.station.dispatch(SetView(replace(drive.state.view_settings, scale=1.0)))

@@ -26,10 +26,11 @@ _LARGE, _LEAST = 0.052, 19.0
 22 inches (our choice); and the least, in design pixels."""
 _BAND = 0.27
 """The share of the picture's height that what comes next takes below a result (our choice)."""
-_QUESTION_WIDE, _QUESTION_HIGH, _QUESTION_TOP = 0.86, 0.5, 0.14
-"""The shares of the picture that a question takes, and that lie above it: it covers no notes (our choice)."""
+_QUESTION_WIDE, _QUESTION_HIGH, _QUESTION_TOP = 0.92, 0.84, 0.13
+"""The shares of the picture that a question takes, and that lie above it: it covers the marks in the score, which would
+answer it (our choice)."""
 _MOST_LINES = 2
-_ASKED = 1.35
+_ASKED = 1.6
 """A question's letters against those of what comes next: nothing else is on the screen to be read (our choice)."""
 _HOW = 0.42
 """The letters of the line that says how one chooses, in heights of a label (our choice)."""
@@ -82,7 +83,7 @@ def draw_choice(choice: ScreenChoice, picture: Area, dispatch: Callable[[Action]
     box = _question_box(area) if choice.question else _band_box(area, band_height(choice, picture))
     imgui.set_next_window_pos(imgui.ImVec2(box.left, box.top))
     imgui.set_next_window_size(imgui.ImVec2(box.width, box.height))
-    imgui.set_next_window_bg_alpha(0.97 if choice.question else 1.0)
+    imgui.set_next_window_bg_alpha(1.0)
     flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_docking
     flags |= imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_focus_on_appearing
     flags |= imgui.WindowFlags_.no_nav | imgui.WindowFlags_.no_bring_to_front_on_focus
@@ -128,7 +129,8 @@ def _draw(choice: ScreenChoice, large: float, dispatch: Callable[[Action], None]
         imgui.text_wrapped(choice.question)
         imgui.pop_font()
     room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing.x
-    line = max(imgui.get_frame_height(), 1.3 * _HOW * large) + imgui.get_style().item_spacing.y
+    how = max(1.3 * _HOW * large, imgui.get_frame_height() if choice.question else imgui.get_text_line_height())
+    line = how + imgui.get_style().item_spacing.y
     shares = [1.0] * len(choice.options)
     if not choice.question and len(shares) > 1:
         shares[0] = 1.35  # the best one is the widest (our choice)

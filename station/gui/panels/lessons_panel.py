@@ -1,8 +1,8 @@
 """The lessons panel: who practises, the list of lessons, what the chosen one is, how it is played, and Start below all.
 
 Start lies at the lower edge whatever is chosen and however large the window is. A low panel shows either the list or
-the lesson, which a button turns over. Every control has a tooltip, and every one is reached by the keyboard (Tab,
-arrows, Enter).
+the lesson, which a button turns over; in the lowest, who practises and the search are on the lesson's side too. Every
+control has a tooltip, and every one is reached by the keyboard (Tab, arrows, Enter).
 """
 
 from collections.abc import Callable
@@ -35,10 +35,12 @@ _START = 46
 """Design pixels: struck from the drummer's seat."""
 _WIDE = 280
 """Design pixels: in a narrower panel the search and the courses have a line each."""
-_LEAST_LIST, _LEAST_ABOUT, _MOST_ABOUT, _OPTIONS = 136, 56, 260, 180
-"""Design pixels (our choice): six lines; a title; a long text; most options."""
-_ABOUT_SHARE = 0.3
-"""Of what list and text have together, the text's."""
+_LEAST_LIST, _LEAST_ABOUT, _MOST_ABOUT, _OPTIONS = 136, 48, 260, 180
+"""Design pixels (our choice): six lines; two lines; a long text; most options."""
+_ABOUT_SHARE = 0.22
+"""Of what list and text have together, the text's (our choice: at 1920 × 1080 two lines, and six lessons above)."""
+_LOWEST_LIST = 64
+"""Design pixels of a list, two lessons, for which who practises and the search make room in the lowest panel."""
 
 
 class LessonsPanel:
@@ -53,13 +55,17 @@ class LessonsPanel:
 
     def gui(self, state: State) -> None:
         """Draw the panel and do what the user does in it."""
-        self._who_and_more(state)
-        selection = self._head(state.selection)
         start = imgui.get_window_height() - imgui.get_style().window_padding.y - theme.points(_START)
+        room = start - imgui.get_cursor_pos_y() - imgui.get_style().item_spacing.y
+        lines = 2 if _is_wide() else 3
+        is_lowest = room - lines * imgui.get_frame_height_with_spacing() < theme.points(_LOWEST_LIST)
+        selection = state.selection if is_lowest else self._upper_lines(state)
         middle = start - imgui.get_cursor_pos_y() - imgui.get_style().item_spacing.y
+        if is_lowest and middle < theme.points(_LOWEST_LIST):  # then the panel scrolls
+            start, middle = start + theme.points(_LOWEST_LIST) - middle, theme.points(_LOWEST_LIST)
         is_low = middle < theme.points(_LEAST_LIST + _LEAST_ABOUT + _OPTIONS)
         if is_low:
-            selection = self._one_of_two(selection, state, middle)
+            selection = self._one_of_two(selection, state, middle, is_lowest)
         else:
             self._is_turned = False
             selection = self._both(selection, state, middle)
@@ -70,6 +76,11 @@ class LessonsPanel:
 
     # --- who and what ------------------------------------------------------------------------------------------------
 
+    def _upper_lines(self, state: State) -> Selection:
+        """Who plays, and which lessons are listed."""
+        self._who_and_more(state)
+        return self._head(state.selection)
+
     def _who_and_more(self, state: State) -> None:
         """Who plays, and what brings more lessons."""
         beside = imgui.get_frame_height() + imgui.get_style().item_spacing.x
@@ -79,8 +90,7 @@ class LessonsPanel:
 
     def _head(self, selection: Selection) -> Selection:
         """Which lessons are listed."""
-        width = imgui.get_content_region_avail().x
-        is_wide = width >= theme.points(_WIDE)
+        width, is_wide = imgui.get_content_region_avail().x, _is_wide()
         each = (width - imgui.get_style().item_spacing.x) / 2 if is_wide else width
         selection = course_picker(selection, each)
         if is_wide:
@@ -118,10 +128,12 @@ class LessonsPanel:
         spacing = imgui.get_style().item_spacing.y
         room = middle - (self._high or theme.points(_OPTIONS)) - 3 * spacing
         about = min(max(room * _ABOUT_SHARE, theme.points(_LEAST_ABOUT)), theme.points(_MOST_ABOUT))
+        line = imgui.get_text_line_height()
+        about = max(round((about - spacing) / line), 2) * line + spacing  # no line is cut
         selection = self._list.gui(selection, state.drafts, imgui.ImVec2(0, room - about))
         imgui.separator()
         imgui.begin_child("##about", imgui.ImVec2(0, about))
-        self._about(selection)
+        self._about(selection, is_named=False)
         imgui.end_child()
         flags = imgui.ChildFlags_.auto_resize_y
         imgui.begin_child(OPTIONS, imgui.ImVec2(0, 0), flags)
@@ -132,12 +144,14 @@ class LessonsPanel:
         self._high = imgui.get_item_rect_size().y
         return selection
 
-    def _one_of_two(self, selection: Selection, state: State, middle: float) -> Selection:
-        """The list, or the lesson in its place."""
+    def _one_of_two(self, selection: Selection, state: State, middle: float, is_lowest: bool) -> Selection:
+        """The list, or the lesson in its place, in the lowest panel below what else stands above both."""
         size = imgui.ImVec2(0, middle)
         if not self._is_turned:
             return self._list.gui(selection, state.drafts, size)
         imgui.begin_child(OPTIONS, size)
+        if is_lowest:
+            selection = self._upper_lines(state)
         selection = self._played(selection, state.room)
         self._edit(selection, imgui.ImVec2(-1, 0))
         imgui.separator()
@@ -145,18 +159,20 @@ class LessonsPanel:
         imgui.end_child()
         return selection
 
-    def _about(self, selection: Selection) -> None:
-        """The whole of what is said about what is chosen; it scrolls where it is long."""
+    def _about(self, selection: Selection, is_named: bool = True) -> None:
+        """All that is said about what is chosen, its name where no list is seen; it scrolls where it is long."""
         card = None if selection.free else selection.card
         name = "" if card is None else card.name
         if name != self._described:
             self._described = name
             imgui.set_scroll_y(0.0)
         if card is None:
-            theme.heading("Just play", 20)
+            if is_named:
+                theme.heading("Just play", 20)
             theme.soft("Nothing is judged. Every stroke is recorded and kept, and you can listen back.")
             return
-        theme.heading(card.title, 20)
+        if is_named:
+            theme.heading(card.title, 20)
         author = f" · {card.author}" if card.author else ""
         theme.soft(f"{bars_of(card)} · {card.meter} · {card.beats_a_minute:g} bpm{author}")
         for line in selection.first_words(card):
@@ -197,6 +213,11 @@ class LessonsPanel:
             self._dispatch(OpenEditor(card.name))
         imgui.end_disabled()
         theme.tooltip(_edit_words(card))
+
+
+def _is_wide() -> bool:
+    """Whether courses and search have room beside each other."""
+    return bool(imgui.get_content_region_avail().x >= theme.points(_WIDE))
 
 
 def _in_short(selection: Selection) -> str:

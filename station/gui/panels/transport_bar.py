@@ -17,6 +17,7 @@ from station.app.sessions.demo_picture import PlayerView
 from station.app.settings.view_settings import ViewSettings
 from station.app.window_state import State
 from station.core.named_view import NamedView
+from station.core.short_names import short_paths
 from station.gui import theme
 from station.gui.panels.panel import PANELS_WIDTH
 from station.gui.panels.player_controls import PlayerControls, counter
@@ -189,7 +190,7 @@ def _lines(lines: tuple[str, ...], row: FlowRow) -> None:
     imgui.begin_group()
     imgui.push_style_var(imgui.StyleVar_.item_spacing, imgui.ImVec2(0, 1))
     for line in lines:
-        imgui.text_disabled(elided(line, room, lambda text: imgui.calc_text_size(text).x))
+        imgui.text_disabled(elided(short_paths(line), room, lambda text: imgui.calc_text_size(text).x))
     imgui.pop_style_var()
     imgui.end_group()
     theme.tooltip("Found: " + ", ".join(lines))

@@ -22,8 +22,8 @@ _ROW, _NAME, _SAID = 30.0, 130.0, 206.0
 _COUNT = 84.0
 """Width of how many were hit, where there is room for it."""
 _TECHNIQUE_LINE, _TECHNIQUE_WIDTH = 23.0, 500.0
-_TECHNIQUE_FIRST = 3
-"""So many lines of technique come before a further piece."""
+_TECHNIQUE_FIRST = 1
+"""So many lines of technique come before a further piece (our choice: what was played stands before how)."""
 
 
 class Plot:

@@ -7,18 +7,19 @@ with points, counts and advice is drawn, and below it what there is room for.
 
 from dataclasses import dataclass
 
-WHOLE = (900.0, 540.0)
+WHOLE = (900.0, 510.0)
 """Units that points, every stroke, pieces and technique take beside each other."""
 SHORT = (560.0, 310.0)
 """Units that the points, the counts and what to do next take alone."""
 _A_LITTLE = 0.8
-"""By so much letters may be smaller for the strokes to be seen (our choice)."""
+"""By so much letters may be smaller for the pieces, or else the strokes, to be seen (our choice): above what comes next
+lie 1370 × 607 pixels of a window of 1920 × 1080, whose least unit is 1.49, and the page's is 1.19."""
 HEAD = 74.0
 """Units of the title above the cards."""
 EDGE, BETWEEN = 20.0, 12.0
-_CARD = 300.0
-"""The width of the card beside the plots."""
-_PLOT, _PIECES = 196.0, 150.0
+_CARD, _CARD_SHARE = 300.0, 0.33
+"""The least width of the card beside the plots, and its share of a wide page: its words then are fewer lines."""
+_PLOT, _PIECES = 180.0, 150.0
 """The least heights in which the plots can be read."""
 _PLOT_SHARE = 0.42
 """The plot's share of the height that it has with the pieces."""
@@ -66,7 +67,7 @@ class ReportPage:
 def page_for(size: tuple[int, int], least_unit: float = 0.0) -> ReportPage:
     """The page that fills a picture of `size` pixels, with units of `least_unit` pixels or more where they fit."""
     whole = _unit(size, WHOLE)
-    if whole >= least_unit:
+    if whole >= _A_LITTLE * least_unit:
         return _whole_page(whole, size[0] / whole, size[1] / whole)
     unit, plotted = min(_unit(size, SHORT), least_unit), _unit(size, PLOTTED)
     if _A_LITTLE * least_unit <= plotted < unit:
@@ -80,7 +81,7 @@ def _unit(size: tuple[int, int], needed: tuple[float, float]) -> float:
 
 def _whole_page(unit: float, width: float, height: float) -> ReportPage:
     low = height - EDGE
-    card = ReportBox(EDGE, HEAD, _CARD, low - HEAD)
+    card = ReportBox(EDGE, HEAD, max(_CARD, _CARD_SHARE * width), low - HEAD)
     left = card.right + BETWEEN
     across = width - EDGE - left
     plot = ReportBox(left, HEAD, across, max(_PLOT, _PLOT_SHARE * card.height))

@@ -11,6 +11,13 @@ def test_two_faults_of_one_frame_are_both_told() -> None:
     assert toasts.text == "the engine has ended\nthe disk is full"
 
 
+def test_a_long_path_is_shortened_in_the_middle() -> None:
+    toasts = Toasts()
+    toasts.notify("kept in /home/ann/.config/drum-station/latency.toml")
+    toasts.update(0)
+    assert toasts.text == "kept in /home/…/drum-station/latency.toml"
+
+
 def test_a_line_goes_by_itself_and_the_same_line_may_come_again() -> None:
     toasts = Toasts()
     seen = []

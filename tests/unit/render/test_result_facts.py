@@ -85,6 +85,8 @@ def test_no_hits_at_all() -> None:
 WINDOWS = {
     "1280 × 720": ((947, 558), 0.9),
     "1920 × 1080": ((1420, 880), 0.9),
+    "1280 × 720, with what comes next": ((946, 415), 0.9),
+    "1920 × 1080, with what comes next": ((1370, 607), 1.485),
     "1280 × 720, panels twice as large": ((704, 330), 1.8),
     "1920 × 1080, panels twice as large": ((1056, 840), 1.8),
     "beside a panel": ((947, 290), 0.9),
@@ -121,6 +123,8 @@ def test_a_small_window_shows_fewer_things_rather_than_smaller_letters() -> None
     assert 16 * pages["1920 × 1080"].unit >= 24
     assert 16 * pages["1920 × 1080, panels twice as large"].unit >= 24
     assert parts(pages["1280 × 720"]) == [True, True]
+    assert parts(pages["1280 × 720, with what comes next"]) == [True, True]
+    assert parts(pages["1920 × 1080, with what comes next"]) == [True, True]
     assert parts(pages["1920 × 1080, panels twice as large"]) == [True, False]
     assert parts(pages["1280 × 720, panels twice as large"]) == [False, False]
 

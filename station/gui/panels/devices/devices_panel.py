@@ -25,6 +25,7 @@ from station.app.window_state import State
 from station.core.events import Choke, Hit, PedalMoved, Switched
 from station.core.labels import piece_name
 from station.core.pieces import Piece, word
+from station.core.short_names import short_paths
 from station.core.units import NS_PER_MS
 from station.devices.mapping.device_map import DeviceMap
 from station.devices.mapping.trigger_filter import HeldBack
@@ -109,9 +110,9 @@ class DevicesPanel:
 
     def _kits(self, view: MappingView, kit: DeviceMap) -> None:
         for device in view.devices:
-            if imgui.radio_button(f"{device}##kit", view.device == device):
+            if imgui.radio_button(f"{short_paths(device)}##kit", view.device == device):
                 self._dispatch(ShowKit(device))
-            theme.tooltip("Show this kit")
+            theme.tooltip(f"Show this kit: {device}")
         theme.soft(f"understood as {kit.title}")
         if view.fault:
             imgui.text_wrapped(view.fault)
@@ -249,7 +250,7 @@ def cells(line: MonitorLine) -> tuple[str, str, str, str]:
         case None:
             return "no event", "", "", line.raw
         case _:
-            return f"{event.device} is here", "", "", line.raw
+            return f"{short_paths(event.device)} is here", "", "", line.raw
 
 
 def _bars(label: str, strokes: Iterable[PadStroke], threshold: int) -> None:

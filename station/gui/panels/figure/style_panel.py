@@ -34,8 +34,8 @@ HELP = (
     " itself. Save makes a style of your own, a file; eight slots keep what you want at hand. Whose hand leads holds"
     " for what you are asked to play too."
 )
-FREE_LABEL = "each for itself"
-BARS_TAB = "Bars"
+FREE_LABEL = "each joint on its own"
+_MORE_TABS = HANDS_TAB, PIECES_TAB, BARS_TAB = "Hands", "Pieces", "Bars"
 _LABEL_WIDTH, _VALUE_WIDTH, _WORD_WIDTH, _SMALL = 112, 38, 180, 28
 """Design pixels."""
 _LEADS = {
@@ -71,10 +71,10 @@ class StylePanel:
                     for group in tab.groups:
                         options = self._group(options, group)
                     imgui.end_tab_item()
-            if _tab("Hands"):
+            if _tab(HANDS_TAB):
                 options = self._hands(options, state)
                 imgui.end_tab_item()
-            if _tab("Pieces"):
+            if _tab(PIECES_TAB):
                 options = self._pieces(options)
                 imgui.end_tab_item()
             opens, self._opens_bars = self._opens_bars, False
@@ -210,17 +210,25 @@ def _place(state: State) -> float | None:
 
 
 def _tabs() -> bool:
-    """Begin the bar of narrow tabs; returns whether it is seen."""
+    """Begin the bar of narrow tabs, which scroll where not all have room; returns whether it is seen."""
+    fits = _width_of_tabs() <= imgui.get_content_region_avail().x
+    scrolls = imgui.TabBarFlags_.fitting_policy_scroll | imgui.TabBarFlags_.tab_list_popup_button
     imgui.push_style_var(imgui.StyleVar_.frame_padding, _narrow())
-    narrow = imgui.TabBarFlags_.fitting_policy_scroll | imgui.TabBarFlags_.tab_list_popup_button
-    flags = narrow if theme.is_narrow() else imgui.TabBarFlags_.fitting_policy_shrink
-    seen = imgui.begin_tab_bar("##figure", flags)
+    seen = imgui.begin_tab_bar("##figure", imgui.TabBarFlags_.fitting_policy_shrink if fits else scrolls)
     imgui.pop_style_var()
     return bool(seen)
 
 
+def _width_of_tabs() -> float:
+    """Pixels of all tabs side by side."""
+    titles = [*(tab.title for tab in TABS), *_MORE_TABS]
+    each = 2 * _narrow().x + imgui.get_style().item_inner_spacing.x
+    return float(sum(imgui.calc_text_size(title).x for title in titles) + len(titles) * each)
+
+
 def _narrow() -> imgui.ImVec2:
-    return imgui.ImVec2(theme.points(6), theme.points(7))
+    """What stands round a tab's words: less in a narrow panel."""
+    return imgui.ImVec2(theme.points(3 if theme.is_narrow() else 6), theme.points(7))
 
 
 def _tab(title: str, opens: bool = False) -> bool:

@@ -32,6 +32,8 @@ _INWARDS, _ROOMY = 12.0, 240.0
 _CLOSE, _FLAT = 6.0, 4.0
 """Design pixels between lines, and above and below a heading's words (our choice: a third more lessons are seen than
 with the panel's own spacing)."""
+_LEAST_LINES = 4
+"""In a list of fewer lines no heading stands above the lessons (our choice)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +76,8 @@ class LessonList:
     def _head_that_is_scrolled_out(self) -> float:
         """Above the lines, what heads the first that is seen, where it is not seen itself; returns how high that is."""
         scrolled, high = imgui.get_scroll_y(), imgui.get_frame_height_with_spacing()
+        if imgui.get_window_height() < _LEAST_LINES * high:
+            return 0.0
         heads = [each for each in self._headings if each.top < scrolled and each.bottom > scrolled + high]
         if not heads:
             return 0.0

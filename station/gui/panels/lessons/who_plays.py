@@ -13,7 +13,7 @@ from station.gui import theme
 from station.render import palette
 
 WHO_LABEL = "###who"
-NEW_NAME, ADD_STUDENT, STAY_LABEL = "##new-student", "Add##add-student", "Nobody else##stay"
+NEW_NAME, ADD_STUDENT, STAY_LABEL = "##new-student", "Add##add-student", "###stay"
 _WIDE, _LINE, _NAME_SIZE = 560, 58, 24.0
 """Design pixels of the list, of a line and its letters: read at two metres (our choice)."""
 _ROUND_ABOUT, _BETWEEN = 190, 9
@@ -67,7 +67,10 @@ class WhoPlaysPage:
         for number, line in enumerate(students.lines):
             self._line(number, line, line.name == students.now)
         self._new()
-        if imgui.button(STAY_LABEL, imgui.ImVec2(-1, 0)):
+        words = theme.one_line(
+            f"{students.now} plays on", imgui.get_content_region_avail().x - 2 * imgui.get_style().frame_padding.x
+        )
+        if imgui.button(f"{words}{STAY_LABEL}", imgui.ImVec2(-1, 0)):
             self._dispatch(AskWhoPlays(on=False))
         theme.tooltip(f"{students.now} goes on (Esc, or what brought the list up)")
         self._high = imgui.get_cursor_pos_y() + imgui.get_style().window_padding.y
