@@ -1,6 +1,5 @@
 """The lag in a session's report, and the runs that a report holds; docs/documents.md has the keys."""
 
-from math import isfinite
 from types import MappingProxyType
 from typing import Any
 
@@ -11,6 +10,8 @@ from station.scoring.analysis.device_lag import LagMean, LagRun
 from station.scoring.report.assessment_document import Json
 
 _PIECES = {word(piece): piece for piece in Piece}
+_MOST_BPM, _MOST_MOMENTS, _MOST_MS = 1_000.0, 1_000_000, 60_000.0
+"""No session of ours has more (our choice: hours of strokes, a beat at a tempo of 1): what says so was edited."""
 
 
 def lag_document(lag: SessionLag | None) -> Json:
@@ -67,14 +68,16 @@ def runs_in(lag: Any, take: str) -> tuple[LagRun, ...]:  # noqa: ANN401 - of a J
 
 def _run(row: Any, take: str) -> LagRun:  # noqa: ANN401 - of a JSON document
     pads = {_PIECES[name]: _mean(mean) for name, mean in row["pads"].items()}
-    tempo_bpm = float(row["tempo_bpm"])
-    if not 1.0 <= tempo_bpm <= 1000.0:
-        raise ValueError(tempo_bpm)
-    return LagRun(tempo_bpm, _mean(row), MappingProxyType(pads), take)
+    return LagRun(_within(row["tempo_bpm"], 1.0, _MOST_BPM), _mean(row), MappingProxyType(pads), take)
 
 
 def _mean(row: Any) -> LagMean:  # noqa: ANN401 - of a JSON document
-    moments, mean_ms, error_ms = int(row["moments"]), float(row["mean_ms"]), float(row["error_ms"])
-    if moments < 1 or not isfinite(mean_ms) or not isfinite(error_ms) or error_ms < 0:
-        raise ValueError(row)
-    return LagMean(moments, mean_ms, error_ms)
+    moments = int(_within(row["moments"], 1, _MOST_MOMENTS))
+    return LagMean(moments, _within(row["mean_ms"], -_MOST_MS, _MOST_MS), _within(row["error_ms"], 0.0, _MOST_MS))
+
+
+def _within(raw: Any, least: float, most: float) -> float:  # noqa: ANN401 - of a JSON document
+    """A number of a file that anybody may have edited: JSON writes numbers that no float holds, and 1e400."""
+    if isinstance(raw, bool) or not isinstance(raw, int | float) or not least <= raw <= most:
+        raise ValueError(raw)
+    return float(raw)
