@@ -79,5 +79,5 @@ def _mean(row: Any) -> LagMean:  # noqa: ANN401 - of a JSON document
 def _within(raw: Any, least: float, most: float) -> float:  # noqa: ANN401 - of a JSON document
     """A number of a file that anybody may have edited: JSON writes numbers that no float holds, and 1e400."""
     if isinstance(raw, bool) or not isinstance(raw, int | float) or not least <= raw <= most:
-        raise ValueError(raw)
+        raise ValueError("beyond every session")
     return float(raw)

@@ -8,6 +8,7 @@ what was practised in. `session.steps` of a report holds them (docs/documents.md
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from enum import StrEnum
+from math import ceil, floor
 
 from station.core.errors import BadInput
 from station.core.units import PPQ
@@ -143,7 +144,8 @@ def _onwards(plan: Plan, rules: Rules, following: Turn | None) -> tuple[NextStep
         own = target * (1 - SAME_TEMPO) > (raised.tempo_bpm or target) and plan.lesson.band is not None
         return (raised, *back, *((_tempo(plan, target, "the song's own tempo"),) if own else ()))
     lesson = _lesson(following)
-    faster = () if plan.lesson.band is not None else (_tempo(plan, plan.tempo_bpm + rules.up_pct * target / 100.0),)
+    goes_on = plan.lesson.band is None and _within(plan, MAX_TEMPO_BPM / _beat_quarters(plan)) > plan.beats_a_minute
+    faster = (_tempo(plan, plan.tempo_bpm + rules.up_pct * target / 100.0),) if goes_on else ()
     return (*lesson, *back, *faster) if lesson or back or faster else (again("nothing stands out"),)
 
 
@@ -229,7 +231,7 @@ def _tempo(plan: Plan, tempo_bpm: float, why: str = "") -> NextStep:
 
 def _within(plan: Plan, beats: float) -> float:
     quarters = _beat_quarters(plan)
-    return float(round(min(max(beats * quarters, MIN_TEMPO_BPM), MAX_TEMPO_BPM) / quarters))
+    return float(min(max(round(beats), ceil(MIN_TEMPO_BPM / quarters)), floor(MAX_TEMPO_BPM / quarters)))
 
 
 def _beat_quarters(plan: Plan) -> float:

@@ -106,6 +106,22 @@ def test_bars_that_hold_lead_back_to_all_of_them() -> None:
     assert labels(steps) == ["Raise the tempo: 85 bpm", "All bars at 80 bpm", "Once more"]
 
 
+def test_at_the_fastest_tempo_there_is_none_faster() -> None:
+    """No session is faster than 400 a minute; the step was offered as "Slower: 400 bpm"."""
+    assert labels(next_steps(document(), plan(400.0), measured())) == ["Once more"]
+
+
+@pytest.mark.parametrize(("tempo_bpm", "bpm"), [(399.0, 266), (20.0, 14)])
+def test_a_step_is_a_tempo_that_can_be_practised(tempo_bpm: float, bpm: int) -> None:
+    """In dotted quarters 400 and 20 quarters a minute are 266⅔ and 13⅓: a whole beat within them is 266 and 14."""
+    dotted = find_lesson("reading-six-eight")
+    laid = plan_practice(dotted, PlanOptions(tempo_bpm, demonstrations=0))
+    wanted = 1000.0 if tempo_bpm > 100.0 else 1.0
+    (first, *_) = next_steps(document(advice=[remark([1, 1], wanted)]), laid, measured())
+    assert first.tempo_bpm == bpm * 1.5
+    plan_practice(dotted, PlanOptions(first.tempo_bpm, bars=first.bars, demonstrations=0))
+
+
 def test_who_stopped_early_or_was_not_heard_plays_once_more() -> None:
     assert labels(next_steps(document(), plan(80.0), measured(), is_whole=False)) == ["Once more"]
     assert labels(next_steps(document(hits=0), plan(80.0), measured(), ROCK_2)) == ["Once more"]
