@@ -70,7 +70,6 @@ def main() -> None:
         "3 passes of bars 1–2 at 84 bpm",
         86.0,
         ("Nothing stands out: raise the tempo.",),
-        pass_bars=lesson.loop_score.bar_count,
     )
     right = (label == Label.MATCH) & (np.abs(late_ns) <= 1e6 * DEFAULT_LEVEL.edges_ms[-1])
     draw_report_png(result_facts(score, label, late_ns, right, np.empty(0), words), HERE / "result.png", (960, 600))
