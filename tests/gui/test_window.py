@@ -25,10 +25,14 @@ TIMEOUT_S = 360.0  # everything is drawn without a graphics card, on a machine t
 
 
 @pytest.fixture(scope="module")
-def environment(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
+def environment() -> Iterator[dict[str, str]]:
     for found in screen():
-        home = tmp_path_factory.mktemp("config")  # nobody's own settings and kits are read or written
-        yield {**found, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(home)}
+        yield {**found, "PYTHONPATH": str(ROOT)}
+
+
+def alone(environment: dict[str, str], folder: Path) -> dict[str, str]:
+    """The same with settings and kits that are nobody's own, and this test's alone."""
+    return {**environment, "XDG_CONFIG_HOME": str(folder / "config")}
 
 
 def run(scenario: str, environment: dict[str, str], folder: Path) -> dict[str, Any]:
@@ -42,7 +46,13 @@ def run_in_turn(scenarios: list[str], environment: dict[str, str], folder: Path)
     out = folder / "seen.json"
     command = [sys.executable, str(DRIVE), "+".join(scenarios), str(folder / "sessions"), str(out)]
     done = subprocess.run(
-        command, env=environment, cwd=folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
+        command,
+        env=alone(environment, folder),
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=TIMEOUT_S,
+        check=False,
     )
     assert done.returncode == 0, done.stderr[-3000:]
     seen: dict[str, Any] = json.loads(out.read_text())
@@ -58,7 +68,7 @@ def test_a_settings_folder_that_is_a_file_keeps_no_window_from_opening(
 ) -> None:
     (tmp_path / "config").write_text("a file")
     command = [sys.executable, "-m", "station.cli.command_line", "--watch-frames", "3"]
-    at = {**environment, "XDG_CONFIG_HOME": str(tmp_path / "config"), "HOME": str(tmp_path)}
+    at = {**alone(environment, tmp_path), "HOME": str(tmp_path)}
     done = subprocess.run(command, env=at, cwd=tmp_path, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
     assert done.returncode == 0, done.stderr[-3000:]
     assert (tmp_path / "config").read_text() == "a file"
@@ -438,7 +448,13 @@ def fault_of(scenario: str, environment: dict[str, str], folder: Path) -> str:
     """The last line that a window says which cannot go on."""
     command = [sys.executable, str(DRIVE), scenario, str(folder / "sessions"), str(folder / "seen.json")]
     done = subprocess.run(
-        command, env=environment, cwd=folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False
+        command,
+        env=alone(environment, folder),
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=TIMEOUT_S,
+        check=False,
     )
     assert done.returncode == 1, (done.returncode, done.stderr[-3000:])
     return done.stderr.strip().splitlines()[-1]
