@@ -81,6 +81,7 @@ class VirtualPerformance:
                 "wrong_piece": self.truth.count(Label.WRONG_PIECE),
                 "ignored": self.truth.count(Label.IGNORED),
                 "played_again": self.truth.count(Label.PLAYED_AGAIN),
+                "unknown": self.truth.count(Label.UNKNOWN),
             },
             "timing": {
                 "mean_signed_asynchrony_ms": float(asynchrony.mean()) if len(asynchrony) else None,

@@ -577,5 +577,5 @@ def test_a_level_that_the_disk_refuses_is_not_shown_as_chosen(tmp_path: Path) ->
     folder.write_text("no folder")
     station.dispatch(JudgeAt("rock-1", Level.STUDIO))
     station.update(1)
-    assert str(folder) in station.view().toast
+    assert f"{folder.name}/levels.json: cannot be read" in station.view().toast
     assert station.view().selection.level is Level.BEGINNER

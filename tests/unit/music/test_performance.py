@@ -66,4 +66,4 @@ def test_labels_are_counted_once_whether_they_are_of_notes_or_hits() -> None:
         note_label=np.array([Label.MATCH, Label.MISS, Label.WRONG_PIECE], np.uint8),
         hit_label=np.array([Label.MATCH, Label.WRONG_PIECE, Label.EXTRA, Label.IGNORED], np.uint8),
     )
-    assert [matching.count(label) for label in Label] == [1, 1, 1, 1, 1, 0, 0]
+    assert [matching.count(label) for label in Label] == [1, 1, 1, 1, 1, 0, 0, 0]
