@@ -1,9 +1,11 @@
 """The window on the real station: an engine in a process of its own, a fake kit on a serial line."""
 
 import sys
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
+from time import monotonic
 from types import SimpleNamespace
 from typing import cast
 
@@ -16,6 +18,7 @@ from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
 from station.app.sessions.session_control import Launch
 from station.app.settings.settings_store import SettingsStore
+from station.app.window_state import State
 from station.core.clock import Clock, MonotonicClock
 from station.core.measured_latency import load_calibration
 from station.engine.engine_config import EngineConfig
@@ -29,6 +32,8 @@ from station.simulation.student_spec import StudentSpec
 from tests.gui.drive import NEWCOMER, Drive
 from tests.gui.room import DirectEngine
 
+_PATIENCE_S = 75.0
+"""The longest that anything is waited for: the first groove takes a minute."""
 Context = imgui.test_engine.TestContext
 
 
@@ -56,6 +61,13 @@ class RealRoom(Drive):
         """End the station and its engine."""
         self.station.close()
         self._engines.close()
+
+    def wait_until(self, ctx: Context, holds: Callable[[State], bool]) -> None:
+        """Let frames pass until it holds; what takes a minute does not come."""
+        until = monotonic() + _PATIENCE_S
+        while not holds(self.state):
+            assert monotonic() < until, "it does not come"
+            ctx.yield_()
 
     def keep(self, ctx: Context, path: Path) -> None:
         """A picture of the screen; what imgui has cut off, or written over itself, is told."""
