@@ -10,7 +10,8 @@ from station.app.actions.practice_actions import ChoiceAction, ChooseBars, Judge
 from station.app.lesson_cards import request_of
 from station.app.room_state import LessonCard, SessionRequest, Stage
 from station.app.selection import Selection
-from station.app.sessions.session_control import Launch, SessionControl
+from station.app.sessions.launch import Launch
+from station.app.sessions.session_control import SessionControl
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput
 from station.drills.daily.daily_items import DailyItem

@@ -13,7 +13,7 @@ from station.app.actions.practice_actions import Pause
 from station.app.child_programs import ChildPrograms
 from station.app.handlers.file_handler import take_imported
 from station.app.handlers.handler_table import handlers_of
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.app.settings.settings_store import SettingsStore
 from station.app.station_parts import StationParts
 from station.app.station_view import state_of

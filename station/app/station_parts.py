@@ -16,9 +16,10 @@ from station.app.exam_page import ExamPage, ExamSurroundings
 from station.app.export import Exporter
 from station.app.importer import Importer
 from station.app.phase_page import PhasePage
+from station.app.sessions.launch import Launch
 from station.app.sessions.pad_control import PadControl
 from station.app.sessions.screen_choice import ScreenChoice, choice_beside
-from station.app.sessions.session_control import Launch, SessionControl
+from station.app.sessions.session_control import SessionControl
 from station.app.sessions.who_plays import WhoPlays
 from station.app.settings.preferences import Preferences
 from station.app.settings.settings_store import SettingsStore

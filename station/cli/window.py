@@ -59,7 +59,7 @@ def open_window(
         raise DeviceError("no screen: `station practice --headless` practises in the terminal")
     from station.app.child_programs import ChildPrograms
     from station.app.controller import Controller
-    from station.app.sessions.session_control import Launch
+    from station.app.sessions.launch import Launch
     from station.engine.engine_config import EngineConfig
     from station.engine.supervisor import EngineSupervisor
     from station.gui.window import run_window

@@ -83,17 +83,18 @@ def nearest(at: NDArray[np.float64], point: tuple[float, float], within: float) 
     return index if away[index] <= within else None
 
 
-def dot_label(dot: np.void) -> str:
-    """The words for a dot: bar, beat, piece, ms, pass."""
-    return f"Bar {dot['bar']}, {beat_label(dot)} (pass {dot['pass']})"
+def dot_label(dot: np.void, on_time_ms: float) -> str:
+    """The words for a dot: bar, beat, piece, whether it was on time, ms, pass."""
+    return f"Bar {dot['bar']}, {beat_label(dot, on_time_ms)} (pass {dot['pass']})"
 
 
-def beat_label(dot: np.void) -> str:
-    """The words for a dot within its bar: beat, piece, ms."""
-    return f"beat {round(float(dot['beat']), 2):g}, {piece_name(Piece(int(dot['piece'])))}: {_judged(dot)}"
+def beat_label(dot: np.void, on_time_ms: float) -> str:
+    """The words for a dot within its bar: beat, piece, whether it was on time, ms."""
+    name = piece_name(Piece(int(dot["piece"])))
+    return f"beat {round(float(dot['beat']), 2):g}, {name}: {_judged(dot, on_time_ms)}"
 
 
-def _judged(dot: np.void) -> str:
+def _judged(dot: np.void, on_time_ms: float) -> str:
     label, late_ms = Label(int(dot["label"])), float(dot["late_ms"])
     if label is Label.MISS:
         return "missed"
@@ -101,5 +102,6 @@ def _judged(dot: np.void) -> str:
         return "not written"
     if label is Label.UNKNOWN:
         return "unknown, for nothing could be heard"
-    when = "on time" if round(late_ms) == 0 else f"{abs(late_ms):.0f} ms {'late' if late_ms > 0 else 'early'}"
+    off = f"{abs(late_ms):.0f} ms {'late' if late_ms > 0 else 'early'}"
+    when = off if abs(late_ms) > on_time_ms else f"on time ({off})" if round(late_ms) else "on time"
     return f"{when}, on a wrong pad" if label is Label.WRONG_PIECE else when

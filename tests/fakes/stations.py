@@ -10,7 +10,7 @@ from station.app.controller import Controller
 from station.app.equipment.calibration import MeasuringProcess, Running
 from station.app.equipment.latency_methods import MeasureRequest
 from station.app.room_state import RoomState
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.settings import Settings, save_settings

@@ -13,7 +13,7 @@ from station.app.controller import Controller
 from station.app.equipment.calibration import Message
 from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
 from station.app.equipment.latency_methods import MeasureRequest
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound

@@ -16,7 +16,7 @@ from pty_student import PtyStudent
 from station.app.actions.settings_actions import SetView
 from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.app.settings.settings_store import SettingsStore
 from station.app.window_state import State
 from station.core.clock import Clock, MonotonicClock

@@ -67,12 +67,13 @@ def choice_beside(practice: CurrentPractice, kit_starts: bool) -> ScreenChoice |
 def _whose_lag(lag_ms: float, there: Collection[Piece]) -> ScreenChoice:
     """Whose a lag of all strokes is, as the student says; two kicks say nothing, for they mean to play."""
     out, left = pads_for(2, there)
+    late = "My headphones, sound card or kit are late"
     return ScreenChoice(
         (
             Option(
                 f"Take out {abs(lag_ms):.0f} ms",
                 AnswerLag(take_out=True),
-                "My headphones, sound card or kit are late",
+                late if lag_ms > 0 else "My equipment is quicker than the station believes",
                 out,
             ),
             Option("Leave it in", AnswerLag(take_out=False), "It is how I play: it counts", left),

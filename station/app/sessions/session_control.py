@@ -8,7 +8,7 @@ from concurrent.futures import Executor
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, assert_never
+from typing import assert_never
 
 from station.app.actions.practice_actions import Answer, Dismiss, EndSession, HearBar, Listen, SessionAction, Veto
 from station.app.catalog import Catalog
@@ -17,6 +17,7 @@ from station.app.room_state import FreeRequest, RoomState, SessionRequest, Stage
 from station.app.sessions.current_practice import CurrentPractice
 from station.app.sessions.demo_player import DemoPlayer
 from station.app.sessions.free_session import FreeSession
+from station.app.sessions.launch import Launch
 from station.app.sessions.lesson_session import LessonSession
 from station.app.sessions.playback import Playback
 from station.app.sessions.session_preparation import PreparedSession, SessionPreparation
@@ -37,30 +38,12 @@ from station.practice.session.cues.click_pattern import ClickPattern
 from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency, latency_of
 from station.practice.session.leading_hand import hands_of
-from station.practice.session.plan import Plan
 from station.render.snapshot import Snapshot
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
 
-if TYPE_CHECKING:
-    from station.practice.session.backing_track import BackingRequest
-
 LIVELY_NS = 5 * NS_PER_S
 """So long after a stroke another may come at any moment (our choice: a bar or two)."""
-
-
-@dataclass(frozen=True, slots=True)
-class Launch:
-    """What the station opens on: `plan` is shown and not yet played; with `adapt` its tempo will follow the student.
-
-    `latency` is what was measured of the devices, the settings' word where nothing was. Sessions whose tempo stays play
-    along to `backing`.
-    """
-
-    plan: Plan
-    adapt: bool = False
-    latency: Latency | None = None
-    backing: "BackingRequest | None" = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -34,7 +34,7 @@ def stroke_lines(result: SessionResult, hits: EveryHit) -> tuple[StrokeLine, ...
     places = [*((note, None) for note in range(len(right))), *((None, hit) for hit in extra)]
     return tuple(
         StrokeLine(
-            beat_label(dot),
+            beat_label(dot, hits.on_time_ms),
             int(dot["bar"]),
             int(dot["pass"]),
             note is not None and right[note],

@@ -69,10 +69,10 @@ class HitsPanel:
             _paper(hits, self.playback.bar)
             plots.strokes(dots["place"], dots["label"], dots["late_ms"], hits.on_time_ms, _DOT)
             self.at = plots.pixels(dots["place"], heights_ms(dots["label"], dots["late_ms"]))
-            self._point(dots)
+            self._point(hits, dots)
             implot.end_plot()
 
-    def _point(self, dots: NDArray[np.void]) -> None:
+    def _point(self, hits: EveryHit, dots: NDArray[np.void]) -> None:
         """Tell of the dot under the mouse; a click on it chooses its bar."""
         self.pointed = ""
         if not implot.is_plot_hovered():
@@ -81,7 +81,7 @@ class HitsPanel:
         index = nearest(self.at, (mouse.x, mouse.y), theme.points(_NEAR))
         if index is None:
             return
-        self.pointed = dot_label(dots[index])
+        self.pointed = dot_label(dots[index], hits.on_time_ms)
         imgui.set_tooltip(self.pointed)
         if imgui.is_mouse_clicked(imgui.MouseButton_.left):
             self.playback.bar, self.playback.pass_number = int(dots["bar"][index]), int(dots["pass"][index])

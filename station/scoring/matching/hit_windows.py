@@ -85,7 +85,7 @@ class Level(StrEnum):
     @property
     def on_time_ms(self) -> float:
         """Half the width of what is on time."""
-        return self.windows.edges_ms[0]
+        return self.windows.on_time_ms
 
     @property
     def words(self) -> str:

@@ -12,7 +12,7 @@ from station.app.equipment.calibration import Calibration, Failed, MeasuringProc
 from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults
 from station.app.equipment.latency_methods import MeasureRequest
 from station.app.room_state import Stage
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound
 from station.core.measured_latency import LOOPBACK, STRIKE, TAP, load_calibration

@@ -26,7 +26,8 @@ from station.app.actions.settings_actions import FinishFirstStart, LearnPause, P
 from station.app.controller import Controller
 from station.app.export import LESSON
 from station.app.room_state import Stage
-from station.app.sessions.session_control import LIVELY_NS, Launch
+from station.app.sessions.launch import Launch
+from station.app.sessions.session_control import LIVELY_NS
 from station.app.settings.first_start import FirstAnswers
 from station.app.settings.settings_store import SettingsStore
 from station.core.events import DeviceFound, Hit, StickPose

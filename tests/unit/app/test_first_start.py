@@ -9,7 +9,7 @@ from station.app.actions.settings_actions import FinishFirstStart
 from station.app.engine_client import DEAD, SILENT
 from station.app.help_topics import HELP, Topic, topic_of
 from station.app.room_state import RoomState, Stage
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.app.settings.first_start import FirstAnswers, answered, found_lines, student_level
 from station.core.settings import Settings
 from station.core.units import NS_PER_S

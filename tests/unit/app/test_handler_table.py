@@ -5,7 +5,7 @@ from typing import get_args
 
 from station.app.actions.action import Action
 from station.app.handlers.handler_table import handlers_of
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.drills.library import find_lesson
 from station.practice.session.plan import PlanOptions, plan_practice
 from tests.fakes.stations import Line, station_on, store_with

@@ -11,7 +11,7 @@ from station.app.controller import Controller
 from station.app.importer import Importer
 from station.app.music_files.lesson_import import KeptLesson
 from station.app.room_state import Stage
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.practice.session.plan import PlanOptions, plan_practice

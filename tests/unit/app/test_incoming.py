@@ -10,7 +10,7 @@ from station.app.actions.action import Show
 from station.app.actions.file_actions import Import
 from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.app.teacher_desk.incoming import KeptParcel
 from station.cli.command_line import main
 from station.drills.library import find_lesson

@@ -11,7 +11,7 @@ from station.app.actions.practice_actions import Begin
 from station.app.controller import Controller
 from station.app.equipment.lag_answer import last_lag
 from station.app.room_state import Stage
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, Hit
 from station.core.measured_latency import GROOVE, load_calibration

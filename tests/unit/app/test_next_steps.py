@@ -5,7 +5,7 @@ from pathlib import Path
 from station.app.actions.practice_actions import Begin, Dismiss, TakeStep
 from station.app.controller import Controller
 from station.app.room_state import Stage
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.core.events import Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S

@@ -10,7 +10,7 @@ from station.app.actions.practice_actions import Begin, EndSession, Pause
 from station.app.actions.settings_actions import LearnPause, SetPreferences
 from station.app.controller import Controller
 from station.app.room_state import Stage
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.core.errors import BadInput
 from station.core.events import DeviceFound, Hit, Switched
 from station.core.pieces import Piece, Zone

@@ -9,7 +9,7 @@ import pytest
 from station.app.actions.practice_actions import Begin, EndSession, Leave
 from station.app.controller import Controller
 from station.app.room_state import Stage
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.core.errors import BadInput
 from station.core.events import Hit
 from station.core.pieces import Piece, Zone

@@ -9,7 +9,7 @@ from station.app.actions.practice_actions import Begin, EndSession, JudgeAt
 from station.app.actions.settings_actions import AskWhoPlays, PlayAs
 from station.app.controller import Controller
 from station.app.room_state import Stage
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.app.settings.students import plain_name, switched
 from station.core.errors import BadInput
 from station.core.events import Hit, Switched

@@ -56,14 +56,15 @@ def test_passes_lie_over_each_other_and_bars_are_the_lesson_s() -> None:
 
 def test_what_is_told_of_a_dot() -> None:
     dots = every_hit(RESULT).dots
-    assert dot_label(dots[1]) == "Bar 2, beat 2, snare: 10 ms late (pass 1)"
-    assert dot_label(dots[5]) == "Bar 3, beat 2, snare: missed (pass 1)"
-    assert dot_label(dots[6]) == "Bar 3, beat 3, snare: on time, on a wrong pad (pass 1)"
-    assert dot_label(dots[16]) == "Bar 2, beat 2.5, ride: not written (pass 1)"
+    assert dot_label(dots[1], 5.0) == "Bar 2, beat 2, snare: 10 ms late (pass 1)"
+    assert dot_label(dots[1], 10.0) == "Bar 2, beat 2, snare: on time (10 ms late) (pass 1)", "as its dot is drawn"
+    assert dot_label(dots[5], 5.0) == "Bar 3, beat 2, snare: missed (pass 1)"
+    assert dot_label(dots[6], 5.0) == "Bar 3, beat 3, snare: on time, on a wrong pad (pass 1)"
+    assert dot_label(dots[16], 5.0) == "Bar 2, beat 2.5, ride: not written (pass 1)"
     assert dots["label"][16] == Label.EXTRA
     early = dots[1].copy()
     early["late_ms"] = -7.4
-    assert dot_label(early) == "Bar 2, beat 2, snare: 7 ms early (pass 1)"
+    assert dot_label(early, 5.0) == "Bar 2, beat 2, snare: 7 ms early (pass 1)"
 
 
 def test_one_piece_alone() -> None:

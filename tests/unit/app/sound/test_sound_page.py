@@ -31,7 +31,7 @@ from station.app.actions.sound_actions import (
 )
 from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.core.errors import DeviceError
 from station.core.pieces import Articulation, Piece, Zone
 from station.core.settings import load_settings

@@ -11,7 +11,7 @@ from station.app.actions.sound_actions import BringTrack, SetTrack, StartTrackHe
 from station.app.child_programs import ChildPrograms
 from station.app.controller import Controller
 from station.app.room_state import Stage
-from station.app.sessions.session_control import Launch
+from station.app.sessions.launch import Launch
 from station.core.errors import BadInput
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
