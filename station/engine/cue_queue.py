@@ -5,6 +5,7 @@ has already passed is late; up to `LATE_NS` it still sounds (two blocks never me
 dropped and counted: a click at the wrong time is worse than none.
 """
 
+from operator import attrgetter
 from typing import NamedTuple
 
 import numpy as np
@@ -30,6 +31,9 @@ class Cue(NamedTuple):
     articulation: int
     velocity: int
     openness: float
+
+
+_time_of = attrgetter("at_ns")
 
 
 class CueRun:
@@ -78,18 +82,22 @@ class CueQueue:
         """Session time of cue time 0; None while the transport stands."""
         self.late = 0
         """Cues dropped because their time had passed, since the start."""
-        self._run: CueRun | None = None
+        self._runs: tuple[CueRun, ...] = ()
 
     @property
     def has_cues(self) -> bool:
         """Whether something is still to sound; any thread may ask."""
-        run = self._run  # once: the thread that sounds may take it away meanwhile
-        return run is not None and not run.is_empty
+        return not all(run.is_empty for run in self._runs)  # the thread that sounds replaces the runs, all at once
 
     def start(self, run: CueRun, zero_ns: int) -> None:
         """Run from now on, with nothing but `run` to sound."""
         self.zero_ns = zero_ns
-        self._run = run
+        self._runs = (run,)
+
+    def add(self, run: CueRun) -> None:
+        """Let `run` sound beside what is still to sound; nothing where the transport stands."""
+        if self.zero_ns is not None:
+            self._runs = (*(other for other in self._runs if not other.is_empty), run)
 
     def resume(self, run: CueRun, zero_ns: int, now_ns: int) -> None:
         """Run as if started before with `run` at `zero_ns`: what was due before `now_ns` is over, and not late."""
@@ -98,13 +106,16 @@ class CueQueue:
 
     def stop(self) -> None:
         """Stand still and forget what was to sound."""
-        self.zero_ns = self._run = None
+        self.zero_ns, self._runs = None, ()
 
     def pop_due(self, from_ns: int, until_ns: int) -> list[Cue]:
         """The cues due in [`from_ns`, `until_ns`) of session time, in order, and those but a little before it."""
-        if self.zero_ns is None or self._run is None:
+        if self.zero_ns is None:
             return []
-        moved = [cue._replace(at_ns=cue.at_ns + self.zero_ns) for cue in self._run.pop_due(until_ns - self.zero_ns)]
+        due = [cue for run in self._runs for cue in run.pop_due(until_ns - self.zero_ns)]
+        if len(self._runs) > 1:
+            due.sort(key=_time_of)
+        moved = [cue._replace(at_ns=cue.at_ns + self.zero_ns) for cue in due]
         in_time = [cue for cue in moved if cue.at_ns >= from_ns - LATE_NS]
         self.late += len(moved) - len(in_time)
         return in_time

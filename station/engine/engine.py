@@ -26,6 +26,7 @@ from station.devices.mapping.device_map import DeviceMap
 from station.engine.capture_recorder import CaptureOpening, OpenCapture, RunningCapture
 from station.engine.cue_queue import CueRun
 from station.engine.messages import (
+    AddCues,
     Annotate,
     CaptureSaved,
     Command,
@@ -221,6 +222,9 @@ class Engine:
                 self._zero_ns = command.zero_ns
                 self._player.resume(CueRun(command.cues), command.zero_ns)
                 self._midi.resume(CueRun(command.cues), command.zero_ns, self._now_ns)
+            case AddCues(cues):
+                self._player.add(CueRun(cues))
+                self._midi.add(CueRun(cues))
             case Stop():
                 self._zero_ns = None
                 self._player.stop()

@@ -20,6 +20,7 @@ from station.sync.sonification.triggers import Trigger
 
 __all__ = [
     "CUE_DTYPE",
+    "AddCues",
     "Annotate",
     "Bus",
     "CaptureSaved",
@@ -87,6 +88,16 @@ class Resume:
 
     cues: NDArray[np.void]
     zero_ns: int
+
+
+@dataclass(frozen=True, eq=False)
+class AddCues:
+    """Let `cues` sound too, at their times from the zero of the transport that runs or was asked to start.
+
+    Those whose time has passed are late, as others are; where the transport stands nothing is added.
+    """
+
+    cues: NDArray[np.void]
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,7 +238,7 @@ class Quit:
 
 Setting = SetLevel | SetPiece | SetMaster | SetSounds | SetBacking | SetMidiOut | SetAirDrums | TrackPhase
 Watch = WatchRawBytes | WatchSensors
-Command = Play | Resume | Stop | Setting | KeyHit | RecordCapture | Annotate | Watch | ReloadDevice | Quit
+Command = Play | Resume | AddCues | Stop | Setting | KeyHit | RecordCapture | Annotate | Watch | ReloadDevice | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------

@@ -47,13 +47,22 @@ class MidiPlayer:
         self._bus = bus
         self._playback = CueQueue()
         self._ends: list[tuple[int, bytes]] = []  # when notes end (session time), and how: a heap
-        self._waiting: deque[CueRun | None] = deque()  # of each start yet to take effect, None of one stopped before
+        self._waiting: deque[list[CueRun] | None] = (
+            deque()
+        )  # of each start yet to take effect, None of one stopped before
         self.fault: DeviceError | None = None
         """Why nothing is sent any more; None while all is well."""
 
     def play(self, run: CueRun) -> None:
         """Play `run`, of this player's own, and nothing else, as soon as `started` says where its time 0 lies."""
-        self._waiting.append(run)
+        self._waiting.append([run])
+
+    def add(self, run: CueRun) -> None:
+        """Play `run`, of this player's own, too: with the start that is awaited, else with what plays."""
+        if not self._waiting:
+            self._playback.add(run)
+        elif (awaited := self._waiting[-1]) is not None:
+            awaited.append(run)
 
     def resume(self, run: CueRun, zero_ns: int, now_ns: int) -> None:
         """Play what of `run` lies ahead of `now_ns`, with time 0 at `zero_ns`, from now on."""
@@ -61,10 +70,12 @@ class MidiPlayer:
 
     def started(self, zero_ns: int) -> None:
         """The transport's next start has taken effect: time 0 is `zero_ns` of session time."""
-        run = self._waiting.popleft() if self._waiting else None  # one from before this player was made is none of its
-        if run is not None:
+        runs = self._waiting.popleft() if self._waiting else None  # one from before this player was made is none of its
+        if runs is not None:
             self._silence()
-            self._playback.start(run, zero_ns)
+            self._playback.start(runs[0], zero_ns)
+            for added in runs[1:]:
+                self._playback.add(added)
 
     def stop(self) -> None:
         """Forget what was to be played, and end every note that sounds."""
@@ -133,6 +144,11 @@ class MidiOut:
         """As `MidiPlayer.play`."""
         if self._player is not None:
             self._player.play(run)
+
+    def add(self, run: CueRun) -> None:
+        """As `MidiPlayer.add`."""
+        if self._player is not None:
+            self._player.add(run)
 
     def resume(self, run: CueRun, zero_ns: int, now_ns: int) -> None:
         """As `MidiPlayer.resume`."""

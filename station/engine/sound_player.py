@@ -87,6 +87,10 @@ class SoundPlayer:
         """Run the transport on whose zero was heard at `zero_ns`; what lies behind the next block is over."""
         self._inbox.append(lambda block_ns: self._playback.resume(run, zero_ns, block_ns))
 
+    def add(self, run: CueRun) -> None:
+        """Let `run` sound too in the transport that runs, or that was handed in to start."""
+        self._inbox.append(lambda _: self._playback.add(run))
+
     def stop(self) -> None:
         """Stop the transport; what rings, rings out."""
         self._inbox.append(lambda _: self._stop())

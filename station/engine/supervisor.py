@@ -15,6 +15,8 @@ from contextlib import suppress
 from types import TracebackType
 from typing import Protocol, Self
 
+import numpy as np
+
 from station.core.clock import monotonic_ns
 from station.core.errors import DeviceError
 from station.core.events import DeviceFound, DeviceLost
@@ -23,6 +25,7 @@ from station.core.units import NS_PER_S
 from station.engine.engine_config import WORN_OUT, EngineConfig, Prepare
 from station.engine.engine_process import EngineProcess
 from station.engine.messages import (
+    AddCues,
     Bus,
     CaptureSaved,
     Command,
@@ -249,6 +252,9 @@ class _Standing:
                 self._play, self._sent_ns, self._zero_ns = command, now_ns, None
             case Resume(cues, zero_ns):
                 self._play, self._sent_ns, self._zero_ns = Play(cues, 0), now_ns, zero_ns
+            case AddCues(cues):
+                if self._play is not None:  # what goes on sounds all of it
+                    self._play = Play(np.concatenate([self._play.cues, cues]), self._play.start_in_ns)
             case Stop():
                 self._play = None
             case SetLevel():
@@ -274,7 +280,7 @@ class _Standing:
 
     def misses(self, command: Command) -> bool:
         """Whether `commands` leaves `command` out."""
-        return not isinstance(command, Play | Stop | Setting | Watch | RecordCapture)
+        return not isinstance(command, Play | AddCues | Stop | Setting | Watch | RecordCapture)
 
     def heard(self, event: EngineEvent) -> None:
         """The engine said `event`."""

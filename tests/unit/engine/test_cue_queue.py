@@ -77,7 +77,7 @@ class StoppedMeanwhile(CueQueue):
 
     def __getattribute__(self, name: str) -> object:
         seen: object = super().__getattribute__(name)
-        if name == "_run":
+        if name == "_runs":
             self.stop()
         return seen
 
@@ -87,3 +87,35 @@ def test_it_may_be_stopped_while_another_thread_asks_for_its_cues() -> None:
     playback.start(CueRun(clicks([10])), 0)
     assert playback.has_cues
     assert not playback.has_cues
+
+
+def test_added_cues_sound_among_those_that_are_left() -> None:
+    playback = CueQueue()
+    playback.start(CueRun(clicks([0, 20, 40])), 1000)
+    assert times(playback, 1000, 1010) == [1000]
+    playback.add(CueRun(clicks([30, 10, 50])))
+    assert times(playback, 1010, 1041) == [1010, 1020, 1030, 1040]
+    assert playback.has_cues
+    assert times(playback, 1041, 2000) == [1050]
+    assert not playback.has_cues
+
+
+def test_an_added_cue_whose_time_has_passed_is_late() -> None:
+    playback = CueQueue()
+    playback.start(CueRun(clicks([0])), 0)
+    now_ns = 50 * NS_PER_MS
+    playback.pop_due(0, now_ns)
+    playback.add(CueRun(clicks([now_ns - LATE_NS - 1, now_ns])))
+    assert times(playback, now_ns, now_ns + 1) == [now_ns]
+    assert playback.late == 1
+
+
+def test_nothing_is_added_to_a_transport_that_stands() -> None:
+    playback = CueQueue()
+    playback.add(CueRun(clicks([0])))
+    playback.start(CueRun(clicks([5])), 0)
+    assert times(playback, 0, 100) == [5]
+    playback.stop()
+    playback.add(CueRun(clicks([200])))
+    assert not playback.has_cues
+    assert times(playback, 100, 300) == []

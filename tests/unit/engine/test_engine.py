@@ -17,6 +17,7 @@ from station.devices.mapping.device_map import Pad
 from station.devices.mapping.presets import preset_named
 from station.engine.engine import KEYBOARD, Engine, OutputState
 from station.engine.messages import (
+    AddCues,
     Bus,
     CaptureSaved,
     EngineEvent,
@@ -419,3 +420,13 @@ def test_a_kit_that_was_changed_is_taken_at_once() -> None:
     engine.feed(KIT, bytes.fromhex("99 26 40"), 1_000_000_000)
     hits = [event.at_ns for event in engine.advance(2_000_000_000) if isinstance(event, Hit)]
     assert hits == [1], "64 is softer than 100"
+
+
+def test_added_cues_fall_on_their_frames_without_a_restart() -> None:
+    rig = Rig()
+    rig.engine.handle(Play(clicks([0]), 10 * NS_PER_MS))
+    started = only(rig.run_ms(200), Started)
+    rig.engine.handle(AddCues(stroke_cue(300 * NS_PER_MS, Piece.SNARE)))
+    assert not [event for event in rig.run_ms(300) if isinstance(event, Started)]
+    heard = np.array(rig.sink.onsets_ns())
+    assert np.abs(heard - started.zero_ns - [0, 300 * NS_PER_MS]).max() <= FRAME_NS / 2 + 1

@@ -224,3 +224,29 @@ def test_a_start_that_was_stopped_before_it_took_effect_leaves_the_next_its_own_
     assert wire.heard == []
     player.advance(at(100))
     assert wire.heard == [KICK_ON]
+
+
+def test_added_cues_are_sent_with_those_that_play_and_with_a_start_that_is_awaited() -> None:
+    wire = Wire()
+    player = MidiPlayer(wire)
+    player.add(run(kick(5)))  # nothing plays: it is dropped
+    player.play(run(kick(100)))
+    player.add(run(kick(20)))
+    player.started(ZERO_NS)
+    player.advance(at(20))
+    assert wire.heard == [KICK_ON]
+    player.add(run(kick(60)))
+    for now_ms in range(21, 150):
+        player.advance(at(now_ms))
+    assert wire.heard.count(KICK_ON) == 3
+
+
+def test_cues_added_after_a_stop_are_of_no_start() -> None:
+    wire = Wire()
+    player = MidiPlayer(wire)
+    player.play(run(kick(0)))
+    player.stop()
+    player.add(run(kick(0)))
+    player.started(ZERO_NS)
+    player.advance(at(50))
+    assert KICK_ON not in wire.heard

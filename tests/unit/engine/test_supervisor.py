@@ -11,6 +11,7 @@ from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.engine.engine_config import WORN_OUT, EngineConfig, Prepare
 from station.engine.messages import (
+    AddCues,
     Bus,
     CaptureSaved,
     Command,
@@ -320,3 +321,27 @@ def test_a_server_may_end_as_often_as_it_likes() -> None:
     house.working.end(-6)
     with pytest.raises(DeviceError):
         house.engine.events()
+
+
+def test_cues_that_were_added_sound_in_the_next_engine_too() -> None:
+    house = House()
+    house.hears(Ready("card"))
+    house.engine.send(Play(clicks([0, 10]), 0))
+    house.hears(Started(500))
+    house.engine.send(AddCues(clicks([20])))
+    house.working.end()
+    house.engine.send(AddCues(clicks([30])))  # meets a dead engine: sent once, with all that holds
+    (resume,) = house.working.told
+    assert isinstance(resume, Resume)
+    assert resume.zero_ns == 500
+    assert resume.cues["at_ns"].tolist() == [0, 10, 20, 30]
+
+
+def test_cues_added_after_the_stop_are_forgotten() -> None:
+    house = House()
+    house.hears(Ready("card"))
+    for command in (Play(clicks([0]), 0), Stop(), AddCues(clicks([20]))):
+        house.engine.send(command)
+    house.working.end()
+    house.hears()
+    assert house.working.told == []

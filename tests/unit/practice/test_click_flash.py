@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from station.core.units import NS_PER_MS, NS_PER_S
-from station.engine.messages import Play, Started, Stop
+from station.engine.messages import AddCues, Play, Started, Stop
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.practice.session.cues.click_flash import DARK, FLASH_NS, ClickFlash
 from station.practice.session.cues.click_pattern import ClickPattern, click_cues
@@ -49,3 +49,13 @@ def test_nothing_flashes_before_it_has_begun_or_after_it_was_ended() -> None:
     flash.sent(Play(np.zeros(0, click_cues(AT_120, 1).dtype), 0))
     flash.handle(Started(ZERO_NS))
     assert flash.at(ZERO_NS) == DARK
+
+
+def test_clicks_that_are_added_flash_too() -> None:
+    flash = ClickFlash()
+    flash.sent(Play(click_cues(AT_120, AT_120.bar_start(1)), 0))
+    flash.handle(Started(ZERO_NS))
+    more = click_cues(AT_120, AT_120.bar_start(1))
+    more["at_ns"] += 4 * BEAT_NS
+    flash.sent(AddCues(more))
+    assert [flash.at(ZERO_NS + beat * BEAT_NS).is_accent for beat in range(8)] == [True, False, False, False] * 2

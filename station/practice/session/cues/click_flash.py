@@ -10,7 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
-from station.engine.messages import Bus, ClickVoice, Command, EngineEvent, Play, Resume, Started, Stop
+from station.engine.messages import (
+    AddCues,
+    Bus,
+    ClickVoice,
+    Command,
+    EngineEvent,
+    Play,
+    Resume,
+    Started,
+    Stop,
+)
 from station.practice.session.cues.click_pattern import leads_ns
 
 FLASH_NS = 140 * NS_PER_MS
@@ -31,6 +41,7 @@ class Flash:
 
 DARK = Flash()
 _NO_TIMES = np.empty(0, np.int64)
+_NO_VOICES = np.empty(0, np.uint8)
 
 
 class ClickFlash:
@@ -38,7 +49,7 @@ class ClickFlash:
 
     def __init__(self) -> None:
         self._at_ns: NDArray[np.int64] = _NO_TIMES
-        self._voices: NDArray[np.uint8] = np.empty(0, np.uint8)
+        self._voices: NDArray[np.uint8] = _NO_VOICES
         self._zero_ns: int | None = None
 
     def sent(self, command: Command) -> None:
@@ -48,16 +59,23 @@ class ClickFlash:
                 self._take(cues, None)
             case Resume(cues, zero_ns):
                 self._take(cues, zero_ns)
+            case AddCues(cues):
+                self._add(cues)
             case Stop():
                 self._zero_ns, self._at_ns = None, _NO_TIMES
             case _:
                 pass
 
     def _take(self, cues: NDArray[np.void], zero_ns: int | None) -> None:
+        self._zero_ns, self._at_ns, self._voices = zero_ns, _NO_TIMES, _NO_VOICES
+        self._add(cues)
+
+    def _add(self, cues: NDArray[np.void]) -> None:
         clicks = cues[(cues["bus"] == Bus.CLICK) & (cues["velocity"] > 0)]
-        at_ns = clicks["at_ns"] + leads_ns(clicks)
+        at_ns = np.concatenate([self._at_ns, clicks["at_ns"] + leads_ns(clicks)])
+        voices = np.concatenate([self._voices, clicks["piece"]])
         order = np.argsort(at_ns, kind="stable")
-        self._at_ns, self._voices, self._zero_ns = at_ns[order], clicks["piece"][order], zero_ns
+        self._at_ns, self._voices = at_ns[order], voices[order]
 
     def handle(self, event: EngineEvent) -> None:
         """Take one event of the engine."""
