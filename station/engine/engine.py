@@ -52,6 +52,7 @@ from station.engine.messages import (
     Status,
     Stop,
     TrackPhase,
+    Transport,
     WatchRawBytes,
     WatchSensors,
 )
@@ -215,20 +216,8 @@ class Engine:
     def handle(self, command: Command) -> None:
         """Obey the app; "now" is what `advance` was told last."""
         match command:
-            case Play():
-                self._player.play(CueRun(command.cues), self._now_ns + command.start_in_ns)
-                self._midi.play(CueRun(command.cues))
-            case Resume():
-                self._zero_ns = command.zero_ns
-                self._player.resume(CueRun(command.cues), command.zero_ns)
-                self._midi.resume(CueRun(command.cues), command.zero_ns, self._now_ns)
-            case AddCues(cues):
-                self._player.add(CueRun(cues))
-                self._midi.add(CueRun(cues))
-            case Stop():
-                self._zero_ns = None
-                self._player.stop()
-                self._midi.stop()
+            case Play() | Resume() | AddCues() | Stop():
+                self._move_transport(command)
             case (
                 SetLevel()
                 | SetPiece()
@@ -256,6 +245,23 @@ class Engine:
                 self._load_own_kit(device)
             case Quit():
                 self.quitting = True
+
+    def _move_transport(self, command: Transport) -> None:
+        match command:
+            case Play():
+                self._player.play(CueRun(command.cues), self._now_ns + command.start_in_ns)
+                self._midi.play(CueRun(command.cues))
+            case Resume():
+                self._zero_ns = command.zero_ns
+                self._player.resume(CueRun(command.cues), command.zero_ns)
+                self._midi.resume(CueRun(command.cues), command.zero_ns, self._now_ns)
+            case AddCues(cues):
+                self._player.add(CueRun(cues))
+                self._midi.add(CueRun(cues))
+            case Stop():
+                self._zero_ns = None
+                self._player.stop()
+                self._midi.stop()
 
     def _set(self, command: Setting) -> None:
         match command:

@@ -238,7 +238,8 @@ class Quit:
 
 Setting = SetLevel | SetPiece | SetMaster | SetSounds | SetBacking | SetMidiOut | SetAirDrums | TrackPhase
 Watch = WatchRawBytes | WatchSensors
-Command = Play | Resume | AddCues | Stop | Setting | KeyHit | RecordCapture | Annotate | Watch | ReloadDevice | Quit
+Transport = Play | Resume | AddCues | Stop
+Command = Transport | Setting | KeyHit | RecordCapture | Annotate | Watch | ReloadDevice | Quit
 
 
 # --- from the engine -------------------------------------------------------------------------------------------------
