@@ -4,11 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from station.core.clock import ManualClock
 from station.core.errors import DeviceError, StationError
-from station.devices.mapping.presets import GENERAL_MIDI_PRESET
-from station.engine.engine import Engine
-from station.engine.messages import Command, EngineEvent
+from station.practice.headless.engine_here import EngineHere
 from station.practice.headless.live import begin, end
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
@@ -59,7 +56,7 @@ def _practise(
     runner: SessionRunner, perform: Callable[[Plan], VirtualPerformance], capture: Path | None
 ) -> StationError | None:
     """Play every pass of `runner` as the student would `perform` it; returns why the capture lacks some, if it does."""
-    engine, session = _EngineHere(), None
+    engine, session = _PassPlayer([DEVICE]), None
     begin(engine, runner, capture)
     engine.step(runner, 0)
     if runner.heard.capture_fault is not None:
@@ -70,27 +67,12 @@ def _practise(
     return end(engine, runner)
 
 
-class _EngineHere:
-    """An engine in this process, on a clock that is moved by hand, and a kit to play on."""
-
-    def __init__(self) -> None:
-        self._engine, self._clock = Engine(), ManualClock()
-        self._engine.advance(self._clock.now_ns())
-        self._engine.use_preset(DEVICE, GENERAL_MIDI_PRESET)
-        self._engine.device_found(DEVICE, self._clock.now_ns())
-
-    def send(self, command: Command) -> None:
-        """Hand the engine a command."""
-        self._engine.handle(command)
-
-    def events(self, wait_s: float = 0.0) -> list[EngineEvent]:
-        """What has happened since the last call: nothing happens while anybody waits."""
-        del wait_s
-        return self._engine.advance(self._clock.now_ns())
+class _PassPlayer(EngineHere):
+    """An engine on which passes are played."""
 
     def play(self, runner: SessionRunner, student: VirtualPerformance) -> None:
         """Play a pass that has just been started, and let it end."""
-        session, zero_ns = runner.session, self._clock.now_ns() + LEAD_IN_NS
+        session, zero_ns = runner.session, self.now_ns + LEAD_IN_NS
         plan = session.plan
         self.step(runner, zero_ns)
         played_until_ns = plan.passes_start_ns
@@ -99,13 +81,13 @@ class _EngineHere:
                 return
             played_until_ns = max(plan.passes_start_ns + at_ns, played_until_ns)
             now_ns = zero_ns + plan.passes_start_ns + at_ns
-            self._engine.feed(DEVICE, data, now_ns)
+            self.feed(DEVICE, data, now_ns)
             self.step(runner, now_ns)
         if runner.session is session:
             self.step(runner, zero_ns + max(plan.end_ns, played_until_ns) + TAIL_NS)
 
     def step(self, runner: SessionRunner, now_ns: int) -> None:
         """Let the runner hear and do what comes until then."""
-        self._clock.advance_to(max(now_ns, self._clock.now_ns()))
-        for command in runner.update(self._clock.now_ns(), self.events()).commands:
+        self.advance_to(now_ns)
+        for command in runner.update(self.now_ns, self.events()).commands:
             self.send(command)

@@ -24,20 +24,28 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.events import Hit
-from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.devices.capture.replay import LoggedText
 from station.drills.lesson import Lesson
 from station.engine.messages import CUE_DTYPE
 from station.motion.kit.kit import DEFAULT_KIT, load_kit
-from station.music.score import NOTE_DTYPE, Note, Score
-from station.music.tempo import MeterChange, TempoChange, TempoMap
+from station.music.score import Score
 from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
 from station.practice.session.cues.quiet_bars import gap_of
-from station.practice.session.device_latency import KitLatency, Latency
+from station.practice.session.device_latency import Latency
+from station.practice.session.log_values import (
+    MOST_TICKS,
+    landing_of,
+    latency_fields,
+    latency_from,
+    note_rows,
+    rows_in,
+    score_fields,
+    score_of,
+    whole,
+)
 from station.practice.session.plan import MAX_LOOPS, MAX_TEMPO_BPM, MIN_TEMPO_BPM, Plan
 from station.practice.session.rising_tempo import TempoStep, risen
 from station.scoring.matching.hit_windows import Level
@@ -113,9 +121,9 @@ def text_of(said: Said | Tracked) -> str:
     """The text as it is kept."""
     match said:
         case Tracked():
-            return _json({"said": "track", **_section_fields(said.section)})
+            return _json({"said": "track", **score_fields(said.section)})
         case PassBegan():
-            fields = {"said": "pass", **_plan_fields(said.plan), "latency": _latency_fields(said.latency)}
+            fields = {"said": "pass", **_plan_fields(said.plan), "latency": latency_fields(said.latency)}
             fields["waits"] = said.waits
         case Paused():
             fields = {"said": "pause", "now_ns": said.now_ns, "command": [list(key) for key in said.command]}
@@ -144,51 +152,12 @@ def _plan_fields(plan: Plan) -> dict[str, object]:
         "gap": None if plan.click is None or plan.click.gap is None else str(plan.click.gap),
         "steps": [[step.bar, step.tempo_bpm] for step in plan.steps],
         "level": plan.level,
-        **_section_fields(plan.section),
-        "landing": _rows(plan.landing),
+        **score_fields(plan.section),
+        "landing": note_rows(plan.landing),
         "passes_start_ns": plan.passes_start_ns,
         "end_ns": plan.end_ns,
     }
 
-
-def _section_fields(section: Score) -> dict[str, object]:
-    tempo_map = section.tempo_map
-    return {
-        "notes": _rows(section.notes),
-        "tempos": [[change.tick, change.us_per_quarter] for change in tempo_map.tempos],
-        "meters": [[change.tick, change.beats, change.unit, *change.groups] for change in tempo_map.meters],
-        **({"tempo_is_played": True} if tempo_map.is_played else {}),
-        "end_tick": section.end_tick,
-    }
-
-
-def _rows(notes: NDArray[np.void]) -> list[list[float | int | None]]:
-    return [_without_nan(row) for row in notes.tolist()]
-
-
-def _without_nan(row: tuple[float | int, ...]) -> list[float | int | None]:
-    return [None if isinstance(value, float) and math.isnan(value) else value for value in row]
-
-
-def _latency_fields(latency: Latency) -> dict[str, object]:
-    kits = {
-        name: {"kit_ns": kit.kit_ns, "pads_ns": {str(int(piece)): ns for piece, ns in kit.pads_ns.items()}}
-        for name, kit in latency.kits.items()
-    }
-    return {
-        "input_ns": latency.input_ns,
-        "output_ns": latency.output_ns,
-        "kits": kits,
-        "outputs_ns": dict(latency.outputs_ns),
-    }
-
-
-_MOST_TICKS = 2**32
-"""So long may what is judged be (our choice: five hours at 120 bpm); what is longer is damage."""
-_MOST_LEAD_MS = 10_000.0
-"""No grace stroke lies so far from its note."""
-_NEWER_COLUMNS = 2
-"""The last columns of `NOTE_DTYPE`, swing and timing, are not in older captures, and 0 there."""
 
 # --- reading ----------------------------------------------------------------------------------------------------------
 
@@ -204,30 +173,30 @@ def said_in(logged: LoggedText) -> Said | Tracked | None:
 
 
 def _paused(fields: dict[str, Any]) -> Paused:
-    keys = ((_whole(at), str(device), _whole(p), _whole(v)) for at, device, p, v in fields["command"])
-    return Paused(_whole(fields["strokes"]), _whole(fields["now_ns"]), tuple(keys))
+    keys = ((whole(at), str(device), whole(p), whole(v)) for at, device, p, v in fields["command"])
+    return Paused(whole(fields["strokes"]), whole(fields["now_ns"]), tuple(keys))
 
 
 _READERS: Mapping[object, Callable[[dict[str, Any]], Said | Tracked]] = MappingProxyType(
     {
         "pass": lambda said: PassBegan(
-            _whole(said["strokes"]), _plan(said), _latency(said["latency"]), bool(said["waits"])
+            whole(said["strokes"]), _plan(said), latency_from(said["latency"]), bool(said["waits"])
         ),
         "pause": _paused,
-        "go_on": lambda said: WentOn(_whole(said["strokes"]), bool(said["asked"]), bool(said["whole"])),
-        "end": lambda said: Ended(_whole(said["strokes"]), _whole(said["now_ns"])),
-        "unheard": lambda said: WasUnheard(*(_whole(said[key]) for key in ("strokes", "from_ns", "until_ns"))),
-        "track": lambda said: Tracked(_section(said)),
+        "go_on": lambda said: WentOn(whole(said["strokes"]), bool(said["asked"]), bool(said["whole"])),
+        "end": lambda said: Ended(whole(said["strokes"]), whole(said["now_ns"])),
+        "unheard": lambda said: WasUnheard(*(whole(said[key]) for key in ("strokes", "from_ns", "until_ns"))),
+        "track": lambda said: Tracked(score_of(said)),
     }
 )
 
 
 def _plan(fields: dict[str, object]) -> Plan:
     """As much of the plan as judgement needs: nothing sounds, and nobody demonstrates."""
-    section, landing, steps = _section(fields), _landing(fields), _steps(fields)
-    passes, start_ns, end_ns = (_whole(fields[key]) for key in ("passes", "passes_start_ns", "end_ns"))
-    beat_ticks, tempo_bpm = _whole(fields["beat_ticks"]), float(str(fields["tempo_bpm"]))
-    if not (1 <= passes <= MAX_LOOPS and 0 < beat_ticks <= _MOST_TICKS and 0 < tempo_bpm < math.inf):
+    section, landing, steps = score_of(fields), landing_of(fields), _steps(fields)
+    passes, start_ns, end_ns = (whole(fields[key]) for key in ("passes", "passes_start_ns", "end_ns"))
+    beat_ticks, tempo_bpm = whole(fields["beat_ticks"]), float(str(fields["tempo_bpm"]))
+    if not (1 <= passes <= MAX_LOOPS and 0 < beat_ticks <= MOST_TICKS and 0 < tempo_bpm < math.inf):
         raise ValueError
     lesson = Lesson(name=str(fields["lesson"]), title=str(fields["title"]), score=section, beat_ticks=beat_ticks)
     return Plan(
@@ -236,7 +205,7 @@ def _plan(fields: dict[str, object]) -> Plan:
         tempo_bpm=tempo_bpm,
         section=section,
         score=risen(section.repeated(passes).landing_on(landing), steps),
-        first_bar=_whole(fields["first_bar"]),
+        first_bar=whole(fields["first_bar"]),
         passes=passes,
         segments=(),
         passes_start_ns=start_ns,
@@ -259,105 +228,10 @@ def _click(fields: dict[str, object]) -> ClickPattern | None:
 
 def _steps(fields: dict[str, object]) -> tuple[TempoStep, ...]:
     """The tempi of the passes where they rose; old captures tell none."""
-    rows = [_list(row) for row in _list(fields.get("steps", []))]
-    steps = tuple(TempoStep(_whole(bar), float(str(tempo_bpm))) for bar, tempo_bpm in rows)
+    rows = [rows_in(row) for row in rows_in(fields.get("steps", []))]
+    steps = tuple(TempoStep(whole(bar), float(str(tempo_bpm))) for bar, tempo_bpm in rows)
     bars = [step.bar for step in steps]
     are_tempi = all(MIN_TEMPO_BPM <= step.tempo_bpm <= MAX_TEMPO_BPM for step in steps)
     if bars[:1] not in ([], [0]) or bars != sorted(set(bars)) or not are_tempi:
         raise ValueError
     return steps
-
-
-def _landing(fields: dict[str, object]) -> NDArray[np.void]:
-    notes = [_note(_list(row)) for row in _list(fields.get("landing", []))]
-    if any(note.tick for note in notes):
-        raise ValueError
-    return Score.from_notes(notes, TempoMap()).notes
-
-
-def _section(fields: dict[str, object]) -> Score:
-    rows, tempos, meters = (_list(fields[key]) for key in ("notes", "tempos", "meters"))
-    tempo_map = TempoMap.build(
-        [TempoChange(*map(_whole, _list(change))) for change in tempos],
-        [_meter(*map(_whole, _list(change))) for change in meters],
-        fields.get("tempo_is_played") is True,
-    )
-    end_tick, notes = _whole(fields["end_tick"]), [_note(_list(row)) for row in rows]
-    if not 0 < end_tick <= _MOST_TICKS or any(not 0 <= note.tick < end_tick for note in notes):
-        raise ValueError
-    if any(meter.beats > _MOST_TICKS for meter in tempo_map.meters):
-        raise ValueError
-    return Score.from_notes(notes, tempo_map, end_tick)
-
-
-def _meter(tick: int, beats: int, unit: int, *groups: int) -> MeterChange:
-    if groups and sum(groups) != beats:
-        raise ValueError
-    return MeterChange(tick, beats, unit, groups)
-
-
-def _note(row: list[object]) -> Note:
-    names = NOTE_DTYPE.names or ()
-    newer = [0] * min(len(names) - len(row), _NEWER_COLUMNS)
-    value = dict(zip(names, [*row, *newer], strict=True))
-    openness, lead_ms, late_ms = value["openness"], value["lead_ms"], value["late_ms"]
-    if not isinstance(openness, float | int | None):
-        raise TypeError
-    if not isinstance(lead_ms, float | int) or not isinstance(late_ms, float | int):
-        raise TypeError
-    if not (abs(lead_ms) <= _MOST_LEAD_MS and abs(late_ms) <= _MOST_LEAD_MS):
-        raise ValueError
-    if openness is not None and not 0 <= openness <= 1:
-        raise ValueError
-    if not 0 <= _whole(value["swing_ticks"]) <= _whole(value["tick"]):
-        raise ValueError
-    return Note(
-        tick=_whole(value["tick"]),
-        piece=Piece(_whole(value["piece"])),
-        zone=Zone(_whole(value["zone"])),
-        velocity=_whole(value["velocity"]),
-        articulation=Articulation(_whole(value["articulation"])),
-        dynamic=Dynamic(_whole(value["dynamic"])),
-        limb=Limb(_whole(value["limb"])),
-        openness=openness,
-        ornament=Ornament(_whole(value["ornament"])),
-        lead_ms=lead_ms,
-        duration_ticks=_whole(value["duration_ticks"]),
-        choke_ticks=_whole(value["choke_ticks"]),
-        midi_note=_whole(value["midi_note"]),
-        swing_ticks=_whole(value["swing_ticks"]),
-        late_ms=late_ms,
-    )
-
-
-def _latency(fields: dict[str, object]) -> Latency:
-    kits, outputs = (_table(fields[key]) for key in ("kits", "outputs_ns"))
-    return Latency(
-        _whole(fields["input_ns"]),
-        _whole(fields["output_ns"]),
-        MappingProxyType({name: _kit_latency(_table(kit)) for name, kit in kits.items()}),
-        MappingProxyType({name: _whole(ns) for name, ns in outputs.items()}),
-    )
-
-
-def _kit_latency(fields: dict[str, object]) -> KitLatency:
-    pads = {Piece(int(piece)): _whole(ns) for piece, ns in _table(fields["pads_ns"]).items()}
-    return KitLatency(_whole(fields["kit_ns"]), MappingProxyType(pads))
-
-
-def _whole(value: object) -> int:
-    if not isinstance(value, int) or isinstance(value, bool) or abs(value) >= 2**62:
-        raise TypeError
-    return value
-
-
-def _list(value: object) -> list[object]:
-    if not isinstance(value, list):
-        raise TypeError
-    return value
-
-
-def _table(value: object) -> dict[str, object]:
-    if not isinstance(value, dict):
-        raise TypeError
-    return value

@@ -1,0 +1,147 @@
+"""Where a battle stands, and how it ended: a function of the rules and of what each turn is worth, and of nothing else.
+
+In repeat mode an answer earns 100 times its accuracy, an answer below the target costs a life, and
+
+* against the drummer whoever has no life left has lost; whoever is left at the end wins by winning the final, or where
+  there is none by being left;
+* among players whoever alone has lives left has won, else whoever has most points.
+
+In improvise mode a turn earns the points of its marks, the drummer's too, and most points win. The final counts
+`FINAL_WEIGHT` times. Equal points are a draw. A battle that was stopped has no winner unless all but one were out.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import groupby
+
+from station.practice.battle.phrase import Turn
+from station.practice.battle.rules import DRUMMER, BattleMode, BattleRules
+from station.practice.battle.turn_marks import TurnMarks
+from station.practice.battle.turn_plan import PlannedTurn, TurnKind
+from station.practice.session.device_latency import Latency
+
+
+@dataclass(frozen=True, eq=False)
+class JudgedTurn:
+    """A turn, what was played in it (None of a change-over) and what it is worth (None where it is not judged)."""
+
+    planned: PlannedTurn
+    played: Turn | None
+    marks: TurnMarks | None
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """One side: its `points`, the `lives` that are left (None where there are none to lose), rounds that it has won."""
+
+    points: float
+    lives: int | None
+    rounds_won: int
+
+    @property
+    def is_in(self) -> bool:
+        """Whether it still plays."""
+        return self.lives is None or self.lives > 0
+
+
+def standings(rules: BattleRules, turns: Sequence[JudgedTurn]) -> tuple[Standing, ...]:
+    """Every side's standing, the drummer's first."""
+    is_repeat = rules.mode is BattleMode.REPEAT
+    sides = (DRUMMER, *rules.player_sides)
+    won = _rounds_won(rules, turns)
+    lost = {side: sum(is_lost(rules, turn) for turn in turns if turn.planned.side == side) for side in sides}
+    return tuple(
+        Standing(
+            sum(_points(rules, turn) or 0.0 for turn in turns if turn.planned.side == side),
+            max(rules.lives - lost[side], 0) if is_repeat and side != DRUMMER else None,
+            won.count(side),
+        )
+        for side in sides
+    )
+
+
+def is_lost(rules: BattleRules, turn: JudgedTurn) -> bool:
+    """Whether a turn costs a life."""
+    if rules.mode is not BattleMode.REPEAT or turn.planned.kind is not TurnKind.ANSWER or turn.marks is None:
+        return False
+    return turn.marks.is_won(rules.target) is False
+
+
+def is_decided(rules: BattleRules, turns: Sequence[JudgedTurn]) -> bool:
+    """Whether nothing that is still to come can count: too few are left to play on."""
+    if rules.mode is not BattleMode.REPEAT:
+        return False
+    left = sum(side.is_in for side in standings(rules, turns)[1:])
+    return left == 0 or (left == 1 and not rules.is_solo)
+
+
+def winner_of(rules: BattleRules, turns: Sequence[JudgedTurn], is_complete: bool) -> int | None:
+    """The side that has won; None of a draw, or where nothing was decided."""
+    sides = standings(rules, turns)
+    if is_decided(rules, turns):
+        left = [side for side in rules.player_sides if sides[side].is_in]
+        if left:
+            return left[0]
+        return DRUMMER if rules.is_solo else _most_points(rules, sides)
+    if not is_complete:
+        return None
+    if rules.mode is BattleMode.REPEAT and rules.is_solo:
+        return DRUMMER if any(is_lost(rules, turn) for turn in turns if rules.is_final(turn.planned.round)) else 1
+    return _most_points(rules, sides)
+
+
+def _most_points(rules: BattleRules, sides: Sequence[Standing]) -> int | None:
+    competing = [DRUMMER, *rules.player_sides] if rules.drummer_competes else list(rules.player_sides)
+    best = max(sides[side].points for side in competing)
+    first = [side for side in competing if sides[side].points == best]
+    return first[0] if len(first) == 1 else None
+
+
+def _points(rules: BattleRules, turn: JudgedTurn) -> float | None:
+    """What a turn adds to its side's points; None where it was not judged."""
+    if turn.marks is None or turn.marks.points is None:
+        return None
+    return turn.marks.points * rules.weight(turn.planned.round)
+
+
+def _rounds_won(rules: BattleRules, turns: Sequence[JudgedTurn]) -> list[int]:
+    """Who won each round: whoever reached the target, against the drummer else the drummer; or who has most points."""
+    won: list[int] = []
+    for _, group in groupby(turns, key=lambda turn: turn.planned.round):
+        of_round = [turn for turn in group if turn.marks is not None and turn.marks.points is not None]
+        if rules.mode is BattleMode.REPEAT:
+            won += [
+                DRUMMER if rules.is_solo and is_lost(rules, turn) else turn.planned.side
+                for turn in of_round
+                if rules.is_solo or not is_lost(rules, turn)
+            ]
+            continue
+        points = {turn.planned.side: turn.marks.points for turn in of_round if turn.marks is not None}
+        best = [side for side, one in points.items() if one == max(points.values(), key=lambda p: p or 0.0)]
+        if len(points) > 1 and len(best) == 1:
+            won += best
+    return won
+
+
+@dataclass(frozen=True, eq=False)
+class BattleResult:
+    """A battle when it is over: every turn with what was played and what it is worth, and who has won.
+
+    `is_complete` unless it was stopped before its end; `output` is what the click was heard on, None: nothing.
+    """
+
+    rules: BattleRules
+    turns: tuple[JudgedTurn, ...]
+    is_complete: bool
+    latency: Latency
+    output: str | None = None
+
+    @property
+    def standings(self) -> tuple[Standing, ...]:
+        """Every side's standing, the drummer's first."""
+        return standings(self.rules, self.turns)
+
+    @property
+    def winner(self) -> int | None:
+        """The side that has won, as the module's head says."""
+        return winner_of(self.rules, self.turns, self.is_complete)

@@ -1,0 +1,59 @@
+"""The rules of a battle as plain JSON, in its capture and in its document, and read again with suspicion."""
+
+from station.practice.battle.ground import Feel, Ground
+from station.practice.battle.people.player import Player
+from station.practice.battle.rules import BattleMode, BattleRules
+from station.practice.session.cues.click_options import click_text, parse_click
+from station.practice.session.log_values import rows_in, table_in, whole
+from station.scoring.matching.hit_windows import Level
+
+_MOST_BEATS, _UNITS = 64, (1, 2, 4, 8, 16, 32)
+
+
+def rules_fields(rules: BattleRules) -> dict[str, object]:
+    """All that was agreed, as `rules_of` reads it."""
+    ground = rules.ground
+    return {
+        "mode": rules.mode.value,
+        "opponent": rules.opponent,
+        "players": [{"name": player.name, "device": player.device} for player in rules.players],
+        "tempo_bpm": ground.tempo_bpm,
+        "meter": [ground.beats, ground.unit],
+        "feel": ground.feel.value,
+        "style": ground.style,
+        "rounds": rules.rounds,
+        "final": rules.has_final,
+        "bars": rules.bars,
+        "lives": rules.lives,
+        "target": rules.target,
+        "level": rules.level.value,
+        "first_step": rules.first_step,
+        "seed": rules.seed,
+        "click": click_text(rules.click),
+        "keeps_time": rules.keeps_time,
+    }
+
+
+def rules_of(fields: dict[str, object]) -> BattleRules:
+    """The rules whose `rules_fields` these are; raises `BadInput`, `ValueError` and its like for what are none."""
+    beats, unit = (whole(part) for part in rows_in(fields["meter"]))
+    if not 1 <= beats <= _MOST_BEATS or unit not in _UNITS:
+        raise ValueError
+    ground = Ground(float(str(fields["tempo_bpm"])), beats, unit, Feel(fields["feel"]), str(fields["style"]))
+    players = [table_in(player) for player in rows_in(fields["players"])]
+    return BattleRules(
+        ground=ground,
+        mode=BattleMode(fields["mode"]),
+        opponent=str(fields["opponent"]),
+        players=tuple(Player(str(player["name"]), str(player["device"])) for player in players),
+        rounds=whole(fields["rounds"]),
+        has_final=fields["final"] is True,
+        bars=whole(fields["bars"]),
+        lives=whole(fields["lives"]),
+        target=float(str(fields["target"])),
+        level=Level(str(fields["level"])),
+        first_step=None if fields["first_step"] is None else whole(fields["first_step"]),
+        seed=whole(fields["seed"]),
+        click=parse_click(str(fields["click"])),
+        keeps_time=fields["keeps_time"] is True,
+    )

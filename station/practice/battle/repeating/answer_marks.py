@@ -1,0 +1,95 @@
+"""How well a phrase was repeated: the station's one alignment, and its one answer to which notes are right.
+
+    accuracy = right / known notes · (answered / (answered + extras + wrong pieces))²
+
+as the score weighs what was not asked (`scoring.analysis.points`). A note is known unless nobody could hear whether it
+was played. A battle has one time: whoever answers a beat late, or begins again, has answered late, so that each stroke
+is measured where it was played. The phrase's landing on the next downbeat may be played and need not be: it counts
+neither as a note nor as an extra, nor does any stroke after the bars' end.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.units import NS_PER_MS
+from station.music.judgement import Label
+from station.music.performance import Performance
+from station.practice.battle.phrase import Phrase, Turn
+from station.practice.battle.phrase_as_turn import phrase_as_turn
+from station.scoring.align import align
+from station.scoring.matching.alignment import Alignment
+from station.scoring.matching.hit_windows import Windows
+from station.scoring.matching.right import right_notes
+from station.scoring.matching.unheard import Span, notes_within, with_unknown
+
+_UNASKED = (Label.EXTRA, Label.PLAYED_AGAIN)
+
+
+@dataclass(frozen=True, slots=True)
+class AnswerMarks:
+    """An answer's counts. `accuracy` 0–1 is None where nothing is known; `mean_ms` negative is early, None of none."""
+
+    notes: int
+    known: int
+    right: int
+    answered: int
+    wrong_pieces: int
+    extras: int
+    mean_ms: float | None
+
+    @property
+    def accuracy(self) -> float | None:
+        """As the module's head says."""
+        if not self.known:
+            return None
+        heard = self.answered + self.extras + self.wrong_pieces
+        precision = self.answered / heard if heard else 0.0
+        return self.right / self.known * precision**2
+
+    @property
+    def points(self) -> float | None:
+        """0–100, None where nothing is known."""
+        return None if self.accuracy is None else 100.0 * self.accuracy
+
+    def is_won(self, target: float) -> bool | None:
+        """Whether the target was reached; None where nothing is known."""
+        return None if self.accuracy is None else self.accuracy >= target
+
+
+def answer_marks(phrase: Phrase, turn: Turn, windows: Windows, unheard: Sequence[Span] = ()) -> AnswerMarks:
+    """How well `turn` repeats `phrase`; `unheard` in turn time are the spans in which no stroke could be heard."""
+    score = phrase.with_landing
+    alignment = _in_place(align(score, turn.played, clocked=True), score.onset_ns, turn.played)
+    alignment = with_unknown(alignment, notes_within(score, unheard))
+    asked = score.notes["tick"] < phrase.score.end_tick
+    label = alignment.note_label[asked]
+    off_ns = alignment.asynchrony_ns[asked & (alignment.note_label == Label.MATCH) & ~score.is_grace]
+    in_bars = turn.played.hits["at_ns"] < turn.length_ns
+    return AnswerMarks(
+        notes=int(asked.sum()),
+        known=int(np.count_nonzero(label != Label.UNKNOWN)),
+        right=int(np.count_nonzero(right_notes(score, alignment, windows)[asked])),
+        answered=int(np.count_nonzero(label == Label.MATCH)),
+        wrong_pieces=int(np.count_nonzero(label == Label.WRONG_PIECE)),
+        extras=int(np.count_nonzero(np.isin(alignment.hit_label, _UNASKED) & in_bars)),
+        mean_ms=float(off_ns.mean()) / NS_PER_MS if len(off_ns) else None,
+    )
+
+
+def answer_well_ended(phrase: Phrase, turn: Turn, windows: Windows, until_ns: int) -> AnswerMarks:
+    """The same, had all from `until_ns` of the turn on been played as written: at best it can still become this."""
+    written = phrase_as_turn(phrase, turn.ground).played.hits
+    before, after = turn.played.hits["at_ns"] < until_ns, written["at_ns"] >= until_ns
+    played = Performance.from_array(np.concatenate([turn.played.hits[before], written[after]]))
+    return answer_marks(phrase, replace(turn, played=played), windows)
+
+
+def _in_place(alignment: Alignment, onset_ns: NDArray[np.int64], played: Performance) -> Alignment:
+    """The alignment with each stroke measured where it was played, wherever it was found to belong."""
+    paired = alignment.hit_of_note >= 0
+    off_ns = np.zeros(len(onset_ns), np.int64)
+    off_ns[paired] = played.hits["at_ns"][alignment.hit_of_note[paired]] - onset_ns[paired]
+    return replace(alignment, asynchrony_ns=off_ns)

@@ -1,0 +1,88 @@
+"""How hard the next phrase is: where a player is expected to win `TARGET` of their answers, by all they have answered.
+
+A Bayesian staircase (A. B. Watson, D. G. Pelli, QUEST, Perception & Psychophysics 33, 1983; threshold and slope
+together as L. L. Kontsevich, C. W. Tyler, Vision Research 39, 1999). A player wins an answer at step s with probability
+
+    p(s) = LAPSE + (1 − 2·LAPSE) / (1 + exp((s − threshold) / slope − ln(TARGET / (1 − TARGET))))
+
+so that `threshold` is the step that they win with `TARGET`. After each answer the weights of a grid of thresholds and
+slopes are multiplied by what they foretold; the next phrase stands at the mean threshold. Answers at any steps count,
+in any order, so that a verdict which a late stroke changes changes the estimate as if it had been so from the start.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+from math import log
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+TARGET = 0.75
+"""Our choice: three of four phrases are won, which players call fun and learn by (TEACHING: 70 to 85 % success)."""
+USUAL_FIRST_STEP = 6
+"""Where a player begins of whom nothing is known (our choice: hands and kick, a bar, no dynamics yet)."""
+LAPSE = 0.03
+"""So often is an answer lost, or won, whatever the step (our choice)."""
+SLOPES = (0.5, 1.0, 2.0, 3.0)
+"""Steps over which the odds change e-fold (our choice: from who has a sharp limit to who has hardly one)."""
+PRIOR_SD = 5.0
+"""How far from the first step players' thresholds lie before anything is known (our choice: a fifth of the steps)."""
+MOST_UP, MOST_DOWN = 4, 4
+"""A phrase is at most so much harder or easier than the one before (our choice: a leap is no staircase)."""
+_BETWEEN = 4
+"""Grid points a step."""
+
+
+class Answered(NamedTuple):
+    """An answer to a phrase of `step`."""
+
+    step: int
+    is_won: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Staircase:
+    """Steps from 0 to `most_step`; the first phrase is of `first_step`."""
+
+    most_step: int
+    first_step: int
+
+    def next_step(self, answered: Iterable[Answered]) -> int:
+        """The step of the next phrase."""
+        answered = list(answered)
+        if not answered:
+            return self.first_step
+        last = answered[-1].step
+        wanted = round(self.threshold(answered))
+        return min(max(wanted, last - MOST_DOWN, 0), last + MOST_UP, self.most_step)
+
+    def threshold(self, answered: Iterable[Answered]) -> float:
+        """The step that the player wins with `TARGET`, as far as their answers show."""
+        thresholds, weight = _prior(self.most_step, self.first_step)
+        for step, is_won in answered:
+            weight = weight * _likelihood(self.most_step, step, is_won)
+        weight = weight.sum(axis=1)
+        return float(thresholds @ weight / weight.sum())
+
+
+@lru_cache(maxsize=8)
+def _grid(most_step: int) -> NDArray[np.float64]:
+    """The thresholds (n,) that are weighed."""
+    return np.linspace(0, most_step, most_step * _BETWEEN + 1)
+
+
+def _prior(most_step: int, first_step: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The thresholds (n,) and the weights (n, slopes) of each with each slope."""
+    thresholds = _grid(most_step)
+    weight = np.exp(-0.5 * ((thresholds - first_step) / PRIOR_SD) ** 2)
+    return thresholds, np.repeat(weight[:, None], len(SLOPES), axis=1)
+
+
+@lru_cache(maxsize=128)
+def _likelihood(most_step: int, step: int, is_won: bool) -> NDArray[np.float64]:
+    """How likely the outcome is, (n, slopes)."""
+    off = (step - _grid(most_step)[:, None]) / np.array(SLOPES) - log(TARGET / (1 - TARGET))
+    won = LAPSE + (1 - 2 * LAPSE) / (1 + np.exp(off))
+    return np.asarray(won if is_won else 1 - won)
