@@ -30,17 +30,19 @@ class Mistakes:
 class Manner:
     """How somebody improvises.
 
-    `boldness` 0–1 is how far from the likely the notes go, `takes_up` 0–1 how often a bar answers what was heard,
-    `memory` 0–1 what the student's and its own last bars weigh against what drummers play in general; `density` scales
-    the strokes a beat, `air` 0–1 is how often a beat is left to ring; `loudness` scales velocities and `contrast` their
-    distance from the middle; `ornaments` 0–1 is how many accents and gaps are dressed; `clock` scales a human's spread
-    of timing and `lean_ms` is where it sits (behind the beat positive).
+    `boldness` 0–1 is how far from the likely the notes go, 0.5 as drummers do; `takes_up` 0–1 how often a bar answers
+    what was heard; `memory` 0–1.5 what the student's and its own last bars weigh against what drummers play in general,
+    1 as predicts them best (`Wanted`). `density` scales the strokes a beat; `quotes` 0–1 is how often a bar of its own
+    is one that its lessons taught it; `air` 0–1 is how often a bar's end is left to ring; `loudness` scales velocities
+    and `contrast` their distance from the middle; `ornaments` is how much is dressed, 0.1 as drummers do; `clock`
+    scales a human's spread of timing and `lean_ms` is where it sits (behind the beat positive).
     """
 
-    boldness: float = 0.3
+    boldness: float = 0.5
     takes_up: float = 0.4
-    memory: float = 0.3
+    memory: float = 1.0
     density: float = 1.0
+    quotes: float = 0.2
     air: float = 0.1
     loudness: float = 1.0
     contrast: float = 1.0
@@ -55,7 +57,8 @@ class Opponent:
 
     `name` is the word for commands, `title` and `about` what people read; `motion_style` a style of
     `motion/data/styles`, `figure` a shipped drummer; `ground` what it likes to play on. `vocabulary` are tags of the
-    shipped lessons whose bars it knows; `styles` are the words of the Groove MIDI Dataset that are nearest to it.
+    shipped lessons whose bars it knows; `styles` are those of the model (`beat_steps`) that are nearest to it, none
+    where it plays what the ground says.
     """
 
     name: str
@@ -79,10 +82,10 @@ _ALL = (
         motion_style="funk",
         figure="curls",
         ground=Ground(96, style="funk"),
-        manner=Manner(boldness=0.2, takes_up=0.35, density=0.95, contrast=1.15, ornaments=0.12, clock=0.8, lean_ms=8),
+        manner=Manner(boldness=0.45, takes_up=0.35, density=0.95, contrast=1.15, ornaments=0.12, clock=0.8, lean_ms=8),
         idiom=POCKET,
         vocabulary=("funk", "soul", "hip-hop", "ghosts", "linear", "new-orleans"),
-        styles=("funk", "soul", "hiphop"),
+        styles=("funk",),
     ),
     Opponent(
         name="jazz",
@@ -91,7 +94,9 @@ _ALL = (
         motion_style="jazz",
         figure="beard",
         ground=Ground(132, feel=Feel.TRIPLET, style="jazz"),
-        manner=Manner(boldness=0.5, takes_up=0.5, density=0.85, air=0.25, loudness=0.82, ornaments=0.25, clock=1.0),
+        manner=Manner(
+            boldness=0.6, takes_up=0.5, memory=0.8, density=0.85, air=0.25, loudness=0.82, ornaments=0.25, clock=1.0
+        ),
         idiom=JAZZ,
         vocabulary=("jazz", "swing", "comping", "waltz"),
         styles=("jazz",),
@@ -104,11 +109,19 @@ _ALL = (
         figure="headphones",
         ground=Ground(126, style="metal"),
         manner=Manner(
-            boldness=0.35, takes_up=0.2, memory=0.6, density=1.35, air=0.02, loudness=1.18, contrast=0.4, clock=0.45
+            boldness=0.45,
+            takes_up=0.2,
+            memory=1.0,
+            density=1.35,
+            quotes=0.8,
+            air=0.02,
+            loudness=1.18,
+            contrast=0.4,
+            clock=0.45,
         ),
         idiom=METAL,
         vocabulary=("metal", "double-kick", "blast", "punk"),
-        styles=("rock", "punk"),
+        styles=("punk",),
     ),
     Opponent(
         name="mirror",
@@ -117,10 +130,10 @@ _ALL = (
         motion_style="smooth",
         figure="ponytail",
         ground=Ground(100, style="rock"),
-        manner=Manner(boldness=0.25, takes_up=1.0, memory=0.9, air=0.05, ornaments=0.08),
+        manner=Manner(boldness=0.5, takes_up=1.0, memory=1.5, quotes=0.0, air=0.05, ornaments=0.08),
         idiom=ROCK,
         vocabulary=("rock", "fill", "funk", "trading"),
-        styles=("rock", "funk"),
+        styles=(),
     ),
     Opponent(
         name="novice",
@@ -129,7 +142,17 @@ _ALL = (
         motion_style="subdued",
         figure="any",
         ground=Ground(84, style="rock"),
-        manner=Manner(boldness=0.05, takes_up=0.15, density=0.7, air=0.12, loudness=0.95, contrast=0.5, clock=1.3),
+        manner=Manner(
+            boldness=0.25,
+            takes_up=0.15,
+            memory=0.8,
+            density=0.7,
+            quotes=0.6,
+            air=0.12,
+            loudness=0.95,
+            contrast=0.5,
+            clock=1.3,
+        ),
         idiom=PLAIN,
         vocabulary=("rock", "eighths"),
         styles=("rock",),
@@ -142,10 +165,10 @@ _ALL = (
         motion_style="natural",
         figure="any",
         ground=Ground(92, style="rock"),
-        manner=Manner(boldness=0.1, takes_up=0.5, memory=0.5, density=0.9, air=0.08, contrast=0.9, clock=0.5),
+        manner=Manner(boldness=0.35, takes_up=0.5, density=0.9, air=0.08, contrast=0.9, clock=0.5),
         idiom=STEADY,
         vocabulary=("rock", "fill", "soul", "country"),
-        styles=("rock", "soul", "pop"),
+        styles=("rock",),
     ),
 )
 
