@@ -1,0 +1,104 @@
+"""Development: whether bars take up what was said, by the call or the player, and change it.
+
+    kept_k   = the best likeness of bar k to an earlier bar of the turn or to a bar of the call
+    copy_k   = how much of a copy bar k is of any earlier bar: of the turn, of the call, of the player's earlier turns
+    kept     = mean of kept_k over the bars that can take something up
+    own      = 1 − mean of copy_k over all bars that sound
+    points   = 100·credit(kept)·credit(own)
+
+Strangers' bars are unlike each other, copies are all too like: the middle band earns. Half of the bars may be copies, for
+a groove that stands three bars and turns in the fourth is a phrase; from there on the share of what is one's own counts.
+Likelihood under a model would call one bar copied four times the better player; so it is measured here by itself.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from station.practice.battle.judging.heard_turn import Floats, HeardTurn
+from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
+from station.practice.battle.judging.likeness import copied, likeness
+
+KEPT, KEPT_CREDIT = (0.25, 0.75), (0.0, 1.0)
+"""Bars of four strangers lie at .44, human ones at .62 (.32–.89; four drummers of the Groove MIDI Dataset)."""
+OWN, OWN_CREDIT = (0.25, 0.5), (0.0, 1.0)
+"""One bar four times has a quarter of its own."""
+
+
+@dataclass(frozen=True, eq=False)
+class BarLikeness:
+    """Of each bar (bars,): `kept`, NaN where it can take up nothing, `source` the bar that it is likest to.
+
+    `source` counts the turn's bars from 0, the call's from -1 downwards, last first; `copy` 0 … 1; `sounds`.
+    """
+
+    kept: Floats
+    copy: Floats
+    source: tuple[int | None, ...]
+    sounds: tuple[bool, ...]
+
+    @property
+    def own(self) -> float:
+        """Share of the sounding bars that were not said before."""
+        return float(1.0 - self.copy[list(self.sounds)].mean()) if any(self.sounds) else 0.0
+
+
+def bar_likeness(turn: HeardTurn, before: Sequence[HeardTurn], call: HeardTurn | None) -> BarLikeness:
+    """How each bar stands to what was said earlier."""
+    called = call.bar_shapes if call is not None else turn.bar_shapes[:0]
+    said = [b.bar_shapes for b in before if b.bar_shapes.shape[1:] == turn.bar_shapes.shape[1:]]
+    inside = np.tril(likeness(turn.bar_shapes, turn.bar_shapes), -1)
+    motifs = np.concatenate([inside, likeness(turn.bar_shapes, called)], axis=1)
+    earlier = np.concatenate([motifs, *(likeness(turn.bar_shapes, shapes) for shapes in said)], axis=1)
+    best = motifs.argmax(axis=1)
+    can = turn.bar_sounds & ((np.cumsum(turn.bar_sounds) > 1) | (len(called) > 0))
+    source = [int(b) if b < turn.bars else turn.bars - 1 - int(b) for b in best]
+    return BarLikeness(
+        np.where(can, motifs.max(axis=1), np.nan),
+        np.where(turn.bar_sounds, copied(earlier.max(axis=1)), 0.0),
+        tuple(s if c else None for s, c in zip(source, can.tolist(), strict=True)),
+        tuple(turn.bar_sounds.tolist()),
+    )
+
+
+def motif_development(bars: BarLikeness) -> ComponentMarks:
+    """The marks for development."""
+    told = ~np.isnan(bars.kept)
+    if not told.any():
+        points = None if len(bars.kept) == 1 and any(bars.sounds) else 0.0
+        return ComponentMarks(Component.DEVELOPMENT, points, "one bar alone" if any(bars.sounds) else "nothing played")
+    kept = float(bars.kept[told].mean())
+    credit = np.interp(kept, KEPT, KEPT_CREDIT) * np.interp(bars.own, OWN, OWN_CREDIT)
+    figures = MappingProxyType({"kept": kept, "own": bars.own})
+    places = _places(bars)
+    words = _words(kept, bars.own)
+    return ComponentMarks(Component.DEVELOPMENT, FULL_POINTS * float(credit), words, figures, places)
+
+
+def bar_credit(bars: BarLikeness) -> Floats:
+    """Share of full marks (bars,) for taking up and changing; the first bar has nothing to take up and gets half."""
+    kept = np.where(np.isnan(bars.kept), sum(KEPT) / 2, bars.kept)
+    return np.where(bars.sounds, np.interp(kept, KEPT, KEPT_CREDIT) * (1.0 - bars.copy), 0.0)
+
+
+def _words(kept: float, own: float) -> str:
+    if own < OWN[1]:
+        return "says the same again"
+    if kept < sum(KEPT) / 2:
+        return "bars share little"
+    return "takes its motifs up and changes them"
+
+
+def _places(bars: BarLikeness) -> tuple[Place, ...]:
+    """The bar that best takes something up and changes it, and the one that copies most, where there are."""
+    credit = np.where(np.isnan(bars.kept), 0.0, bar_credit(bars))
+    best, worst = int(np.argmax(credit)), int(np.argmax(bars.copy))
+    places = [Place(best, None, f"takes up {_named(bars.source[best])}")] if credit[best] > 0 else []
+    return (*places, *([Place(worst, None, "copied from earlier")] if bars.copy[worst] >= 1.0 else []))
+
+
+def _named(source: int | None) -> str:
+    assert source is not None, "what takes something up takes it from somewhere"
+    return f"bar {source + 1}" if source >= 0 else f"bar {-source} of the call"
