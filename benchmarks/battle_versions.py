@@ -1,7 +1,7 @@
 """Human four-bar phrases of the Groove MIDI Dataset, and versions of them that a judge should like less.
 
-It shares no definition with the judge: a stroke's cell is the nearest 1/16 or 1/24 of a whole note on the click, as in
-`gmd_cross`, whatever the judge takes it for. Groove MIDI Dataset v1.0.0, CC BY 4.0 (Gillick et al. 2019).
+It shares no definition with the judge: a stroke's cell is the nearest 1/16 or 1/24 (at fast tempi 1/12) of a whole note on
+the click, much as in `gmd_cross`, whatever the judge takes it for. Groove MIDI Dataset v1.0.0, CC BY 4.0 (Gillick et al. 2019).
 
 | version | what becomes of the phrase |
 |---|---|
@@ -32,7 +32,9 @@ Rows = NDArray[np.void]
 Rng = np.random.Generator
 
 BARS = 4
-_CELLS = (PPQ // 4, PPQ // 6)
+_SIXTEENTH, _SEXTUPLET, _TRIPLET = PPQ // 4, PPQ // 6, PPQ // 3
+_FAST_BPM = 150.0
+"""From here on nobody plays sextuplets, and a sextuplet is as short as a drummer's lean."""
 _HUMAN_SD_MS = 20.0
 _FLAT = 90
 _CLASS_BPM = (90.0, 110.0, 130.0)
@@ -72,27 +74,28 @@ def ground_of(path: Path) -> Ground:
 
 
 def _cut(hits: Rows, ground: Ground, bar: int) -> Turn:
-    start, half = ground.ns_of_bars(bar), ground.ns_of_bars(1) // ground.beats_a_bar // 2
-    length = ground.ns_of_bars(BARS)
-    rows = hits[(hits["at_ns"] >= start - half // 4) & (hits["at_ns"] < start + length + half)].copy()
-    rows["at_ns"] -= start
+    """Four bars by the strokes' cells, and half a beat behind them."""
+    cells, start = _ticks(ground, hits), bar * ground.bar_ticks
+    rows = hits[(cells >= start) & (cells < start + BARS * ground.bar_ticks + ground.beat_ticks // 2)].copy()
+    rows["at_ns"] -= ground.ns_of_bars(bar)
     return Turn(ground, BARS, Performance.from_array(rows))
 
 
 # --- versions ---------------------------------------------------------------------------------------------------------
 
 
-def _ticks(turn: Turn, rows: Rows) -> NDArray[np.int64]:
+def _ticks(ground: Ground, rows: Rows) -> NDArray[np.int64]:
     """The cell of each stroke in ticks: the nearer of both grids'."""
-    ticks = turn.ground.tempo_map.ticks_at_ns(rows["at_ns"])
-    near = [np.rint(ticks / step).astype(np.int64) * step for step in _CELLS]
+    ticks = ground.tempo_map.ticks_at_ns(rows["at_ns"])
+    steps = (_SIXTEENTH, _SEXTUPLET if ground.tempo_bpm < _FAST_BPM else _TRIPLET)
+    near = [np.rint(ticks / step).astype(np.int64) * step for step in steps]
     return np.where(np.abs(ticks - near[0]) <= np.abs(ticks - near[1]), *near)
 
 
 def _inside(turn: Turn) -> tuple[Rows, Rows]:
     """The phrase's own strokes, and those of the next downbeat, which every version keeps."""
     rows = turn.played.hits
-    own = _ticks(turn, rows) < turn.bars * turn.ground.bar_ticks
+    own = _ticks(turn.ground, rows) < turn.bars * turn.ground.bar_ticks
     return rows[own].copy(), rows[~own]
 
 
@@ -108,7 +111,7 @@ def shuffled(phrase: HumanPhrase, rng: Rng) -> Turn:
     """The strokes' cells change places."""
     turn = phrase.turn
     own, landing = _inside(turn)
-    cells = _ticks(turn, own)
+    cells = _ticks(turn.ground, own)
     late = own["at_ns"] - _ns(turn, cells)
     own["at_ns"] = _ns(turn, rng.permutation(cells)) + late
     return _made(turn, own, landing)
@@ -119,7 +122,7 @@ def beats_shuffled(phrase: HumanPhrase, rng: Rng) -> Turn:
     turn = phrase.turn
     own, landing = _inside(turn)
     beat, beats = turn.ground.beat_ticks, turn.bars * turn.ground.beats_a_bar
-    cells = _ticks(turn, own)
+    cells = _ticks(turn.ground, own)
     place = np.clip(cells // beat, 0, beats - 1)
     to = rng.permutation(beats)
     own["at_ns"] += _ns(turn, cells + (to[place] - place) * beat) - _ns(turn, cells)
@@ -130,7 +133,7 @@ def randomised(phrase: HumanPhrase, rng: Rng) -> Turn:
     """As many strokes on cells of 1/16."""
     turn = phrase.turn
     own, landing = _inside(turn)
-    cells = rng.integers(0, turn.bars * turn.ground.bar_ticks // _CELLS[0], len(own)) * _CELLS[0]
+    cells = rng.integers(0, turn.bars * turn.ground.bar_ticks // _SIXTEENTH, len(own)) * _SIXTEENTH
     late = rng.normal(0.0, _HUMAN_SD_MS * 1e6, len(own)).astype(np.int64)
     return _made(turn, _drawn(own, _ns(turn, cells) + late, rng), landing)
 
@@ -153,7 +156,7 @@ def flat(phrase: HumanPhrase, rng: Rng) -> Turn:
     """On the grid at one velocity."""
     turn = phrase.turn
     rows = turn.played.hits.copy()
-    rows["at_ns"], rows["velocity"] = _ns(turn, _ticks(turn, rows)), _FLAT
+    rows["at_ns"], rows["velocity"] = _ns(turn, _ticks(turn.ground, rows)), _FLAT
     return Turn(turn.ground, turn.bars, Performance.from_array(rows))
 
 
@@ -183,7 +186,7 @@ def glued(phrase: HumanPhrase, others: Sequence[HumanPhrase], rng: Rng) -> Turn:
 
 def _bar(turn: Turn, rows: Rows, number: int) -> Rows:
     """The strokes of a bar, in time of its own downbeat."""
-    bar = rows[_ticks(turn, rows) // turn.ground.bar_ticks == number]
+    bar = rows[_ticks(turn.ground, rows) // turn.ground.bar_ticks == number]
     return _moved(bar, -turn.ground.ns_of_bars(number))
 
 
@@ -243,7 +246,7 @@ def changed_strokes(one: Turn, other: Turn, levels: bool = False) -> float:
 def _places(turn: Turn) -> dict[tuple[int, int], list[int]]:
     own, _ = _inside(turn)
     places: dict[tuple[int, int], list[int]] = {}
-    columns = (_ticks(turn, own).tolist(), own["piece"].tolist(), own["velocity"].tolist())
+    columns = (_ticks(turn.ground, own).tolist(), own["piece"].tolist(), own["velocity"].tolist())
     for tick, piece, velocity in zip(*columns, strict=True):
         places.setdefault((tick, piece), []).append(velocity)
     return places

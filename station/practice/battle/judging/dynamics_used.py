@@ -1,14 +1,15 @@
 """Dynamics: how wide their range is, whether loud and soft come on purpose, and whether the phrase has a contour.
 
     range    = SD of the strokes' levels, dB                  level = 40·log10(v / 127) (HUMANS, Velocity)
-    chance   = SD within places / range                       a place: one instrument on one slot of the bar
+    chance   = √((Σ off² / range² + 12) / (again + 12))          off: a level less the mean of its place, an instrument on
+                                                              a slot of the bar or of the beat; again: strokes − places
     contour  = highest − lowest mean level of a bar, dB
-    points   = 100·own·credit(range)·(0.85·credit(chance) + 0.15·credit(contour))
+    points   = 100·own·credit(range)·(0.3 + credit(chance)·(0.6 + 0.1·credit(contour)))
 
 An accent is on purpose that comes where it came before: of strokes at the same place of other bars the levels then
 differ less than those of all strokes do. `chance` is 1 where loud and soft are drawn by lot, near 0 where every place
-has its own level; 0.5 in human phrases (Groove MIDI Dataset). Where no place comes twice nothing tells purpose from
-chance, and it counts half. All is in dB, so that a louder kit changes little.
+has its own level; about 0.6 in human phrases (Groove MIDI Dataset). Where no place comes twice nothing tells purpose
+from chance. All is in dB, so that a louder kit changes little.
 """
 
 from types import MappingProxyType
@@ -23,10 +24,13 @@ RANGE_DB, RANGE_CREDIT = (1.0, 6.0), (0.0, 1.0)
 """1 dB is what the skilled just hear (HUMANS); 6 dB is between normal and accent, and human phrases have 6 to 12."""
 CHANCE, CHANCE_CREDIT = (0.5, 0.95), (1.0, 0.0)
 """Human phrases lie at .24 to .83, strokes whose levels are drawn by lot at 1 (our choice between)."""
-UNTOLD_PURPOSE = 0.5
+CHANCE_STROKES = 12
+"""So many strokes by chance are thought beside those that come again, so that two or three alike prove nothing."""
+PURPOSE = 0.5
+"""From here on the words say "on purpose"."""
 CONTOUR_DB, CONTOUR_CREDIT = (0.5, 3.0), (0.0, 1.0)
 """The bars of human phrases differ by 1 to 7 dB (our choice)."""
-PURPOSE_SHARE, CONTOUR_SHARE = 0.85, 0.15
+RANGE_SHARE, PURPOSE_SHARE, CONTOUR_SHARE = 0.3, 0.6, 0.1
 FLAT_DB = 1.0
 
 
@@ -35,12 +39,10 @@ def dynamics_used(turn: HeardTurn, own: float) -> ComponentMarks:
     if len(turn) < 2:
         return ComponentMarks(Component.DYNAMICS, 0.0, "nothing to compare")
     spread, chance, contour = float(turn.level_db.std()), _chance(turn), _contour_db(turn)
-    purpose = UNTOLD_PURPOSE if chance is None else float(np.interp(chance, CHANCE, CHANCE_CREDIT))
+    purpose = float(np.interp(chance, CHANCE, CHANCE_CREDIT))
     shaped = float(np.interp(contour, CONTOUR_DB, CONTOUR_CREDIT)) * purpose
-    credit = np.interp(spread, RANGE_DB, RANGE_CREDIT) * (PURPOSE_SHARE * purpose + CONTOUR_SHARE * shaped)
-    figures = {"range_db": spread, "contour_db": contour, "own": own}
-    if chance is not None:
-        figures["chance"] = chance
+    credit = np.interp(spread, RANGE_DB, RANGE_CREDIT) * (RANGE_SHARE + PURPOSE_SHARE * purpose + CONTOUR_SHARE * shaped)
+    figures = {"range_db": spread, "chance": chance, "contour_db": contour, "own": own}
     return ComponentMarks(
         Component.DYNAMICS,
         FULL_POINTS * own * float(credit),
@@ -56,15 +58,20 @@ def bar_credit(turn: HeardTurn) -> Floats:
     return np.interp(spreads, RANGE_DB, RANGE_CREDIT)
 
 
-def _chance(turn: HeardTurn) -> float | None:
-    """How much of the range is left within places; None where no place comes twice, or nothing differs."""
-    place = ((turn.beat % turn.beats_a_bar) * SLOTS + turn.slot) * len(Instrument) + turn.instrument
+def _chance(turn: HeardTurn) -> float:
+    """How much of the range is left within places of the beat or of the bar, whichever tells more."""
+    return min(_chance_at(turn, period) for period in (1, turn.beats_a_bar))
+
+
+def _chance_at(turn: HeardTurn, period: int) -> float:
+    """The same for places that come again every `period` beats."""
+    place = ((turn.beat % period) * SLOTS + turn.slot) * len(Instrument) + turn.instrument
     _, place, counts = np.unique(place, return_inverse=True, return_counts=True)
-    again, whole = int((counts - 1).sum()), float(turn.level_db.std(ddof=1))
-    if not again or not whole > 0:
-        return None
+    again, whole = int((counts - 1).sum()), float(turn.level_db.var(ddof=1))
+    if not whole > 0:
+        return 1.0
     off = turn.level_db - (np.bincount(place, turn.level_db) / counts)[place]
-    return float(np.sqrt(off @ off / again)) / whole
+    return float(np.sqrt((off @ off / whole + CHANCE_STROKES) / (again + CHANCE_STROKES)))
 
 
 def _contour_db(turn: HeardTurn) -> float:
@@ -80,7 +87,7 @@ def _bar_levels(turn: HeardTurn) -> Floats:
 def _words(spread: float, purpose: float) -> str:
     if spread < FLAT_DB:
         return "all at one level"
-    placed = "placed on purpose" if purpose > UNTOLD_PURPOSE else "rarely twice at one place"
+    placed = "placed on purpose" if purpose > PURPOSE else "rarely twice at one place"
     return f"{spread:.0f} dB of loud and soft, {placed}"
 
 

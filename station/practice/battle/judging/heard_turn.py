@@ -1,7 +1,7 @@
 """A turn as the judge hears it: its strokes in one table, and the shapes of its bars and beats.
 
-A beat has `SLOTS` slots, so that cells of any division lie on whole ones. A shape (slots, instruments) has 1 where
-something is struck, and less beside it, so that a stroke moved by a slot still resembles itself: a beat read as a
+A beat has `SLOTS` slots, so that cells of any division lie on whole ones. A shape (slots, instruments) is high
+where something is struck, less so beside it, so that a stroke moved by a slot still resembles itself: a beat read as a
 triplet here and as sixteenths there is no other beat.
 """
 
@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.core.units import NS_PER_MS
-from station.practice.battle.improvising.played_beats import Beats, Instrument, beats_of, landing_of
+from station.music.performance import Performance
+from station.practice.battle.improvising.played_beats import Instrument, beats_of
 from station.practice.battle.phrase import Turn
 from station.scoring.analysis.loudness import level_db
 
@@ -32,7 +33,7 @@ class HeardTurn:
     """The strokes (n,) of a turn in order of beat, cell and instrument.
 
     `beat` counts from the turn's first, `slot` 0 … 23 within the beat, `level_db` against full scale, `late_ms` after
-    the cell, `cell_ms` how long its cell is. `landing_late_ms` (m,) are strokes on the downbeat after the last bar.
+    the cell, which is `cell_ms` and `cell_slots` long. `landing_late_ms` (m,) are strokes on the downbeat after the last bar.
     """
 
     bars: int
@@ -43,6 +44,7 @@ class HeardTurn:
     level_db: Floats
     late_ms: Floats
     cell_ms: Floats
+    cell_slots: Ints
     landing_late_ms: Floats
 
     def __len__(self) -> int:
@@ -66,22 +68,30 @@ class HeardTurn:
     @cached_property
     def bar_shapes(self) -> Floats:
         """(bars, slots, instruments)."""
-        return self._shapes.reshape(self.bars, self.beats_a_bar * SLOTS, len(Instrument))
+        return _blurred(self._sharp.reshape(self.bars, self.beats_a_bar * SLOTS, len(Instrument)))
 
     @cached_property
     def beat_shapes(self) -> Floats:
         """(beats, slots, instruments)."""
-        return self._shapes.reshape(self.beats, SLOTS, len(Instrument))
+        return _blurred(self._sharp.reshape(self.beats, SLOTS, len(Instrument)))
 
     @cached_property
-    def _shapes(self) -> Floats:
+    def bar_shapes_as_played(self) -> Floats:
+        """(bars, slots, instruments) by when the strokes came, less the mean lean, whatever cells they are read as."""
+        late = self.late_ms - self.late_ms.mean() if len(self) else self.late_ms
+        moment = self.moment + np.rint(late / self.cell_ms * self.cell_slots).astype(np.int64)
+        bar_slots = self.beats_a_bar * SLOTS
+        inside = np.clip(moment, self.bar * bar_slots, (self.bar + 1) * bar_slots - 1)
+        return _blurred(self._struck_at(inside).reshape(self.bars, bar_slots, len(Instrument)))
+
+    @cached_property
+    def _sharp(self) -> Floats:
+        return self._struck_at(self.moment)
+
+    def _struck_at(self, moment: Ints) -> Floats:
         sharp = np.zeros((self.beats * SLOTS, len(Instrument)))
-        sharp[self.moment, self.instrument] = 1.0
-        blurred = sharp.copy()
-        for by, share in enumerate(BLUR[1:], 1):
-            blurred[by:] += share * sharp[:-by]
-            blurred[:-by] += share * sharp[by:]
-        return blurred
+        sharp[moment, self.instrument] = 1.0
+        return sharp
 
     @cached_property
     def bar_sounds(self) -> Flags:
@@ -94,14 +104,26 @@ class HeardTurn:
         return np.asarray(np.bincount(self.beat, minlength=self.beats) > 0)
 
 
+def _blurred(sharp: Floats) -> Floats:
+    """Shapes (n, slots, instruments), each blurred within itself, and each instrument's mean taken off.
+
+    So what is struck evenly all the time is like nothing: only where it is struck and where not makes a shape.
+    """
+    blurred = sharp.copy()
+    for by, share in enumerate(BLUR[1:], 1):
+        blurred[:, by:] += share * sharp[:, :-by]
+        blurred[:, :-by] += share * sharp[:, by:]
+    return np.asarray(blurred - blurred.mean(axis=1, keepdims=True))
+
+
 @lru_cache(maxsize=64)
 def heard(turn: Turn) -> HeardTurn:
     """What the judge hears of a turn; of turns heard lately it remembers the answer, for each is asked about again."""
-    beats = beats_of(turn)
+    read = beats_of(_with_landing(turn))
+    beats, after = read.of_bars(0, turn.bars), read.of_bars(turn.bars, turn.bars + 1)
     beat, cell, instrument = np.nonzero(beats.struck)
     at = beat, cell, instrument
     division = beats.division[beat]
-    landing = landing_of(turn)
     return HeardTurn(
         turn.bars,
         beats.beats_a_bar,
@@ -110,15 +132,23 @@ def heard(turn: Turn) -> HeardTurn:
         instrument,
         level_db(beats.velocity[at]),
         beats.late_ms[at].astype(np.float64),
-        _beat_ms(turn, beats)[beat] / division,
-        landing.late_ms[0, 0][landing.struck[0, 0]].astype(np.float64),
+        _beat_ms(turn)[beat] / division,
+        SLOTS // division,
+        after.late_ms[0, 0][after.struck[0, 0]].astype(np.float64),
     )
 
 
-def _beat_ms(turn: Turn, beats: Beats) -> Floats:
+def _with_landing(turn: Turn) -> Turn:
+    """The turn with a bar more, in which there is nothing but its landing: so both are read at once."""
+    end_ns = turn.length_ns + int(turn.ground.tempo_map.ns_at(turn.ground.beat_ticks // 2))
+    played = Performance.from_array(turn.played.hits[turn.played.hits["at_ns"] < end_ns])
+    return Turn(turn.ground, turn.bars + 1, played)
+
+
+def _beat_ms(turn: Turn) -> Floats:
     """How long each beat (b,) lasts; the last of a bar may be short."""
     ground = turn.ground
-    starts = np.arange(beats.beats_a_bar) * ground.beat_ticks
+    starts = np.arange(ground.beats_a_bar) * ground.beat_ticks
     ends = np.minimum(starts + ground.beat_ticks, ground.bar_ticks)
     lengths = (ground.tempo_map.ns_at(ends) - ground.tempo_map.ns_at(starts)) / NS_PER_MS
     return np.tile(lengths, turn.bars)

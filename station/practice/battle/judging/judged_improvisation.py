@@ -14,18 +14,18 @@ from station.practice.battle.phrase import Turn
 
 WEIGHTS: Mapping[Component, float] = MappingProxyType(
     {
-        Component.TIME: 25.0,
-        Component.DYNAMICS: 20.0,
+        Component.TIME: 20.0,
+        Component.DYNAMICS: 23.0,
         Component.VOCABULARY: 15.0,
-        Component.DEVELOPMENT: 25.0,
+        Component.DEVELOPMENT: 27.0,
         Component.KIT: 8.0,
         Component.SPACE: 7.0,
     }
 )
 """What each component counts of 100 (our choice: `docs/battle-judging.md` says why, and what it was tried on)."""
 
-OWN, OWN_CREDIT = (0.0, 0.5), (0.0, 1.0)
-"""Where less than half of the bars are one's own, what they show counts by that share: dynamics, words, kit and space
+OWN, OWN_CREDIT = (0.0, 0.4), (0.0, 1.0)
+"""Where less than two bars of five are one's own, what they show counts by that share: dynamics, words, kit and space
 that were said before are nobody's twice."""
 
 
@@ -35,15 +35,20 @@ def judged_improvisation(turn: Turn, before: Sequence[Turn], call: Turn | None) 
     `before` are the same player's earlier turns in order, `call` the turn that this one answers, both on grounds of
     the same meter; what stands on another meter is not compared.
     """
-    played, earlier = heard(turn), [heard(other) for other in before]
+    earlier = [heard(other) for other in before if other.ground.meter == turn.ground.meter]
     called = heard(call) if call is not None and call.ground.meter == turn.ground.meter else None
+    return judged(heard(turn), earlier, called)
+
+
+def judged(played: HeardTurn, earlier: Sequence[HeardTurn], called: HeardTurn | None) -> ImprovisationMarks:
+    """The marks of a turn that is heard already."""
     bars = motif_development.bar_likeness(played, earlier, called)
     own = float(np.interp(bars.own, OWN, OWN_CREDIT))
     components = (
         time_kept.time_kept(played),
         dynamics_used.dynamics_used(played, own),
         vocabulary_used.vocabulary_used(played, earlier, own),
-        motif_development.motif_development(bars),
+        motif_development.motif_development(played, bars),
         kit_used.kit_used(played, own),
         space_used(played, own),
     )

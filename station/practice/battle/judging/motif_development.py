@@ -1,7 +1,8 @@
 """Development: whether bars take up what was said, by the call or the player, and change it.
 
     kept_k   = the best likeness of bar k to an earlier bar of the turn or to a bar of the call
-    copy_k   = how much of a copy bar k is of any earlier bar: of the turn, of the call, of the player's earlier turns
+    copy_k   = how much of a copy bar k is: of any earlier bar of the turn, of bar k of the call, or half as much of
+               bar k of an earlier turn of the player's
     kept     = mean of kept_k over the bars that can take something up
     own      = 1 − mean of copy_k over all bars that sound
     points   = 100·credit(kept)·credit(own)
@@ -21,10 +22,13 @@ from station.practice.battle.judging.heard_turn import Floats, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 from station.practice.battle.judging.likeness import copied, likeness
 
-KEPT, KEPT_CREDIT = (0.25, 0.75), (0.0, 1.0)
+KEPT, KEPT_CREDIT = (0.25, 0.85), (0.0, 1.0)
 """Bars of four strangers lie at .44, human ones at .62 (.32–.89; four drummers of the Groove MIDI Dataset)."""
 OWN, OWN_CREDIT = (0.25, 0.5), (0.0, 1.0)
 """One bar four times has a quarter of its own."""
+
+BEFORE_COUNTS = 0.5
+"""A groove may go on from turn to turn: to say it again counts half as much as a copy of the call (our choice)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,33 +52,59 @@ class BarLikeness:
 def bar_likeness(turn: HeardTurn, before: Sequence[HeardTurn], call: HeardTurn | None) -> BarLikeness:
     """How each bar stands to what was said earlier."""
     called = call.bar_shapes if call is not None else turn.bar_shapes[:0]
-    said = [b.bar_shapes for b in before if b.bar_shapes.shape[1:] == turn.bar_shapes.shape[1:]]
     inside = np.tril(likeness(turn.bar_shapes, turn.bar_shapes), -1)
     motifs = np.concatenate([inside, likeness(turn.bar_shapes, called)], axis=1)
-    earlier = np.concatenate([motifs, *(likeness(turn.bar_shapes, shapes) for shapes in said)], axis=1)
+    copy = np.max([copied(np.tril(_sameness(turn, turn), -1).max(axis=1)), *_copies(turn, before, call)], axis=0)
     best = motifs.argmax(axis=1)
     can = turn.bar_sounds & ((np.cumsum(turn.bar_sounds) > 1) | (len(called) > 0))
     source = [int(b) if b < turn.bars else turn.bars - 1 - int(b) for b in best]
     return BarLikeness(
         np.where(can, motifs.max(axis=1), np.nan),
-        np.where(turn.bar_sounds, copied(earlier.max(axis=1)), 0.0),
+        np.where(turn.bar_sounds, copy, 0.0),
         tuple(s if c else None for s, c in zip(source, can.tolist(), strict=True)),
         tuple(turn.bar_sounds.tolist()),
     )
 
 
-def motif_development(bars: BarLikeness) -> ComponentMarks:
+def motif_development(turn: HeardTurn, bars: BarLikeness) -> ComponentMarks:
     """The marks for development."""
     told = ~np.isnan(bars.kept)
     if not told.any():
         points = None if len(bars.kept) == 1 and any(bars.sounds) else 0.0
         return ComponentMarks(Component.DEVELOPMENT, points, "one bar alone" if any(bars.sounds) else "nothing played")
-    kept = float(bars.kept[told].mean())
-    credit = np.interp(kept, KEPT, KEPT_CREDIT) * np.interp(bars.own, OWN, OWN_CREDIT)
-    figures = MappingProxyType({"kept": kept, "own": bars.own})
+    kept, period = float(bars.kept[told].mean()), _period(turn)
+    credit = np.interp((kept + period) / 2, KEPT, KEPT_CREDIT) * np.interp(bars.own, OWN, OWN_CREDIT)
+    figures = MappingProxyType({"kept": kept, "period": period, "own": bars.own})
     places = _places(bars)
     words = _words(kept, bars.own)
     return ComponentMarks(Component.DEVELOPMENT, FULL_POINTS * float(credit), words, figures, places)
+
+
+def _copies(turn: HeardTurn, before: Sequence[HeardTurn], call: HeardTurn | None) -> list[Floats]:
+    """How much of a copy each bar (bars,) is of the same bar of the call, and of the player's earlier turns."""
+    copies = []
+    for other, counts in [*((other, BEFORE_COUNTS) for other in before), *([(call, 1.0)] if call is not None else [])]:
+        copy, both = np.zeros(turn.bars), min(turn.bars, other.bars)
+        copy[:both] = counts * copied(np.diagonal(_sameness(turn, other)))
+        copies.append(copy)
+    return copies
+
+
+def _sameness(turn: HeardTurn, other: HeardTurn) -> Floats:
+    """(bars, other's bars): how far bars say the same, by their cells or as they were played, whichever is more.
+
+    A copy with other errors has the same cells; one that is read otherwise still comes at the same times.
+    """
+    by_cells = likeness(turn.bar_shapes, other.bar_shapes)
+    return np.maximum(by_cells, likeness(turn.bar_shapes_as_played, other.bar_shapes_as_played))
+
+
+def _period(turn: HeardTurn) -> float:
+    """The mean likeness of beats half a bar, a bar or two bars apart, whichever is most."""
+    alike = likeness(turn.beat_shapes, turn.beat_shapes)
+    bar = turn.beats_a_bar
+    lags = {lag for lag in (bar // 2 if bar % 2 == 0 else bar, bar, 2 * bar) if 0 < lag < turn.beats}
+    return max((float(np.diagonal(alike, lag).mean()) for lag in lags), default=0.0)
 
 
 def bar_credit(bars: BarLikeness) -> Floats:

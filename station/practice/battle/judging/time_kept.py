@@ -20,8 +20,8 @@ import numpy as np
 from station.practice.battle.judging.heard_turn import Floats, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 
-SPREAD_MS, SPREAD_CREDIT = (8.0, 25.0, 40.0, 60.0), (1.0, 0.65, 0.25, 0.0)
-BLUR, BLUR_CREDIT = (0.16, 0.27), (1.0, 0.0)
+SPREAD_MS, SPREAD_CREDIT = (8.0, 25.0, 40.0, 60.0), (1.0, 0.6, 0.2, 0.0)
+BLUR, BLUR_CREDIT = (0.18, 0.28), (1.0, 0.0)
 """Human phrases lie at .10–.24 of a cell, strokes at random at .289 (our choice between)."""
 DRIFT_MS, DRIFT_CREDIT = (15.0, 60.0), (1.0, 0.0)
 """Human phrases to a click drift by 3–31 ms over four bars; a sixteenth at 250 beats a minute is 60 (our choice)."""

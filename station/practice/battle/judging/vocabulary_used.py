@@ -1,7 +1,7 @@
 """Vocabulary: how many figures of a beat's length the turn has, whether they are words, and whether they are new.
 
     news     = Σ_k (1 − again_k) / beats,      again_k: the best likeness of beat k to an earlier one, 0 at .5, 1 at .9
-    rooted   = mean_k of beat k's best likeness to any other beat of the turn
+    rooted   = mean_k of beat k's best likeness to the same beat of another bar
     rounds   = share of the beats that no earlier turn of the player has, copies taken out
     points   = 100·own·credit(news)·credit(rooted)·credit(rounds)
 
@@ -15,13 +15,13 @@ from types import MappingProxyType
 
 import numpy as np
 
-from station.practice.battle.judging.heard_turn import Flags, Floats, HeardTurn
+from station.practice.battle.judging.heard_turn import Floats, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 from station.practice.battle.judging.likeness import copied, likeness
 
 AGAIN_FROM, AGAIN_AT = 0.5, 0.9
 NEWS, NEWS_CREDIT = (0.08, 0.4), (0.0, 1.0)
-ROOTED, ROOTED_CREDIT = (0.5, 0.8), (0.0, 1.0)
+ROOTED, ROOTED_CREDIT = (0.4, 0.75), (0.0, 1.0)
 ROUNDS, ROUNDS_CREDIT = (0.0, 0.3), (0.2, 1.0)
 """A player may keep their words, if three beats of ten are new in each turn."""
 
@@ -57,14 +57,14 @@ def new_beats(turn: HeardTurn) -> Floats:
 
 
 def _rooted(turn: HeardTurn) -> float:
-    sounding: Flags = turn.beat_sounds
-    alike = likeness(turn.beat_shapes, turn.beat_shapes)
-    np.fill_diagonal(alike, 0.0)
-    return float(alike.max(axis=1)[sounding].mean())
+    place = np.arange(turn.beats) % turn.beats_a_bar
+    there = (place[:, None] == place[None, :]) & ~np.eye(turn.beats, dtype=np.bool_)
+    alike = np.where(there, likeness(turn.beat_shapes, turn.beat_shapes), 0.0)
+    return float(alike.max(axis=1)[turn.beat_sounds].mean())
 
 
 def _fresh(turn: HeardTurn, before: Sequence[HeardTurn]) -> float:
-    shapes = [earlier.beat_shapes for earlier in before if earlier.beat_shapes.shape[1:] == turn.beat_shapes.shape[1:]]
+    shapes = [earlier.beat_shapes for earlier in before]
     if not shapes:
         return 1.0
     alike = likeness(turn.beat_shapes[turn.beat_sounds], np.concatenate(shapes))
