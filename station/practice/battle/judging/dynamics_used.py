@@ -24,13 +24,13 @@ RANGE_DB, RANGE_CREDIT = (1.0, 6.0), (0.0, 1.0)
 """1 dB is what the skilled just hear (HUMANS); 6 dB is between normal and accent, and human phrases have 6 to 12."""
 CHANCE, CHANCE_CREDIT = (0.5, 0.95), (1.0, 0.0)
 """Human phrases lie at .24 to .83, strokes whose levels are drawn by lot at 1 (our choice between)."""
-CHANCE_STROKES = 12
+CHANCE_STROKES = 8
 """So many strokes by chance are thought beside those that come again, so that two or three alike prove nothing."""
 PURPOSE = 0.5
 """From here on the words say "on purpose"."""
 CONTOUR_DB, CONTOUR_CREDIT = (0.5, 3.0), (0.0, 1.0)
 """The bars of human phrases differ by 1 to 7 dB (our choice)."""
-RANGE_SHARE, PURPOSE_SHARE, CONTOUR_SHARE = 0.3, 0.6, 0.1
+RANGE_SHARE, PURPOSE_SHARE, CONTOUR_SHARE = 0.35, 0.55, 0.1
 FLAT_DB = 1.0
 
 

@@ -22,7 +22,7 @@ from station.practice.battle.judging.heard_turn import Floats, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 from station.practice.battle.judging.likeness import copied, likeness
 
-KEPT, KEPT_CREDIT = (0.25, 0.85), (0.0, 1.0)
+KEPT, KEPT_CREDIT = (0.15, 0.75), (0.0, 1.0)
 """Bars of four strangers lie at .44, human ones at .62 (.32–.89; four drummers of the Groove MIDI Dataset)."""
 OWN, OWN_CREDIT = (0.25, 0.5), (0.0, 1.0)
 """One bar four times has a quarter of its own."""
