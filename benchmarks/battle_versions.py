@@ -1,17 +1,21 @@
 """Human four-bar phrases of the Groove MIDI Dataset, and versions of them that a judge should like less.
 
-It shares no definition with the judge: a stroke's cell is the nearest 1/16 or 1/24 (at fast tempi 1/12) of a whole note on
-the click, much as in `gmd_cross`, whatever the judge takes it for. Groove MIDI Dataset v1.0.0, CC BY 4.0 (Gillick et al. 2019).
+It shares no definition with the judge: a stroke's cell is the nearest 1/16 or 1/24 (at fast tempi 1/12) of a whole note
+on the click, much as in `gmd_cross`, whatever the judge takes it for. Groove MIDI Dataset v1.0.0, CC BY 4.0 (Gillick et
+al. 2019).
 
 | version | what becomes of the phrase |
 |---|---|
-| shuffled | the strokes' cells change places within the phrase: who strikes where is drawn anew, how strong and late is kept |
+| shuffled | the strokes' cells change places within the phrase; how strong and how late each is stays with it |
 | beats | the phrase's beats change places, each as it was played |
-| randomised | as many strokes on random cells, the phrase's pieces and velocities 20–127 at random, late by human spread |
+| bar's beats | the beats of each bar change places within it |
+| randomised | as many strokes on random cells, its pieces, velocities 20–127, late by a human spread |
 | scattered | the same at any time at all |
 | flat | every stroke on its cell at one velocity |
 | repeated | one of the bars four times |
-| glued | one of its bars and three of three other takes of its meter and tempo class, by other drummers where there are |
+| glued | a bar of its own and three of three other takes of its meter and tempo class, by other drummers if there are |
+
+Every version keeps the strokes on the next downbeat. Where two strokes of one piece meet, the kit would sound both.
 """
 
 import re
@@ -63,7 +67,7 @@ def _of_take(path: Path, folder: Path) -> list[HumanPhrase]:
     bar_ns = ground.ns_of_bars(1)
     bars = round((int(hits["at_ns"].max()) + bar_ns // 8) / bar_ns + 0.5 - 1e-9)
     starts = range(0, bars - BARS + 1, BARS)
-    return [HumanPhrase(take.split("/")[0], take, bar, _cut(hits, ground, bar)) for bar in starts]
+    return [HumanPhrase(take.split("/", maxsplit=1)[0], take, bar, _cut(hits, ground, bar)) for bar in starts]
 
 
 def ground_of(path: Path) -> Ground:
@@ -119,12 +123,20 @@ def shuffled(phrase: HumanPhrase, rng: Rng) -> Turn:
 
 def beats_shuffled(phrase: HumanPhrase, rng: Rng) -> Turn:
     """The beats change places."""
-    turn = phrase.turn
+    return _beats_moved(phrase.turn, rng.permutation(phrase.turn.bars * phrase.turn.ground.beats_a_bar))
+
+
+def bars_beats_shuffled(phrase: HumanPhrase, rng: Rng) -> Turn:
+    """The beats of each bar change places within it."""
+    bar = phrase.turn.ground.beats_a_bar
+    return _beats_moved(phrase.turn, np.concatenate([k * bar + rng.permutation(bar) for k in range(BARS)]))
+
+
+def _beats_moved(turn: Turn, to: NDArray[np.int64]) -> Turn:
+    """Each beat goes where `to` (beats,) says."""
     own, landing = _inside(turn)
-    beat, beats = turn.ground.beat_ticks, turn.bars * turn.ground.beats_a_bar
-    cells = _ticks(turn.ground, own)
-    place = np.clip(cells // beat, 0, beats - 1)
-    to = rng.permutation(beats)
+    cells, beat = _ticks(turn.ground, own), turn.ground.beat_ticks
+    place = np.clip(cells // beat, 0, len(to) - 1)
     own["at_ns"] += _ns(turn, cells + (to[place] - place) * beat) - _ns(turn, cells)
     return _made(turn, own, landing)
 
@@ -146,8 +158,7 @@ def scattered(phrase: HumanPhrase, rng: Rng) -> Turn:
 
 
 def _drawn(own: Rows, at_ns: NDArray[np.int64], rng: Rng) -> Rows:
-    drawn = own[rng.integers(0, len(own), len(own))] if len(own) else own
-    drawn = own[rng.permutation(len(own))] if rng.random() < 0.5 else drawn
+    drawn = own[rng.integers(0, len(own), len(own))] if len(own) else own.copy()
     drawn["at_ns"], drawn["velocity"] = at_ns, rng.integers(20, 128, len(own))
     return drawn
 
@@ -171,7 +182,7 @@ def repeated(phrase: HumanPhrase, rng: Rng) -> Turn:
 def glued(phrase: HumanPhrase, others: Sequence[HumanPhrase], rng: Rng) -> Turn:
     """A bar of the phrase's own, and of each other phrase one, stretched to its tempo."""
     turn = phrase.turn
-    own, landing = _inside(turn)
+    landing = _inside(turn)[1]
     keep = int(rng.integers(turn.bars))
     bars, queue = [], iter(others)
     for place in range(turn.bars):
@@ -217,6 +228,7 @@ def _class(ground: Ground) -> tuple[int, int, int]:
 VERSIONS: Mapping[str, Callable[[HumanPhrase, Rng], Turn]] = {
     "shuffled": shuffled,
     "beats": beats_shuffled,
+    "bar's beats": bars_beats_shuffled,
     "randomised": randomised,
     "scattered": scattered,
     "flat": flat,

@@ -1,13 +1,13 @@
 """Dynamics: how wide their range is, whether loud and soft come on purpose, and whether the phrase has a contour.
 
     range    = SD of the strokes' levels, dB                  level = 40·log10(v / 127) (HUMANS, Velocity)
-    chance   = √((Σ off² / range² + 12) / (again + 12))          off: a level less the mean of its place, an instrument on
-                                                              a slot of the bar or of the beat; again: strokes − places
+    chance   = √((Σ off² / range² + 8) / (again + 8))        off: a level less the mean of its place
     contour  = highest − lowest mean level of a bar, dB
     points   = 100·own·credit(range)·(0.3 + credit(chance)·(0.6 + 0.1·credit(contour)))
 
-An accent is on purpose that comes where it came before: of strokes at the same place of other bars the levels then
-differ less than those of all strokes do. `chance` is 1 where loud and soft are drawn by lot, near 0 where every place
+A place is an instrument on a slot of the bar, or of the beat, whichever tells more; `again` are the strokes less the
+places. An accent is on purpose that comes where it came before: strokes at the same place then differ less in level
+than all strokes do. `chance` is 1 where loud and soft are drawn by lot, near 0 where every place
 has its own level; about 0.6 in human phrases (Groove MIDI Dataset). Where no place comes twice nothing tells purpose
 from chance. All is in dB, so that a louder kit changes little.
 """
@@ -22,15 +22,15 @@ from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Com
 
 RANGE_DB, RANGE_CREDIT = (1.0, 6.0), (0.0, 1.0)
 """1 dB is what the skilled just hear (HUMANS); 6 dB is between normal and accent, and human phrases have 6 to 12."""
-CHANCE, CHANCE_CREDIT = (0.5, 0.95), (1.0, 0.0)
-"""Human phrases lie at .24 to .83, strokes whose levels are drawn by lot at 1 (our choice between)."""
+CHANCE, CHANCE_CREDIT = (0.5, 0.9), (1.0, 0.0)
+"""Human phrases lie at .47 to .87, strokes whose levels are drawn by lot at 1 (our choice between)."""
 CHANCE_STROKES = 8
 """So many strokes by chance are thought beside those that come again, so that two or three alike prove nothing."""
 PURPOSE = 0.5
 """From here on the words say "on purpose"."""
 CONTOUR_DB, CONTOUR_CREDIT = (0.5, 3.0), (0.0, 1.0)
 """The bars of human phrases differ by 1 to 7 dB (our choice)."""
-RANGE_SHARE, PURPOSE_SHARE, CONTOUR_SHARE = 0.35, 0.55, 0.1
+RANGE_SHARE, PURPOSE_SHARE, CONTOUR_SHARE = 0.3, 0.6, 0.1
 FLAT_DB = 1.0
 
 
@@ -40,8 +40,8 @@ def dynamics_used(turn: HeardTurn, own: float) -> ComponentMarks:
         return ComponentMarks(Component.DYNAMICS, 0.0, "nothing to compare")
     spread, chance, contour = float(turn.level_db.std()), _chance(turn), _contour_db(turn)
     purpose = float(np.interp(chance, CHANCE, CHANCE_CREDIT))
-    shaped = float(np.interp(contour, CONTOUR_DB, CONTOUR_CREDIT)) * purpose
-    credit = np.interp(spread, RANGE_DB, RANGE_CREDIT) * (RANGE_SHARE + PURPOSE_SHARE * purpose + CONTOUR_SHARE * shaped)
+    shaped = PURPOSE_SHARE + CONTOUR_SHARE * float(np.interp(contour, CONTOUR_DB, CONTOUR_CREDIT))
+    credit = np.interp(spread, RANGE_DB, RANGE_CREDIT) * (RANGE_SHARE + purpose * shaped)
     figures = {"range_db": spread, "chance": chance, "contour_db": contour, "own": own}
     return ComponentMarks(
         Component.DYNAMICS,
@@ -55,7 +55,7 @@ def dynamics_used(turn: HeardTurn, own: float) -> ComponentMarks:
 def bar_credit(turn: HeardTurn) -> Floats:
     """Share of full marks (bars,) for the range in each bar."""
     spreads = [turn.level_db[turn.bar == bar].std() if turn.bar_sounds[bar] else 0.0 for bar in range(turn.bars)]
-    return np.interp(spreads, RANGE_DB, RANGE_CREDIT)
+    return np.asarray(np.interp(spreads, RANGE_DB, RANGE_CREDIT))
 
 
 def _chance(turn: HeardTurn) -> float:

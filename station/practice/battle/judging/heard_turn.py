@@ -33,7 +33,8 @@ class HeardTurn:
     """The strokes (n,) of a turn in order of beat, cell and instrument.
 
     `beat` counts from the turn's first, `slot` 0 … 23 within the beat, `level_db` against full scale, `late_ms` after
-    the cell, which is `cell_ms` and `cell_slots` long. `landing_late_ms` (m,) are strokes on the downbeat after the last bar.
+    the cell, which is `cell_ms` and `cell_slots` long. `landing_late_ms` (m,) are the strokes on the downbeat after the
+    last bar.
     """
 
     bars: int

@@ -15,9 +15,9 @@ from station.practice.battle.phrase import Turn
 WEIGHTS: Mapping[Component, float] = MappingProxyType(
     {
         Component.TIME: 20.0,
-        Component.DYNAMICS: 23.0,
+        Component.DYNAMICS: 24.0,
         Component.VOCABULARY: 15.0,
-        Component.DEVELOPMENT: 27.0,
+        Component.DEVELOPMENT: 26.0,
         Component.KIT: 8.0,
         Component.SPACE: 7.0,
     }
@@ -58,12 +58,12 @@ def judged(played: HeardTurn, earlier: Sequence[HeardTurn], called: HeardTurn | 
 def _bar_points(turn: HeardTurn, bars: BarLikeness) -> Floats:
     """What each bar (bars,) shows by itself, by the same weights, 0–100."""
     news = vocabulary_used.new_beats(turn).reshape(turn.bars, turn.beats_a_bar).mean(axis=1)
-    credits = {
+    shown = {
         Component.TIME: time_kept.bar_credit(turn),
         Component.DYNAMICS: dynamics_used.bar_credit(turn),
         Component.VOCABULARY: np.interp(news, vocabulary_used.NEWS, vocabulary_used.NEWS_CREDIT),
         Component.DEVELOPMENT: motif_development.bar_credit(bars),
         Component.KIT: kit_used.bar_credit(turn),
     }
-    whole = sum(WEIGHTS[component] for component in credits)
-    return np.asarray(sum(FULL_POINTS * WEIGHTS[c] / whole * credit for c, credit in credits.items()))
+    whole = sum(WEIGHTS[component] for component in shown)
+    return np.asarray(sum(FULL_POINTS * WEIGHTS[c] / whole * credit for c, credit in shown.items()))

@@ -5,7 +5,8 @@
 over the instruments i, each with its own part of the shape. So a hi-hat that goes on under everything does not make
 strangers alike, for eight strokes weigh no eight times as much as one; an instrument that only one of both plays makes
 them unlike. The shapes' means are taken off, so
-that a cosine is a correlation. Cosines of onset vectors: Paulus & Klapuri 2002 and many since; the weights are our choice.
+that a cosine is a correlation, and below 0 it counts 0. Cosines of onset vectors: Paulus & Klapuri 2002 and many since;
+the weights are our choice.
 """
 
 import numpy as np
@@ -14,9 +15,9 @@ from numpy.typing import NDArray
 from station.practice.battle.judging.heard_turn import Floats
 
 COPY_FROM, COPY_AT = 0.92, 0.97
-"""Where a bar begins to be a copy of another, and where it is one. One stroke of a bar's eight on one of its three
-instruments moved or left away gives .96 to .9; neighbouring bars of a human groove lie at .89 and below in 90 of 100
-phrases (four drummers of the Groove MIDI Dataset)."""
+"""Where a bar begins to be a copy of another, and where it is one. Of a groove of 14 strokes on three instruments a hat
+left away gives .96, a ghost .95, a kick .92; a kick moved .85, a crash for a hat .87 (reckoned). A human bar and the
+likest before it lie at .86 and below in 90 of 100 phrases (four drummers of the Groove MIDI Dataset)."""
 
 
 def likeness(ones: Floats, others: Floats) -> Floats:
@@ -27,9 +28,10 @@ def likeness(ones: Floats, others: Floats) -> Floats:
     cosines = np.divide(products, norms, out=np.zeros_like(products), where=norms > 0)
     weights = np.sqrt(squares[:, None] + other_squares[None])
     whole = weights.sum(axis=2)
-    return np.divide((weights * cosines).sum(axis=2).clip(0.0), whole, out=np.zeros_like(whole), where=whole > 0)
+    alike = np.divide((weights * cosines).sum(axis=2), whole, out=np.zeros_like(whole), where=whole > 0)
+    return np.asarray(alike.clip(0.0))
 
 
 def copied(alike: NDArray[np.float64]) -> Floats:
     """How much of a copy likenesses are, 0 … 1."""
-    return np.interp(alike, (COPY_FROM, COPY_AT), (0.0, 1.0))
+    return np.asarray(np.interp(alike, (COPY_FROM, COPY_AT), (0.0, 1.0)))

@@ -8,8 +8,8 @@
 
 The mean lean is style and costs nothing. Points fall as the spread grows and never rise with it. Strokes at random lie
 about their nearest cells by a spread that is small where cells are short: they are told by the blur, which is 1/√12 =
-0.289 then. `proof` asks for enough strokes to tell a time. Windows: HUMANS (full within 10 ms, mild to 25, a clear fault
-beyond 40, after the lean is set apart; Groove MIDI Dataset 26–28 ms within a whole take).
+0.289 then. `proof` asks for enough strokes to tell a time. Windows: HUMANS (full within 10 ms, mild to 25, a clear
+fault beyond 40, after the lean is set apart; Groove MIDI Dataset 26–28 ms within a whole take).
 """
 
 from dataclasses import dataclass

@@ -1,13 +1,13 @@
 """Vocabulary: how many figures of a beat's length the turn has, whether they are words, and whether they are new.
 
     news     = Σ_k (1 − again_k) / beats,      again_k: the best likeness of beat k to an earlier one, 0 at .5, 1 at .9
-    rooted   = mean_k of beat k's best likeness to the same beat of another bar
+    rooted   = mean_k of beat k's best likeness to the same beat of another bar, in this turn or before
     rounds   = share of the beats that no earlier turn of the player has, copies taken out
     points   = 100·own·credit(news)·credit(rooted)·credit(rounds)
 
 A word is what is said more than once: where no beat resembles another (notes at random) there is no vocabulary,
 however many figures there are; where all do there is little. Types against tokens, as linguists count a vocabulary; the
-credits are our choice by four drummers of the Groove MIDI Dataset (news .2–.8, rooted .6–.95).
+credits are our choice by four drummers of the Groove MIDI Dataset (news .2–.7, rooted .4–.96).
 """
 
 from collections.abc import Sequence
@@ -32,9 +32,9 @@ def vocabulary_used(turn: HeardTurn, before: Sequence[HeardTurn], own: float) ->
     if not sounds.any():
         return ComponentMarks(Component.VOCABULARY, 0.0, "nothing played")
     new = new_beats(turn)
-    news, rooted = float(new.sum()) / turn.beats, _rooted(turn)
+    news, rooted = float(new.sum()) / turn.beats, _rooted(turn, before)
     fresh = _fresh(turn, before)
-    credits = (
+    shares = (
         np.interp(news, NEWS, NEWS_CREDIT),
         np.interp(rooted, ROOTED, ROOTED_CREDIT),
         np.interp(fresh, ROUNDS, ROUNDS_CREDIT),
@@ -42,7 +42,7 @@ def vocabulary_used(turn: HeardTurn, before: Sequence[HeardTurn], own: float) ->
     figures = MappingProxyType({"figures": float(new.sum()), "rooted": rooted, "rounds": fresh, "own": own})
     return ComponentMarks(
         Component.VOCABULARY,
-        FULL_POINTS * own * float(np.prod(credits)),
+        FULL_POINTS * own * float(np.prod(shares)),
         _words(float(new.sum()), rooted, fresh),
         figures,
         _newest(turn, new),
@@ -56,10 +56,13 @@ def new_beats(turn: HeardTurn) -> Floats:
     return np.where(turn.beat_sounds, 1.0 - again, 0.0)
 
 
-def _rooted(turn: HeardTurn) -> float:
+def _rooted(turn: HeardTurn, before: Sequence[HeardTurn]) -> float:
+    """In a turn of one bar any other beat will do."""
+    shapes = np.concatenate([turn.beat_shapes, *(earlier.beat_shapes for earlier in before)])
     place = np.arange(turn.beats) % turn.beats_a_bar
-    there = (place[:, None] == place[None, :]) & ~np.eye(turn.beats, dtype=np.bool_)
-    alike = np.where(there, likeness(turn.beat_shapes, turn.beat_shapes), 0.0)
+    there = (place[:, None] == np.arange(len(shapes)) % turn.beats_a_bar) | (turn.bars == 1)
+    there[:, : turn.beats] &= ~np.eye(turn.beats, dtype=np.bool_)
+    alike = np.where(there, likeness(turn.beat_shapes, shapes), 0.0)
     return float(alike.max(axis=1)[turn.beat_sounds].mean())
 
 
