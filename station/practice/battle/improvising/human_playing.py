@@ -12,11 +12,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from statistics import NormalDist
 
 import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
-from scipy.special import ndtr
 
 from station.music.score import MAX_LATE_MS
 from station.practice.battle.improvising.played_beats import Beats, Instrument
@@ -80,7 +80,7 @@ def human_late_ms(beats: Beats, spread: float, rng: Generator) -> Floats:
     moment = moments_of(beats, struck)
     clock = ar1(int(moment.max()) + 1, table.from_last / table.together, rng)
     own = rng.normal(size=len(struck))
-    rank = ndtr(table.together**0.5 * clock[moment] + (1 - table.together) ** 0.5 * own)
+    rank = _ranks(table.together**0.5 * clock[moment] + (1 - table.together) ** 0.5 * own)
     late = np.interp(rank, QUANTILES, table.late_ms)
     late += table.place_ms[places_of(beats, struck)] + table.instrument_ms[struck[:, 2]]
     return np.asarray(np.clip(spread * late, -MAX_LATE_MS, MAX_LATE_MS))
@@ -94,7 +94,7 @@ def human_velocity(beats: Beats, rng: Generator) -> Floats:
     rest = _in_turn(struck, table.of_last, rng)
     own = max(0.0, 1 - table.of_take - table.of_way)
     score = table.of_take**0.5 * rng.normal() + table.of_way**0.5 * ways[struck[:, 2], place] + own**0.5 * rest
-    return velocity_at(struck[:, 2], place, ndtr(score))
+    return velocity_at(struck[:, 2], place, _ranks(score))
 
 
 def velocity_at(instrument: NDArray[np.int64], place: NDArray[np.int64], rank: Floats) -> Floats:
@@ -116,6 +116,12 @@ def ar1(count: int, correlation: float, rng: Generator) -> Floats:
         last = noise[0] if at == 0 else correlation * last + (1 - correlation**2) ** 0.5 * noise[at]
         found[at] = last
     return found
+
+
+def _ranks(scores: Floats) -> Floats:
+    """The share of a standard normal distribution below each score (n,)."""
+    below = NormalDist().cdf
+    return np.array([below(score) for score in scores.tolist()])
 
 
 def _in_turn(struck: Struck, correlation: float, rng: Generator) -> Floats:
