@@ -121,7 +121,7 @@ def _called(before: SoFar, turn: PlannedTurn, drum: Drum, staircase: Staircase) 
     same = [other for other in before.plan if other.round == turn.round and other.kind is TurnKind.CALL]
     if same and same[0].phrase is not None:
         return replace(_with_phrase(turn, same[0].phrase), step=same[0].step)
-    step = _step(before, turn.round, staircase)
+    step = step_of_round(before, turn.round, staircase)
     request = replace(_request(before, turn, Asked.TO_REPEAT), step=step)
     return replace(_with_phrase(turn, drum(request)), step=step)
 
@@ -153,7 +153,7 @@ def _request(before: SoFar, turn: PlannedTurn, asked: Asked) -> PhraseRequest:
     )
 
 
-def _step(before: SoFar, number: int, staircase: Staircase) -> int:
+def step_of_round(before: SoFar, number: int, staircase: Staircase) -> int:
     """How hard the call of round `number` is: as whoever's turn it is needs it, the final as hard as was ever won."""
     rules = before.rules
     owner = before.sides_in[(number - 1) % len(before.sides_in)]

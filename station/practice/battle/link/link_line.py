@@ -4,7 +4,8 @@ Pure: whoever drives it hands over datagrams with their addresses and the time, 
 address is where its newest signed datagram came from, so that a line survives a new address or port.
 """
 
-from collections import Counter
+from collections import Counter, deque
+from collections.abc import Iterator
 
 from station.core.errors import BadInput
 from station.practice.battle.link.link_channel import LinkChannel
@@ -27,6 +28,7 @@ class LinkLine:
         self._peer: Address | None = opening.host if isinstance(opening, Knock) else None
         self._replies: list[tuple[bytes, Address]] = []
         self._fault: str | None = None
+        self._came = deque[bytes]()
         self.drops = Counter[Drop]()
 
     @property
@@ -65,6 +67,7 @@ class LinkLine:
     def hang_up(self) -> None:
         """Nobody is at the other end any more; a host's door is open again."""
         self._channel, self._fault = None, None
+        self._came.clear()
         if isinstance(self._opening, Door):
             self._opening.release()
             self._peer = None
@@ -117,19 +120,25 @@ class LinkLine:
         assert self._channel is not None, "nobody is there"
         self._channel.send(encoded(message))
 
-    def messages(self) -> list[Message]:
-        """What the other end has said since the last call; what does not fit ends the belief in it."""
+    def message(self) -> Message | None:
+        """What the other end said next, None where that is all; what does not fit ends the belief in it."""
         if self._channel is None or self.fault is not None:
-            return []
-        said: list[Message] = []
-        for data in self._channel.messages():
-            try:
-                said.append(decoded(data, WHO))
-            except BadInput as fault:
-                self.drops[Drop.MALFORMED] += 1
-                self._fault = str(fault)
-                break
-        return said
+            return None
+        if not self._came:
+            self._came.extend(self._channel.messages())
+        if not self._came:
+            return None
+        try:
+            return decoded(self._came.popleft(), WHO)
+        except BadInput as fault:
+            self.drops[Drop.MALFORMED] += 1
+            self._fault = str(fault)
+            return None
+
+    def messages(self) -> Iterator[Message]:
+        """All that the other end has said since."""
+        while (message := self.message()) is not None:
+            yield message
 
     def disbelieve(self, fault: str) -> None:
         """What the other end said fits its type, but not the battle."""

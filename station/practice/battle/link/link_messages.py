@@ -13,7 +13,6 @@ from msgspec import Meta, Struct
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
-from station.music.judgement import Label
 from station.practice.battle.ground import Feel
 from station.scoring.matching.hit_windows import Level
 
@@ -24,7 +23,9 @@ MOST_LINE = 120
 MOST_STROKES = 2048
 """In a message (our choice: sixteen bars of sixteen strokes a beat, and half as many again)."""
 MOST_BARS, MOST_ROUNDS = 16, 99
-"""Of a turn and of a battle (our choices: the longest trade that players name is eights)."""
+"""Of a turn and of a battle (our choices: what `battle.rules` lets through, and room for more)."""
+MOST_SPANS, MOST_FIGURES = 64, 32
+"""Times in a turn in which a kit was not heard, and figures of a judgement (our choices)."""
 MOST_FRACTION = 1 - 2**-24
 """The greatest number of 32 bits below 1."""
 FARTHEST_NS = 10**12
@@ -36,8 +37,8 @@ TurnNs = Annotated[int, Meta(ge=-FARTHEST_NS, le=FARTHEST_NS)]
 Fraction = Annotated[float, Meta(ge=0, le=1)]
 Points = Annotated[float, Meta(ge=0, le=100)]
 Ticks = Annotated[int, Meta(ge=0, le=1 << 40)]
-Round = Annotated[int, Meta(ge=0, lt=MOST_ROUNDS)]
-Index = Annotated[int, Meta(ge=0, lt=MOST_STROKES)]
+Round = Annotated[int, Meta(ge=1, le=MOST_ROUNDS)]
+Step = Annotated[int, Meta(ge=0, le=1000)]
 Number7 = Annotated[int, Meta(ge=0, le=127)]
 Velocity = Annotated[int, Meta(ge=1, le=127)]
 
@@ -112,23 +113,22 @@ class WrittenStroke(_Row, frozen=True):
     openness: Fraction | None
 
 
-class Verdict(_Row, frozen=True):
-    """What became of a note, a hit, or the two paired, as `music.judgement.Judgement`."""
-
-    label: Label
-    note: Index | None
-    hit: Index | None
-    asynchrony_ns: TurnNs | None
-
-
-class Component(_Row, frozen=True):
-    """One part of an improvisation's marks: 0–100 points, None where there was nothing to judge."""
+class Figure(_Row, frozen=True):
+    """One figure of a judgement by its name: a count, a mean, the points of a component; None where nobody can tell."""
 
     name: Name
-    points: Points | None
+    value: Annotated[float, Meta(ge=-1e9, le=1e9)] | None
 
     def __post_init__(self) -> None:
         _check_texts(self)
+
+
+class Claim(_Row, frozen=True):
+    """What an end judges a turn to be: points (None where nothing is known), whether it is won (None where none is)."""
+
+    points: Points | None
+    won: bool | None
+    figures: Annotated[tuple[Figure, ...], Meta(max_length=MOST_FIGURES)]
 
 
 Strokes = Annotated[tuple[PlayedStroke, ...], Meta(max_length=MOST_STROKES)]
@@ -160,12 +160,15 @@ class Offer(_Checked, frozen=True, tag="offer"):
     unit: Literal[1, 2, 4, 8, 16, 32]
     feel: Feel
     style: Name
-    bars: Annotated[int, Meta(ge=1, le=MOST_BARS)]
+    opponent: Name
     rounds: Annotated[int, Meta(ge=1, le=MOST_ROUNDS)]
+    has_final: bool
+    bars: Annotated[int, Meta(ge=1, le=MOST_BARS)]
     lives: Annotated[int, Meta(ge=1, le=MOST_ROUNDS)]
     target: Fraction
-    opponent: Name
+    first_step: Step | None
     seed: Annotated[int, Meta(ge=0, le=(1 << 63) - 1)]
+    keeps_time: bool
     host_begins: bool
 
 
@@ -177,7 +180,7 @@ class Called(_Checked, frozen=True, tag="called"):
     """The phrase that both repeat in a round, at its step of difficulty."""
 
     round: Round
-    step: Annotated[int, Meta(ge=0, le=1000)]
+    step: Step
     bars: Annotated[int, Meta(ge=1, le=MOST_BARS)]
     strokes: Written
     landing: Annotated[tuple[WrittenStroke, ...], Meta(max_length=32)]
@@ -194,16 +197,20 @@ class PlayedBar(_Checked, frozen=True, tag="bar"):
 
 
 class PlayedTurn(_Checked, frozen=True, tag="turn"):
-    """A whole turn or answer, and what its own station judged it to be."""
+    """A whole turn or answer, when its kit was not heard, and what its own station judges it to be."""
 
     round: Round
-    bars: Annotated[int, Meta(ge=1, le=MOST_BARS)]
     strokes: Strokes
     chokes: Chokes
-    points: Points
-    won: bool
-    verdicts: Annotated[tuple[Verdict, ...], Meta(max_length=2 * MOST_STROKES)]
-    components: Annotated[tuple[Component, ...], Meta(max_length=16)]
+    unheard: Annotated[tuple[tuple[TurnNs, TurnNs], ...], Meta(max_length=MOST_SPANS)]
+    claim: Claim
+
+
+class Checked(_Checked, frozen=True, tag="checked"):
+    """What whoever received a turn judges it to be, by the same function; the claims agree, or the turn counts not."""
+
+    round: Round
+    claim: Claim
 
 
 class Pause(_Checked, frozen=True, tag="pause"):
@@ -227,7 +234,7 @@ class Bye(_Checked, frozen=True, tag="bye"):
     why: Literal["over", "left", "declined", "fault"]
 
 
-Message = Hello | Offer | Accept | Called | PlayedBar | PlayedTurn | Pause | Resume | Outcome | Bye
+Message = Hello | Offer | Accept | Called | PlayedBar | PlayedTurn | Checked | Pause | Resume | Outcome | Bye
 
 
 class Card(_Checked, frozen=True):

@@ -67,10 +67,10 @@ def written_strokes(notes: NDArray[np.void]) -> tuple[WrittenStroke, ...]:
     return tuple(map(WrittenStroke, *_columns(notes, WrittenStroke.__struct_fields__)))
 
 
-def called(phrase: Phrase, round_number: int, step: int) -> Called:
+def called(phrase: Phrase, number: int, step: int) -> Called:
     """The message that says `phrase`."""
     strokes, landing = written_strokes(phrase.score.notes), written_strokes(phrase.landing)
-    return Called(round_number, step, phrase.bars, strokes, landing, phrase.words)
+    return Called(number, step, phrase.bars, strokes, landing, phrase.words)
 
 
 def phrase_of(said: Called, ground: Ground, source: str) -> Phrase:
@@ -78,7 +78,7 @@ def phrase_of(said: Called, ground: Ground, source: str) -> Phrase:
     end_tick = said.bars * ground.bar_ticks
     far = next((stroke.tick for stroke in said.strokes if stroke.tick >= end_tick), None)
     if far is not None or any(stroke.tick for stroke in said.landing):
-        raise BadInput(source, f"phrase of round {said.round + 1}", "has a stroke outside its bars")
+        raise BadInput(source, f"phrase of round {said.round}", "has a stroke outside its bars")
     names = WrittenStroke.__struct_fields__
     score = Score.from_array(_table(said.strokes, names, NOTE_DTYPE), ground.tempo_map, end_tick)
     return Phrase(score, _table(said.landing, names, NOTE_DTYPE), said.words)

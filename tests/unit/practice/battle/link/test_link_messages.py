@@ -12,7 +12,6 @@ from station.core.errors import BadInput
 from station.core.events import Choke, Hit
 from station.core.pieces import Articulation, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.music.judgement import Label
 from station.music.performance import Performance
 from station.music.score import NOTE_DTYPE, Note, Score
 from station.practice.battle.ground import Feel, Ground
@@ -21,7 +20,9 @@ from station.practice.battle.link.link_messages import (
     Accept,
     Bye,
     Called,
-    Component,
+    Checked,
+    Claim,
+    Figure,
     Hello,
     Message,
     Offer,
@@ -30,7 +31,6 @@ from station.practice.battle.link.link_messages import (
     PlayedBar,
     PlayedTurn,
     Resume,
-    Verdict,
     decoded,
     encoded,
     shown_name,
@@ -47,23 +47,16 @@ from station.scoring.matching.hit_windows import Level
 
 HIT = Hit(-3_000_001, Piece.HIHAT, Zone.EDGE, 97, Articulation.NORMAL, 0.1, 26, None, Limb.LEFT_HAND, "kit", 0.3)
 PLAYED = Performance.from_hits([HIT, replace(HIT, at_ns=5, openness=None, position=0.7)], [Choke(9, Piece.CRASH_1)])
-OFFER = Offer("improvise", 92.5, 4, 4, Feel.TRIPLET, "jazz", 4, 3, 3, 0.9, "mirror", 7, True)
-TURN = PlayedTurn(
-    2,
-    4,
-    played_strokes(PLAYED),
-    played_chokes(PLAYED),
-    61.5,
-    True,
-    (Verdict(Label.MATCH, 0, 1, -2_000_000), Verdict(Label.MISS, 1, None, None)),
-    (Component("time", 88.0), Component("motifs", None)),
-)
+OFFER = Offer("improvise", 92.5, 4, 4, Feel.TRIPLET, "jazz", "mirror", 3, True, 4, 3, 0.9, None, 7, True, True)
+CLAIM = Claim(61.5, True, (Figure("right", 12.0), Figure("mean_ms", -3.25), Figure("motifs", None)))
+TURN = PlayedTurn(2, played_strokes(PLAYED), played_chokes(PLAYED), ((0, 5), (-7, 9)), CLAIM)
 SAID: tuple[Message, ...] = (
     Hello("The shed", "Zoë", Level.STUDIO, "0.1.0"),
     OFFER,
     Accept(),
-    PlayedBar(0, 3, TURN.strokes, TURN.chokes),
+    PlayedBar(1, 3, TURN.strokes, TURN.chokes),
     TURN,
+    Checked(1, Claim(None, None, ())),
     Pause(),
     Resume(),
     Outcome(3, "0123456789abcdef" * 2),
@@ -78,7 +71,7 @@ def test_each_message_comes_back_as_it_was_sent(message: Message) -> None:
 
 def test_what_was_played_comes_back_to_the_last_bit() -> None:
     strokes, chokes = played_strokes(PLAYED), played_chokes(PLAYED)
-    back = decoded(encoded(PlayedBar(0, 0, strokes, chokes)), "them")
+    back = decoded(encoded(PlayedBar(1, 0, strokes, chokes)), "them")
     assert isinstance(back, PlayedBar)
     again = performance_of(back.strokes, back.chokes)
     assert again.hits.tobytes() == PLAYED.hits.tobytes()
@@ -110,7 +103,7 @@ def test_a_phrase_comes_back_with_its_ornaments_timing_and_landing() -> None:
 
 
 def test_a_phrase_with_strokes_outside_its_bars_is_refused() -> None:
-    said = called(a_phrase(), 0, 0)
+    said = called(a_phrase(), 1, 0)
     with pytest.raises(BadInput, match="outside its bars"):
         phrase_of(msgspec.structs.replace(said, bars=1), Ground(100.0, 3, 4), "them")
     late = msgspec.structs.replace(said.landing[0], tick=1)
@@ -122,7 +115,7 @@ ROW = list(msgspec.structs.astuple(TURN.strokes[0]))
 
 
 def bar_with(place: int, value: object) -> dict[str, object]:
-    return {"type": "bar", "round": 0, "bar": 0, "strokes": [[*ROW[:place], value, *ROW[place + 1 :]]], "chokes": []}
+    return {"type": "bar", "round": 1, "bar": 0, "strokes": [[*ROW[:place], value, *ROW[place + 1 :]]], "chokes": []}
 
 
 HELLO_RAW = {"type": "hello", "station": "s", "player": "p", "level": "studio", "program": "1"}
@@ -132,11 +125,11 @@ WRONG: dict[str, object] = {
     "no type": {},
     "no table": [1, 2],
     "a key too many": {"type": "accept", "please": 1},
-    "a key too few": {"type": "bar", "round": 0},
-    "a round past the last": {"type": "bar", "round": 99, "bar": 0, "strokes": [], "chokes": []},
-    "a bar before the first": {"type": "bar", "round": 0, "bar": -1, "strokes": [], "chokes": []},
-    "too many strokes": {"type": "bar", "round": 0, "bar": 0, "strokes": [ROW] * 2049, "chokes": []},
-    "a row too long": {"type": "bar", "round": 0, "bar": 0, "strokes": [[*ROW, 1]], "chokes": []},
+    "a key too few": {"type": "bar", "round": 1},
+    "a round past the last": {"type": "bar", "round": 100, "bar": 0, "strokes": [], "chokes": []},
+    "a bar before the first": {"type": "bar", "round": 1, "bar": -1, "strokes": [], "chokes": []},
+    "too many strokes": {"type": "bar", "round": 1, "bar": 0, "strokes": [ROW] * 2049, "chokes": []},
+    "a row too long": {"type": "bar", "round": 1, "bar": 0, "strokes": [[*ROW, 1]], "chokes": []},
     "a far time": bar_with(0, 10**13),
     "a time that is no whole number": bar_with(0, 0.5),
     "a piece that nobody has": bar_with(1, 99),
@@ -161,11 +154,11 @@ WRONG: dict[str, object] = {
     "a mode of its own": OFFER_RAW | {"mode": "fight"},
     "a digest that is none": {"type": "outcome", "rounds": 1, "digest": "0" * 31 + "g"},
     "a digest and a line more": {"type": "outcome", "rounds": 1, "digest": "0" * 32 + "\n"},
-    "a component with a bell": {
-        **msgspec.to_builtins(TURN),
-        "type": "turn",
-        "components": [["\a", 1.0]],
-    },
+    "a figure with a bell": {"type": "checked", "round": 1, "claim": [1.0, True, [["\a", 1.0]]]},
+    "points that are no number": {"type": "checked", "round": 1, "claim": [float("nan"), True, []]},
+    "points beyond all": {"type": "checked", "round": 1, "claim": [101.0, True, []]},
+    "a round before the first": {"type": "checked", "round": 0, "claim": [1.0, True, []]},
+    "a claim without end": {"type": "checked", "round": 1, "claim": [1.0, True, [["x", 1.0]] * 33]},
 }
 
 
