@@ -7,6 +7,7 @@ with t the tangent of half the angle of view, is linear in the place e of the ey
 a picture of `NARROW` fits wider ones as it is, and narrower ones because they widen their angle.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -21,6 +22,7 @@ from station.motion.kit.kit import Kit, load_kit
 from station.motion.kit.piece import KitPiece
 from station.render.camera import NARROW, Camera
 from station.render.geometry.transforms import look_at
+from station.render.place import Place
 from station.render.snapshot import Snapshot
 
 Points = NDArray[np.float64]
@@ -190,13 +192,13 @@ def _clearance(camera: Camera, stage: Stage) -> float:
     return least
 
 
-def _fitted(view: _Wide, pieces: Points, body: Points) -> Camera:
-    """The camera that sees all points from as near as can be."""
+def _fitted(view: _Wide, pieces: Points, body: Points, narrowest: float = NARROW) -> Camera:
+    """The camera that sees all points from as near as can be, in pictures `narrowest` times as wide as high or more."""
     here = Camera((0.0, 0.0, 0.0), view.azimuth_rad, view.height_rad, 1.0, view.fov_rad)
     axes = look_at(here.eye, here.target)[:3, :3]
     up = np.tan(view.fov_rad / 2)
     x, _, z = axes @ np.concatenate([pieces, body]).T
-    across = view.aside * NARROW * up
+    across = view.aside * narrowest * up
     right, left = np.max(x + across * z), np.max(-x + across * z)
     floors = np.max(-(axes[1] + view.bottom * up * axes[2]) @ np.concatenate([pieces, body]).T)
     tops = [
@@ -209,6 +211,38 @@ def _fitted(view: _Wide, pieces: Points, body: Points) -> Camera:
     distance = float(away - np.median(z))
     target = (eye - [0, 0, distance]) @ axes
     return Camera((*target.tolist(),), view.azimuth_rad, view.height_rad, distance, view.fov_rad)
+
+
+def both(stages: Sequence[tuple[Stage, Place]]) -> Camera:
+    """The camera before a stage of two that sees all of both; what is narrower than `_TWO_ASPECT` crops their sides."""
+    pieces, bodies = (
+        np.concatenate([points @ place.matrix[:3, :3].T + place.matrix[:3, 3] for points, place in of_each])
+        for of_each in (
+            [(_pieces(stage.kit, is_whole=True), place) for stage, place in stages],
+            [(_body(stage), place) for stage, place in stages],
+        )
+    )
+    return _fitted(_BOTH, pieces, bodies, _TWO_ASPECT)
+
+
+def one_of_two(stage: Stage, place: Place) -> Camera:
+    """The camera before one of two drummers, straight as the room is; the first from which no piece is before the face.
+
+    Without one, where least of a piece is.
+    """
+    straight = 90 * _DEG - place.turn_rad
+    aside = [straight + angle * _DEG for angle in (0, -9, 9, -18, 18)]
+    cameras = [_fitted(replace(_WIDE[NamedView.FRONT], azimuth_rad=a), *_whole(stage)) for a in aside]
+    return place.camera(max(cameras, key=lambda camera: min(_clearance(camera, stage), _FREE)))
+
+
+def _whole(stage: Stage) -> tuple[Points, Points]:
+    return _pieces(stage.kit, is_whole=True), _body(stage)
+
+
+_TWO_ASPECT = 1.9
+"""The narrowest picture of both: one of 1280x720 with its upper band."""
+_BOTH = _Wide(90 * _DEG, 13 * _DEG, 0.62, 0.95, 0.97, is_whole=True)
 
 
 _EYES_M = (0.0, 0.17, -0.15)

@@ -17,6 +17,7 @@ from station.render.framing import named, stage_of
 from station.render.gpu.cached_layer import CachedLayer
 from station.render.gpu.edge_smoothing import EdgeSmoother
 from station.render.gpu.gl import RenderTarget, give_back
+from station.render.gpu.light_layers import LightLayers, Lights
 from station.render.gpu.moving_parts import DoublePlace, frames_of
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
 from station.render.notation.screen.score_place import ScoreForm, halves
@@ -78,13 +79,14 @@ class Painter:
         self.printer = ShapeRenderer(ctx, self.atlas)
         self._score = ScoreView(self.printer, self.atlas)
         self._scene: Scene | None = None
+        self._lit_still = LightLayers(ctx)
         self._still, self._worded, self._inset_still = CachedLayer(ctx), CachedLayer(ctx), CachedLayer(ctx)
         self._smoother, self._inset_smoother = EdgeSmoother(ctx), EdgeSmoother(ctx)
         self._inset: RenderTarget | None = None
         self._lines = _Kept(lambda words, page: hud.hud_lines(words, self.atlas, page.size, page.letters))
         self._calls = _Kept(lambda words, page: hud.hud_calls(words, self.atlas, page.size, page.letters))
         self._named = _Page((0, 0)), np.empty(0, SHAPE_DTYPE)
-        self._played: tuple[Kit, Figure] | None = None
+        self._played: _Players | None = None
 
     def draw_at(self, quality: Quality) -> None:
         """Draw at another quality from now on; the scene is built anew if it is made of other things."""
@@ -124,7 +126,7 @@ class Painter:
         scene_area = (left + cut.scene[0], low + height - cut.scene[3], cut.scene[2], cut.scene[3] - page.band)
         paper = None if form is None else self._score.paper(snapshot, cut.score, form, arrangement.has_legend)
         scene = self._scene_of(snapshot)
-        camera = camera or named(NamedView.SHOULDER, stage_of(snapshot))
+        camera = camera or snapshot.camera or named(NamedView.SHOULDER, stage_of(snapshot))
         frames = frames_of(snapshot, arrangement.double, self.theme)
         places = _side_by_side(scene_area, len(frames))
         scene.set(frames[0])
@@ -136,8 +138,7 @@ class Painter:
                 scene.set(frame)
                 draw(into, camera, window)
 
-        def lay(into: moderngl.Framebuffer, draw: Callable[[moderngl.Framebuffer, Camera, Area], None]) -> None:
-            each(draw, into)
+        def lay_paper() -> None:
             self._ctx.viewport = area
             if paper is not None:
                 self._score.draw_paper(snapshot, paper, (width, height))
@@ -145,21 +146,34 @@ class Painter:
 
         def lay_still(into: moderngl.Framebuffer) -> None:
             into.clear(*themed(NIGHT, self.theme), depth=1.0)
-            lay(into, partial(scene.draw_still, is_rough=arrangement.is_rough))
+            each(partial(scene.draw_still, is_rough=arrangement.is_rough), into)
+            lay_paper()
+
+        def lay_lit(into: moderngl.Framebuffer, lights: Lights) -> None:
+            into.clear(*themed(NIGHT, self.theme), depth=1.0)
+            scene.draw_still(into, camera, scene_area, arrangement.is_rough, lights)
 
         def lay_words(into: moderngl.Framebuffer) -> None:
-            self._still.under(into, key, lay_still, 0 if arrangement.is_rough else _STILL_SAMPLES)
+            samples = 0 if arrangement.is_rough else _STILL_SAMPLES
+            if lights is None:
+                self._still.under(into, key, lay_still, samples)
+            else:
+                self._lit_still.under(into, stands, lights, lay_lit, self.printer.picture, samples)
             into.use()
+            if lights is not None:
+                lay_paper()
             self._ctx.viewport = area
             self._lay_lines(self._lines.of(corners, page), (width, height))
 
         if self.quality.is_layered:
-            drawn = scene, camera, area, page.band, paper, scene.shows_figure, len(frames)
-            key = (drawn, self.theme, arrangement.is_rough)
+            lights = _lights_of(snapshot)
+            stands = scene, camera, area, page.band, scene.shows_figure, len(frames), self.theme, arrangement.is_rough
+            key = (stands, paper, lights)
             self._worded.under(target, (key, corners), lay_words)
             each(partial(_draw_moving, scene, self._smoother), target)
         else:
-            lay(target, scene.draw)
+            each(scene.draw, target)
+            lay_paper()
 
         def finish(newest: Snapshot) -> None:
             nonlocal frames
@@ -236,14 +250,15 @@ class Painter:
         return self._inset.resolved()
 
     def _scene_of(self, snapshot: Snapshot) -> Scene:
-        """The scene of the snapshot's kit and figure; the same ones, even if read anew, are not built anew."""
-        wanted = (snapshot.kit, snapshot.figure)
+        """The scene of the snapshot's kits and figures; the same ones, even if read anew, are not built anew."""
+        rival = snapshot.rival
+        wanted = ((snapshot.kit, snapshot.figure), *([] if rival is None else [(rival.kit, rival.figure)]))
         if self._scene is None or self._played is None or not _same(wanted, self._played):
             self._scene = None
-            for still in (self._still, self._worded, self._inset_still):
+            for still in (self._still, self._worded, self._inset_still, self._lit_still):
                 still.release()
             give_back(self._ctx)
-            self._scene = Scene(self._ctx, *wanted, self.quality)
+            self._scene = Scene(self._ctx, *wanted[0], self.quality, *wanted[1:])
         self._played = wanted
         return self._scene
 
@@ -281,9 +296,24 @@ def _draw_moving(scene: Scene, smoother: EdgeSmoother, into: moderngl.Framebuffe
     smoother.smooth(into, scene.moving_tiles(camera, place), place)
 
 
-def _same(one: tuple[Kit, Figure], other: tuple[Kit, Figure]) -> bool:
-    """Whether both are the very same, or alike in all that is drawn."""
-    return (one[0] is other[0] and one[1] is other[1]) or one == other
+_Players = tuple[tuple[Kit, Figure], ...]
+_STEPS = 32
+"""In so many steps light goes from one drummer to the other where what stands is kept (our choice: none is seen)."""
+
+
+def _lights_of(snapshot: Snapshot) -> Lights | None:
+    """The light that two drummers stand in, in whole steps; None where there is one."""
+    if snapshot.rival is None:
+        return None
+    return round(snapshot.light * _STEPS) / _STEPS, round(snapshot.rival.light * _STEPS) / _STEPS
+
+
+def _same(some: _Players, others: _Players) -> bool:
+    """Whether they are the very same, or alike in all that is drawn."""
+    return len(some) == len(others) and all(
+        (one[0] is other[0] and one[1] is other[1]) or one == other
+        for one, other in zip(some, others, strict=True)
+    )
 
 
 def form_of(snapshot: Snapshot, form: ScoreForm) -> ScoreForm:

@@ -1,261 +1,172 @@
-"""Draws the room, the kit and the drummer with OpenGL: a shadow pass and a picture pass.
+"""Draws the room, the kits and the drummers with OpenGL: a shadow pass for each kit and a picture pass.
 
-Two kinds of geometry share one palette of bone matrices: rigid (kit, room) and skinned (the figure). All of it is
-uploaded once; a frame uploads the palette alone.
+One drummer plays in the room's middle, or two side by side, each in a light of their own; a crowd may stand behind.
 
 Where the processor does all the work, at the lowest quality, a picture is made in two layers instead: what hardly ever
-moves is drawn once for each camera with the figure's resting shadow (`draw_still`), whoever draws keeps that picture
+moves is drawn once for each camera with the figures' resting shadows (`draw_still`), whoever draws keeps that picture
 with its depth, and each frame adds what moves, lit corner by corner (`draw_moving`), and what glows (`draw_glow`).
 """
 
-from functools import cached_property, lru_cache
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import moderngl
 import numpy as np
-from numpy.typing import NDArray
 
-from station.core.pieces import Piece
 from station.motion.kinematics.figure import Figure
 from station.motion.kit.kit import Kit
 from station.render.camera import Camera
-from station.render.figure.skeleton import Skeleton
-from station.render.geometry.transforms import gl_bytes
-from station.render.gpu.bone_palette import BoneFrame, BonePalette
-from station.render.gpu.edge_smoothing import Tiles, balls_of, tiles_of
-from station.render.gpu.scene_cache import cached_kit
-from station.render.gpu.scene_parts import SceneParts, write
-from station.render.kit.kit_rig import KitRig
+from station.render.gpu.bone_palette import BoneFrame
+from station.render.gpu.crowd import Crowd
+from station.render.gpu.edge_smoothing import Tiles
+from station.render.gpu.light_layers import Lights
+from station.render.gpu.room_parts import RoomParts
+from station.render.place import ALONE, TWO
+from station.render.player_scene import PlayerScene, Viewport, aim, clip_of
 from station.render.quality import Quality
-
-_NEARER = (-1.0, -4.0)
-"""Depth offset of what is drawn over the very same surface once more."""
-_NEAR_M = 0.15
-"""What is nearer to the eye than this is taken to be so far away: it fills the picture all the same."""
-_ALONG = 9
-"""Places on each edge of what moves: 10 cm apart on the longest."""
-_DARK = 0.003
-"""A glow below this is not seen: less than one of 255 steps on the screen."""
-
-Viewport = tuple[int, int, int, int]
-"""x, y, width, height in pixels from the lower left."""
 
 
 class Scene:
-    """One kit and one figure, ready to be drawn at one quality: `set` says how, then draw from any camera."""
+    """One kit and one figure, or two, ready to be drawn at one quality: `set` says how, then draw from any camera."""
 
-    def __init__(self, ctx: moderngl.Context, kit: Kit, figure: Figure, quality: Quality) -> None:
+    def __init__(
+        self,
+        ctx: moderngl.Context,
+        kit: Kit,
+        figure: Figure,
+        quality: Quality,
+        rival: tuple[Kit, Figure] | None = None,
+    ) -> None:
         self._ctx = ctx
         self.quality = quality
-        self.rig: KitRig = cached_kit(kit, quality.detail)
-        self.skeleton = Skeleton(figure)
-        self._bones = BonePalette(ctx, self.rig, self.skeleton)
-        self._parts = SceneParts(ctx, self.rig, figure, quality)
-        self._parts.ghost.skin.program["first_bone"] = self._bones.double
-        self._parts.ghost.rigid.program["first_bone"] = self._bones.double_sticks - self.rig.sticks.start
-        self._frame = BoneFrame()
-        self._lit: dict[
-            BoneFrame, set[Piece]
-        ] = {}  # what was drawn glowing already, of frames that wait for `draw_glow`
-        self._shadow_is_cast = False
-        self._resting_shadow: bool | None = None
+        players = ((kit, figure),) if rival is None else ((kit, figure), rival)
+        places = (ALONE,) if rival is None else TWO
+        self._players = [
+            PlayerScene(ctx, *player, quality, place) for player, place in zip(players, places, strict=True)
+        ]
+        self.rig, self.skeleton = self._players[0].rig, self._players[0].skeleton
+        self._room = RoomParts(ctx, list(zip((k for k, _ in players), places, strict=True)), quality)
+        self._crowd = Crowd(ctx) if rival is not None else None
 
     @property
     def triangles(self) -> int:
         """How many triangles a picture draws, shadows apart."""
-        return self._parts.triangles
+        return sum(player.parts.triangles for player in self._players)
 
     @property
     def shows_figure(self) -> bool:
-        """Whether the drummer is there."""
-        return self._frame.pose is not None
+        """Whether the drummer is there, or the first of two."""
+        return self._players[0].shows_figure
 
     # --- what is drawn ------------------------------------------------------------------------------------------------
 
     def set(self, frame: BoneFrame) -> None:
         """Say what the next pictures show; to say the same again costs nothing."""
-        if frame is self._frame:
-            return
-        self._frame = frame
-        self._bones.set(frame)
-        self._shadow_is_cast = False
+        self._players[0].set(frame)
+        if len(self._players) > 1 and frame.rival is not None:
+            self._players[1].set(frame.rival)
+            self._light((frame.light, frame.rival.light))
+
+    def _light(self, lights: Lights) -> None:
+        for player, light in zip(self._players, lights, strict=True):
+            player.light(light)
+        self._room.light(lights)
 
     def draw(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
-        """Draw everything into `viewport` of `target`; more pictures of one frame cast its shadow once."""
-        self._bones.use()
-        if not self._shadow_is_cast:
-            self.draw_shadows()
-        self._begin(target, viewport, camera)
-        target.clear(depth=1.0, viewport=viewport)
-        self._aim(camera, viewport, *self.picture_parts)
-        for part in self.picture_parts:
-            part.render()
-        self._draw_double(target, camera, viewport)
-        self._end()
+        """Draw everything into `viewport` of `target`; more pictures of one frame cast its shadows once."""
+        for player in self._players:
+            player.cast_shadow()
+        with self._drawing(target, camera, viewport):
+            target.clear(depth=1.0, viewport=viewport)
+            for player in self._players:  # nearest first, so that what is hidden is not shaded
+                player.draw(camera, viewport)
+            self._draw_room(self._room.parts, camera, viewport)
+            self._draw_crowd(target, camera, viewport)
+            for player in self._players:
+                player.draw_double(target, camera, viewport)
 
     def draw_still(
-        self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport, is_rough: bool = False
+        self,
+        target: moderngl.Framebuffer,
+        camera: Camera,
+        viewport: Viewport,
+        is_rough: bool = False,
+        lights: Lights | None = None,
     ) -> None:
-        """Draw what hardly ever moves: the room, the hardware, the drums at rest, and the shadow of a figure at rest.
+        """Draw what hardly ever moves: the room, the hardware, the drums at rest, and shadows of figures at rest.
 
-        A rough picture, for a camera that moves, takes half the time.
+        A rough picture, for a camera that moves, takes half the time. `lights` are those of two drummers, None as they
+        are.
         """
-        self._bones.use_rest()
-        if self._resting_shadow is not self.shows_figure:
-            self._draw_resting_shadows()
-        self._begin(target, viewport, camera)
-        target.clear(depth=1.0, viewport=viewport)
-        parts = self._parts
-        rigid, room = (parts.quick.rigid, parts.room) if is_rough else (parts.still_rigid, parts.still_room)
-        parts.sharpen(is_rough)
-        self._aim(camera, viewport, rigid, *room)
-        target.color_mask = True, True, True, False  # only what moves marks its pixels
-        _render(rigid, slice(0, self.rig.still_faces))
-        target.color_mask = True, True, True, True
-        for part in room:
-            part.render()
-        self._end()
+        for player in self._players:
+            player.rest()
+        if lights is not None:
+            self._light(lights)
+        with self._drawing(target, camera, viewport):
+            target.clear(depth=1.0, viewport=viewport)
+            self._room.sharpen(is_rough)
+            target.color_mask = True, True, True, False  # only what moves marks its pixels
+            for player in self._players:
+                player.draw_still(camera, viewport, is_rough)
+            target.color_mask = True, True, True, True
+            self._draw_room(self._room.parts if is_rough else self._room.still, camera, viewport)
+        if lights is not None:
+            self._light(self._lights)
 
-    def _draw_resting_shadows(self) -> None:
-        self._begin_shadows()
-        _render(self._parts.rigid_depth, slice(0, self.rig.faces_of[self.rig.sticks.start].start))
-        if self.shows_figure:
-            self._parts.resting_depth.render()
-        self._resting_shadow = self.shows_figure
+    @property
+    def _lights(self) -> Lights:
+        first, second = (player.frame.light for player in self._players)
+        return first, second
 
     def draw_moving(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
         """Draw what moves over what `draw_still` has left there, its depth included."""
-        self._bones.use()
-        self._begin(target, viewport, camera)
-        rigid, skin = self._parts.quick.rigid, self._parts.quick.skin
-        self._aim(camera, viewport, rigid, skin)
-        if self.shows_figure:
-            skin.render()
-        _render(rigid, slice(self.rig.still_faces, len(self.rig.mesh.faces)))
-        self._lit[self._frame] = {piece for piece in self._glowing if self._faces(piece).start >= self.rig.still_faces}
-        self._end()
+        with self._drawing(target, camera, viewport):
+            self._draw_crowd(target, camera, viewport)
+            for player in self._players:
+                player.draw_moving(camera, viewport)
 
     def moving_tiles(self, camera: Camera, viewport: Viewport) -> Tiles:
-        """Where in `viewport` all that moves is seen."""
-        left, low, width, height = viewport
-        points, reach = self._moving_points()
-        clip = np.column_stack([points, np.ones(len(points))]) @ camera.matrix(width / height).T
-        deep = np.maximum(clip[:, 3:], _NEAR_M)
-        middle = (clip[:, :2] / deep + 1) / 2 * [width, height] + [left, low]
-        nearest = np.maximum(clip[:, 3] - reach, _NEAR_M)
-        return tiles_of(middle, reach * height / (2 * np.tan(camera.fov_rad / 2) * nearest), viewport)
-
-    def _moving_points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Points (n, 3), and how far (n,) from the nearest all lies that moves."""
-        bone, middle, reach = self._moving
-        bones = slice(0, None if self.shows_figure else np.searchsorted(bone, self._bones.figure))
-        matrices = self._bones.matrices[bone[bones]]
-        return np.einsum("nij,nj->ni", matrices[:, :3], middle[bones]), reach[bones] * matrices[:, 3, 3]
-
-    @cached_property
-    def _moving(self) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-        """Balls round all that moves: their bones in rising order, their middles (n, 4) in rest, their radii."""
-        mesh, skin = self.rig.mesh, self._parts.skin
-        edges = mesh.faces[self.rig.still_faces :][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-        one, other = (mesh.position[edges[:, k]] for k in (0, 1))
-        along = one + np.linspace(0, 1, _ALONG)[:, None, None] * (other - one)  # a rod has corners at its ends alone
-        bone = np.tile(mesh.bone[edges[:, 0]].astype(int), _ALONG)
-        own = self._bones.figure + skin.bones[:, 0].astype(int)
-        return balls_of(np.concatenate([bone, own]), np.concatenate([along.reshape(-1, 3), skin.position]))
+        """Where in `viewport` all that moves is seen; the crowd's edges are soft by themselves."""
+        return np.concatenate([player.moving_tiles(camera, viewport) for player in self._players])
 
     def draw_glow(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
         """Lay over what `draw_moving` has drawn what glows, and the double; what has begun to glow since then too."""
-        self._bones.use()
-        self._begin(target, viewport, camera)
-        self._aim(camera, viewport, self._parts.glow)
-        self._over_the_same()
-        lit = self._lit.pop(self._frame, None)
-        if lit is None:  # a frame that is newer than what was drawn
-            lit = set().union(*self._lit.values())
-            self._lit.clear()
-        for piece in self._glowing:
-            if piece not in lit:
-                _render(self._parts.glow, self._faces(piece))
-        self._draw_double(target, camera, viewport)
-        self._end()
-
-    @property
-    def _glowing(self) -> list[Piece]:
-        return [piece for piece, colour in self._frame.glow.items() if np.max(colour) > _DARK]
-
-    def _faces(self, piece: Piece) -> slice:
-        return self.rig.faces_of[self.rig.piece_bones[piece]]
+        with self._drawing(target, camera, viewport):
+            for player in self._players:
+                player.draw_glow(target, camera, viewport)
 
     def draw_shadows(self) -> None:
-        """Draw the shadow map of the frame."""
-        self._begin_shadows()
-        self._parts.rigid_depth.render()
-        if self.shows_figure:
-            self._parts.skin_depth.render()
-        self._shadow_is_cast, self._resting_shadow = True, None
+        """Draw the shadow maps of the frame."""
+        for player in self._players:
+            player.draw_shadows()
 
     @property
     def picture_parts(self) -> tuple[moderngl.VertexArray, ...]:
-        """What the picture pass draws: the figure, then nearest first, so that what is hidden is not shaded."""
-        parts = (self._parts.solid.skin, self._parts.solid.rigid, *self._parts.room)
-        return parts if self.shows_figure else parts[1:]
+        """What the picture pass draws: figures and kits, then the room."""
+        return (*(part for player in self._players for part in player.picture_parts), *self._room.parts)
 
-    def _draw_double(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
-        """Draw the limbs and sticks of the student's double: first their depth, so that their outside alone is seen."""
-        if self._frame.double is None:
-            return
-        skin, rigid = self._parts.ghost.skin, self._parts.ghost.rigid
-        first, last = (self.rig.faces_of[bone] for bone in (self.rig.sticks[0], self.rig.sticks[-1]))
-        self._aim(camera, viewport, skin, rigid)
-        self._over_the_same()
-        for seen in (False, True):
-            target.color_mask = seen, seen, seen, seen
-            skin.render()
-            _render(rigid, slice(first.start, last.stop))
+    def _draw_room(self, parts: tuple[moderngl.VertexArray, ...], camera: Camera, viewport: Viewport) -> None:
+        self._room.use_textures([player.parts.shadow for player in self._players])
+        aim(parts, clip_of(camera, viewport[2] / viewport[3]), camera.eye)
+        for part in parts:
+            part.render()
+
+    def _draw_crowd(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> None:
+        beat = self._players[0].frame.crowd_beat
+        if self._crowd is not None and beat is not None:
+            self._crowd.draw(target, clip_of(camera, viewport[2] / viewport[3]), camera.eye, beat)
 
     # --- OpenGL's state -----------------------------------------------------------------------------------------------
 
-    def _begin_shadows(self) -> None:
-        ctx = self._ctx
-        ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
-        ctx.front_face = "ccw"
-        self._parts.shadow_buffer.use()
-        self._parts.shadow_buffer.clear(depth=1.0)
-
-    def _begin(self, target: moderngl.Framebuffer, viewport: Viewport, camera: Camera) -> None:
+    @contextmanager
+    def _drawing(self, target: moderngl.Framebuffer, camera: Camera, viewport: Viewport) -> Iterator[None]:
         ctx = self._ctx
         ctx.enable_only(moderngl.DEPTH_TEST | moderngl.CULL_FACE)
         target.use()
         ctx.viewport = ctx.scissor = viewport
         ctx.front_face = "cw" if camera.mirrored else "ccw"
-        self._parts.use_textures()
-
-    def _over_the_same(self) -> None:
-        """Blend over surfaces that are there already."""
-        self._ctx.enable(moderngl.BLEND)
-        self._ctx.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
-        self._ctx.depth_func = "<="
-        self._ctx.polygon_offset = _NEARER
-
-    def _end(self) -> None:
-        self._ctx.depth_func = "<"
-        self._ctx.polygon_offset = 0.0, 0.0
-        self._ctx.scissor = None
-        self._ctx.front_face = "ccw"
-
-    def _aim(self, camera: Camera, viewport: Viewport, *parts: moderngl.VertexArray) -> None:
-        projection = _projection(camera, viewport[2] / viewport[3])
-        for part in parts:
-            write(part.program, "view_projection", projection)
-            if "eye" in part.program:
-                part.program["eye"] = camera.eye
-
-
-@lru_cache(maxsize=4)
-def _projection(camera: Camera, aspect: float) -> bytes:
-    """World to clip as the shaders want it; a camera mostly stands still."""
-    return gl_bytes(camera.matrix(aspect))
-
-
-def _render(part: moderngl.VertexArray, faces: slice) -> None:
-    """Draw some of a part's faces."""
-    part.render(first=3 * faces.start, vertices=3 * (faces.stop - faces.start))
+        yield
+        ctx.depth_func = "<"
+        ctx.polygon_offset = 0.0, 0.0
+        ctx.scissor = None
+        ctx.front_face = "ccw"

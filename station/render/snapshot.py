@@ -20,6 +20,7 @@ from station.motion.kit.kit import Kit
 from station.music.judgement import OF_LONE_HITS, Judgement
 from station.music.performance import Performance
 from station.music.score import Score
+from station.render.camera import Camera
 
 PENDING = -1
 """The label of a note that is not judged yet."""
@@ -81,6 +82,43 @@ class ExtraHit:
     piece: Piece
 
 
+@dataclass(frozen=True, eq=False)
+class OnStage:
+    """Who plays beside the drummer of a snapshot: kit, body and pose in their own axes, and what they struck.
+
+    They stand in so much `light`, 1 in the spotlight … 0 where it is on the other.
+    """
+
+    kit: Kit
+    figure: Figure
+    pose: Pose | None = None
+    strikes: tuple[SeenStrike, ...] = ()
+    light: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class SideLine:
+    """What the score line says of one of two drummers: who it is, points in words, lives and rounds won.
+
+    `lives` left of `most_lives`, which is 0 where nobody has any; `is_playing` while it is their turn.
+    """
+
+    name: str
+    points: str = ""
+    lives: int = 0
+    most_lives: int = 0
+    won: int = 0
+    is_playing: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class ScoreLine:
+    """Two drummers' standings, the first on the left, and between them `words` such as "Round 2 of 5"."""
+
+    sides: tuple[SideLine, SideLine]
+    words: str = ""
+
+
 @dataclass(frozen=True, slots=True)
 class Hud:
     """What is written over the picture.
@@ -89,7 +127,8 @@ class Hud:
     a bar; `count_in` the number to show large, None outside a count-in; `right`, `judged` this pass's counts; `message`
     a sentence for the user; `cue` with `cue_age_s` since it came; `say` the words of the lesson's teacher.
     `tempo_words` explain the tempo, `reason` why the pass is as it is. While nothing moves `halt` is the word to show
-    large, such as "Paused", and `way_on` how to go on.
+    large, such as "Paused", and `way_on` how to go on. Where there are `standings` they take the place of title, phase
+    and tempo.
     """
 
     title: str = ""
@@ -110,6 +149,7 @@ class Hud:
     reason: str = ""
     halt: str = ""
     way_on: str = ""
+    standings: ScoreLine | None = None
 
 
 def no_marks(score: Score) -> NDArray[np.void]:
@@ -196,6 +236,10 @@ class Snapshot:
     was. `is_replay`: what was played is heard again, to be studied. So far from its note a stroke is shown as on time
     as `on_time_ms` says, the student's level. `view` is from where the lesson's teacher wants it to be seen, None where
     they leave it to whoever looks.
+
+    `rival` is who plays beside the drummer in the same room; either stands in so much `light`, and behind both a crowd
+    moves with the beat, which is at `crowd_beat`, None for no crowd. Such a scene is seen from its `camera`, unless
+    whoever looks has one of their own.
     """
 
     score: Score
@@ -218,3 +262,7 @@ class Snapshot:
     is_replay: bool = False
     on_time_ms: float = ON_TIME_MS
     view: NamedView | None = None
+    rival: OnStage | None = None
+    light: float = 1.0
+    crowd_beat: float | None = None
+    camera: Camera | None = None

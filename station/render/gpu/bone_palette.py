@@ -30,13 +30,18 @@ Colour = NDArray[np.float64]
 class BoneFrame:
     """What changes from one picture to the next: poses of the drummer and of the student's double, and what glows.
 
-    `pose` None: nobody plays; `double` None: no double. `glow` lights pieces, `double_glow` the double's limbs.
+    `pose` None: nobody plays; `double` None: no double. `glow` lights pieces, `double_glow` the double's limbs. They
+    stand in so much `light`, 1 in the spotlight. `rival` is who plays beside them; behind both a crowd moves with the
+    beat, which is at `crowd_beat`, None where there is none.
     """
 
     pose: Pose | None = None
     glow: dict[Piece, Colour] = field(default_factory=dict)
     double: Pose | None = None
     double_glow: dict[Limb, Colour] = field(default_factory=dict)
+    light: float = 1.0
+    rival: "BoneFrame | None" = None
+    crowd_beat: float | None = None
 
 
 class BonePalette:

@@ -27,14 +27,32 @@ class CachedLayer:
         `draw` is called only when `key`, all that its picture depends on, or the size has changed; it draws with so
         many `samples` a pixel.
         """
-        if self._target is None or self._target.size != target.size:
+        self._ctx.copy_framebuffer(target, self._kept(target.size, key, draw, samples).framebuffer)
+
+    def picture(
+        self,
+        size: tuple[int, int],
+        key: tuple[object, ...],
+        draw: Callable[[moderngl.Framebuffer], None],
+        samples: int = 0,
+    ) -> moderngl.Texture:
+        """The same as a texture of `size`."""
+        return self._kept(size, key, draw, samples).resolved()
+
+    def _kept(
+        self,
+        size: tuple[int, int],
+        key: tuple[object, ...],
+        draw: Callable[[moderngl.Framebuffer], None],
+        samples: int,
+    ) -> RenderTarget:
+        if self._target is None or self._target.size != size:
             self.release()
-            self._target = RenderTarget(self._ctx, target.size)
-        framebuffer = self._target.framebuffer
+            self._target = RenderTarget(self._ctx, size)
         if key != self._key:
-            self._draw(framebuffer, draw, samples)
+            self._draw(self._target.framebuffer, draw, samples)
             self._key = key
-        self._ctx.copy_framebuffer(target, framebuffer)
+        return self._target
 
     def _draw(
         self, framebuffer: moderngl.Framebuffer, draw: Callable[[moderngl.Framebuffer], None], samples: int

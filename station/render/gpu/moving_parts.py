@@ -11,7 +11,7 @@ from station.motion.kinematics.pose import Pose
 from station.motion.kit.kit import Kit
 from station.render.gpu.bone_palette import BoneFrame, Colour
 from station.render.palette import BRAND, EARLY, GOOD, LATE, MISSED, WRONG, Theme, over_picture, themed
-from station.render.snapshot import SeenStrike, Snapshot, TimingCue
+from station.render.snapshot import OnStage, SeenStrike, Snapshot, TimingCue
 
 _GLOW_FADE_S = 0.16
 """How fast a struck piece stops glowing (our choice)."""
@@ -29,6 +29,8 @@ class DoublePlace(IntEnum):
 def frames_of(snapshot: Snapshot, where: DoublePlace, theme: Theme) -> list[BoneFrame]:
     """What of the snapshot moves or glows in the scene: in one picture, or in the demonstrator's and the student's."""
     double = snapshot.double
+    if snapshot.rival is not None:
+        return [_of_two(snapshot, snapshot.rival)]
     if double is not None and double.is_compared and where is DoublePlace.NOWHERE:
         where = DoublePlace.OVER
     if double is None or where is DoublePlace.NOWHERE:
@@ -44,11 +46,19 @@ def frames_of(snapshot: Snapshot, where: DoublePlace, theme: Theme) -> list[Bone
     return [BoneFrame(demonstrator.pose, _glow(demonstrator)), BoneFrame(own.pose, _glow(own), double.pose, parted)]
 
 
+def _of_two(snapshot: Snapshot, rival: OnStage) -> BoneFrame:
+    """Both drummers; what each of them struck glows in the colour of who they are."""
+    other = BoneFrame(rival.pose, _glow(rival), light=rival.light)
+    return BoneFrame(
+        snapshot.pose, _glow(snapshot), light=snapshot.light, rival=other, crowd_beat=snapshot.crowd_beat
+    )
+
+
 _PARTED = {TimingCue.EARLY: EARLY, TimingCue.LATE: LATE, TimingCue.MISSED: MISSED, TimingCue.WRONG_PIECE: WRONG}
 """The colour of a limb of the student's double that parts from the demonstrator's: its judgement's in the score."""
 
 
-def _glow(snapshot: Snapshot) -> dict[Piece, Colour]:
+def _glow(snapshot: Snapshot | OnStage) -> dict[Piece, Colour]:
     """How brightly each piece glows, in linear light: the demonstrator's strokes warm, the student's blue."""
     warm, blue = np.square(BRAND[:3]), np.square(GOOD[:3])
     glow: dict[Piece, Colour] = {}

@@ -10,7 +10,7 @@ import hashlib
 import io
 import os
 import zlib
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import fields
 from functools import lru_cache
@@ -33,8 +33,8 @@ from station.render.geometry.light import Light
 from station.render.geometry.mesh import Mesh
 from station.render.kit.floor_paint import boards_picture, rug_picture
 from station.render.kit.instrument_meshes import Detail
-from station.render.kit.kit_rig import KitRig, floor_discs, kit_mesh, rig_of
-from station.render.kit.room import floor_light, wall_picture
+from station.render.kit.kit_rig import KitRig, kit_mesh, rig_of
+from station.render.kit.room import Disc, floor_light, wall_picture
 
 Arrays = Mapping[str, NDArray[Any]]
 
@@ -65,9 +65,8 @@ def _bytes(picture: NDArray[np.float32]) -> NDArray[np.uint8]:
     return np.asarray(np.clip(np.rint(picture * 255), 0, 255), np.uint8)
 
 
-def cached_light(kit: Kit, light: Light) -> NDArray[np.uint8]:
-    """`floor_light` under a kit, from disk where it was made before."""
-    discs = floor_discs(kit)
+def cached_light(discs: Sequence[Disc], light: Light) -> NDArray[np.uint8]:
+    """`floor_light` under what shades the floor, from disk where it was made before."""
     return cached("light", (discs, light), lambda: {_PICTURE: floor_light(discs, light)})[_PICTURE]
 
 

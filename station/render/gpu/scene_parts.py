@@ -1,6 +1,6 @@
-"""What a scene is drawn from: textures, corners and programs, uploaded once.
+"""What a kit and who plays it are drawn from: corners and programs, uploaded once.
 
-Every solid can be drawn in several ways, each a program of its own over the same corners.
+Every solid can be drawn in several ways, each a program of its own over the same corners. All is in the kit's own axes.
 """
 
 from collections.abc import Collection
@@ -12,31 +12,32 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Limb
 from station.motion.kinematics.figure import Figure
-from station.motion.kit.kit import Kit
 from station.render.figure.bones import LIMB_BONES, Bone
 from station.render.figure.skin import Skin
 from station.render.geometry.light import Light
 from station.render.geometry.materials import shader_table
 from station.render.geometry.mesh import Mesh
 from station.render.geometry.transforms import gl_bytes, unit
-from station.render.gpu import corner_shaders, pixel_shaders, room_shaders
-from station.render.gpu.scene_cache import cached_body, cached_light, cached_paint, cached_wall
+from station.render.gpu import corner_shaders, pixel_shaders
+from station.render.gpu.scene_cache import cached_body
 from station.render.gpu.vertex_layouts import RIGID, RIGID_PLACES, SKIN, SKIN_PLACES, rigid_rows, skin_rows
-from station.render.kit import room
 from station.render.kit.kit_rig import KitRig
 from station.render.palette import GOOD
 from station.render.quality import Quality
 
 _KEY = Light()
-_TO_TEXTURE = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0, 0, 0, 1.0]])
+TO_TEXTURE = np.array([[0.5, 0, 0, 0.5], [0, 0.5, 0, 0.5], [0, 0, 0.5, 0.5], [0, 0, 0, 1.0]])
 """From clip space −1 … 1 to texture space 0 … 1."""
 _GHOST_OPACITY = 0.42
 """How opaque the student's double is where one looks straight at it (our choice: the demonstrator shows through)."""
-_STILL_LEVEL = 1
+STILL_LEVEL = 1
 """The shader level of what is drawn once and kept (our choice: the highest takes twice as long, and little is seen)."""
-_BOARDS, _RUG = 0, 1
-_PLACES = {"wall_map": 2, "light_map": 3, "shadow_map": 4}
-"""Where the shaders find the pictures; boards and rug come first."""
+_SHADOW = 4
+"""Where the shaders find the shadow map; the room's pictures come first."""
+_DIMMED = ("key_colour", "sky", "ground", "rim_colour")
+_LEFT = (0.0, 0.55, 0.55, 0.75)
+"""What light is left where the spotlight is on somebody else: of the spot, of what comes from above and from the floor,
+and of the light from behind, which draws the outline (our choice, by eye)."""
 _LIMBS: frozenset[int] = frozenset(bone for bones in LIMB_BONES.values() for bone in bones)
 _BUT_ARMS: frozenset[int] = frozenset(Bone) - {*LIMB_BONES[Limb.RIGHT_HAND], *LIMB_BONES[Limb.LEFT_HAND]}
 
@@ -52,8 +53,7 @@ class KitAndFigure:
 class SceneParts:
     """`solid`, `quick`, `ghost`: kit and figure pixel by pixel, corner by corner, and the student's double's limbs.
 
-    `glow` lays light over the kit; `room` is rug, floor and wall. `still_rigid` and `still_room` are kit and room as
-    finely as can be, to be drawn once and kept. `rigid_depth`, `skin_depth` and, without the arms, `resting_depth`
+    `glow` lays light over the kit. `still_rigid` is the kit as finely as can be, to be drawn once and kept. `rigid_depth`, `skin_depth` and, without the arms, `resting_depth`
     cast shadows into `shadow_buffer`.
     """
 
@@ -61,7 +61,7 @@ class SceneParts:
         self._ctx = ctx
         self._quality = quality
         self._colours = figure.look.colours
-        self._textures(rig.kit)
+        self._make_shadow()
         self.skin = cached_body(figure, quality.figure_cell)
         self._upload(rig.mesh, self.skin)
         fragment = pixel_shaders.solid_fragment(quality.level)
@@ -72,40 +72,29 @@ class SceneParts:
             self._skin_part(corner_shaders.SKIN_GHOST, corner_shaders.QUICK_FRAGMENT, self._limb_faces),
         )
         self.glow = self._rigid_part(corner_shaders.RIGID_GLOW, corner_shaders.QUICK_FRAGMENT)
-        self.room = self._room_parts(quality.level)
-        self.still_rigid, self.still_room = self.solid.rigid, self.room
+        self.still_rigid = self.solid.rigid
         if quality.level == 0:  # the one that may be drawn in layers
-            self.still_rigid = self._rigid_part(pixel_shaders.RIGID_VERTEX, pixel_shaders.solid_fragment(_STILL_LEVEL))
-            self.still_room = self._room_parts(_STILL_LEVEL)
+            self.still_rigid = self._rigid_part(pixel_shaders.RIGID_VERTEX, pixel_shaders.solid_fragment(STILL_LEVEL))
         for part in (self.solid.skin, self.quick.skin, self.skin_depth):
             part.program["first_bone"] = rig.bone_count
 
-    def use_textures(self) -> None:
-        """Let the shaders read the room's pictures and the shadow map."""
-        for place, texture in enumerate((*self._pictures, self._shadow)):
-            texture.use(place)
+    def use_shadow(self) -> None:
+        """Let the shaders read the shadow map."""
+        self.shadow.use(_SHADOW)
 
-    def sharpen(self, is_rough: bool) -> None:
-        """Let what is seen at a flat angle be as sharp as can be, or be drawn soon."""
-        for picture in self._pictures[: _RUG + 1]:
-            picture.anisotropy = 1.0 if is_rough else self._quality.anisotropy
+    def light(self, share: float) -> None:
+        """Light kit and figure so much: 1 in the spotlight … 0 where it is on somebody else."""
+        for name, left in zip(_DIMMED, _LEFT, strict=True):
+            colour = np.asarray(getattr(_KEY, name.removeprefix("key_")), np.float32) * (left + (1 - left) * share)
+            for part in (self.solid.rigid, self.solid.skin, self.quick.rigid, self.quick.skin, self.still_rigid):
+                if name in part.program:
+                    write(part.program, name, np.asarray(colour, np.float32).tobytes())
 
-    def _textures(self, kit: Kit) -> None:
-        ctx = self._ctx
-        pictures = (*cached_paint(), cached_wall(), cached_light(kit, _KEY))
-        self._pictures = [ctx.texture(p.shape[1::-1], p.shape[2], p.tobytes()) for p in pictures]
-        for picture in self._pictures[: _RUG + 1]:  # the others are seen larger than they are
-            picture.build_mipmaps()
-            picture.filter = moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR
-        self._pictures[_RUG].repeat_x = False
-        for picture in self._pictures[_RUG:]:
-            picture.repeat_y = False
-        self.sharpen(is_rough=False)
-        size = (self._quality.shadow_texels,) * 2
-        self._shadow = ctx.depth_texture(size)
-        self._shadow.compare_func = "<="
-        self._shadow.repeat_x = self._shadow.repeat_y = False
-        self.shadow_buffer = ctx.framebuffer(depth_attachment=self._shadow)
+    def _make_shadow(self) -> None:
+        self.shadow = self._ctx.depth_texture((self._quality.shadow_texels,) * 2)
+        self.shadow.compare_func = "<="
+        self.shadow.repeat_x = self.shadow.repeat_y = False
+        self.shadow_buffer = self._ctx.framebuffer(depth_attachment=self.shadow)
 
     def _upload(self, mesh: Mesh, skin: Skin) -> None:
         ctx = self._ctx
@@ -135,20 +124,6 @@ class SceneParts:
         corners, faces = self._rigid_data
         return self._ctx.vertex_array(self._program(vertex, fragment), [(corners, *RIGID)], faces, skip_errors=True)
 
-    def _room_part(self, fragment: str, mesh: Mesh) -> moderngl.VertexArray:
-        rows = np.concatenate([mesh.position, mesh.uv], axis=1).astype(np.float32)
-        content = [(self._ctx.buffer(rows.tobytes()), "3f 2f", "position", "uv")]
-        faces = self._ctx.buffer(mesh.faces.tobytes())
-        return self._ctx.vertex_array(
-            self._program(room_shaders.ROOM_VERTEX, fragment), content, faces, skip_errors=True
-        )
-
-    def _room_parts(self, level: int) -> tuple[moderngl.VertexArray, ...]:
-        floor, rug = (room_shaders.floor_fragment(level, is_varnished=has) for has in (level > 0, False))
-        boards, carpet = self._room_part(floor, room.floor_mesh()), self._room_part(rug, room.rug_mesh())
-        boards.program["paint_map"], carpet.program["paint_map"] = _BOARDS, _RUG
-        return carpet, boards, self._room_part(room_shaders.WALL_FRAGMENT, room.wall_mesh())
-
     def _program(self, vertex: str, fragment: str) -> moderngl.Program:
         program = self._ctx.program(vertex, fragment)
         self._constants(program)
@@ -164,19 +139,17 @@ class SceneParts:
             "key_colour": _KEY.colour,
             "rim_way": unit(_KEY.rim_from),
             "rim_colour": _KEY.rim_colour,
-            "warm_colour": _KEY.warm_colour,
             "sky": _KEY.sky,
             "ground": _KEY.ground,
-            "light_projection": (_TO_TEXTURE @ _KEY.matrix()).T,
+            "light_projection": (TO_TEXTURE @ _KEY.matrix()).T,
             "tint": GOOD[:3],
             "opacity": _GHOST_OPACITY,
         }
         for name, value in values.items():
             if name in program:
                 write(program, name, np.ascontiguousarray(value, np.float32).tobytes())
-        for name, place in _PLACES.items():
-            if name in program:
-                program[name] = place
+        if "shadow_map" in program:
+            program["shadow_map"] = _SHADOW
 
 
 def _some(ctx: moderngl.Context, skin: Skin, bones: Collection[int]) -> moderngl.Buffer:

@@ -133,8 +133,9 @@ _PICTURE_FRAGMENT = """
 #version 330 core
 uniform sampler2D picture;
 uniform ivec2 corner;
+uniform float opacity;
 out vec4 shade;
-void main() { shade = vec4(texelFetch(picture, ivec2(gl_FragCoord.xy) - corner, 0).rgb, 1.0); }
+void main() { shade = vec4(texelFetch(picture, ivec2(gl_FragCoord.xy) - corner, 0).rgb, 1.0) * opacity; }
 """
 
 _LAYOUT = "2f 2f 2f 4f 3f 2f 1f 4f1 4f1/i"
@@ -199,9 +200,12 @@ class ShapeRenderer:
         self._blend()
         self._fill.render(moderngl.TRIANGLE_STRIP, vertices=4)
 
-    def picture(self, texture: moderngl.Texture) -> None:
-        """Fill the viewport, which is as large, with a picture."""
-        self._ctx.disable(moderngl.DEPTH_TEST | moderngl.CULL_FACE | moderngl.BLEND)
+    def picture(self, texture: moderngl.Texture, opacity: float = 1.0) -> None:
+        """Fill the viewport, which is as large, with a picture, `opacity` over what is there."""
+        self._blend()
+        if opacity == 1.0:
+            self._ctx.disable(moderngl.BLEND)
+        self._picture_program["opacity"] = opacity
         texture.use(0)
         self._picture_program["corner"] = self._ctx.viewport[:2]
         self._picture.render(moderngl.TRIANGLE_STRIP, vertices=4)

@@ -110,6 +110,6 @@ def test_kits_bodies_and_pictures_come_back_as_they_were_made(tmp_path: Path, mo
             for field in fields(one):
                 assert np.array_equal(getattr(one, field.name), getattr(other, field.name)), field.name
         assert (again.faces_of, again.still_faces, again.sticks) == (rig.faces_of, rig.still_faces, rig.sticks)
-        assert np.array_equal(cached_light(kit, light), falls)
+        assert np.array_equal(cached_light(floor_discs(kit), light), falls)
         assert np.array_equal(cached_wall(), wall)
     assert len(list(tmp_path.iterdir())) == 4
