@@ -24,6 +24,7 @@ from station.render.palette import (
     with_opacity,
 )
 from station.render.snapshot import Hud, TimingCue
+from station.render.standings import draw_standings
 from station.render.text.atlas import Atlas
 from station.render.text.draw_list import Colour, DrawList, TypeStyle
 from station.render.text.fonts import Face
@@ -92,7 +93,7 @@ def scale(height: float, letters: float | None = None) -> float:
 
 def band_height(hud: Hud, size: tuple[float, float], letters: float | None = None) -> int:
     """Pixels of the band above the scene; none where no words stand there. `size` as for `hud_lines`."""
-    has_words = bool(hud.title or hud.phase or hud.bar is not None or hud.beats_a_minute is not None)
+    has_words = bool(hud.title or hud.phase or hud.standings or hud.bar is not None or hud.beats_a_minute is not None)
     return round(BAND * scale(size[1], letters)) if has_words and _has_room(size) else 0
 
 
@@ -158,13 +159,17 @@ class _HudPage:
         self._size = self._width, self._height = size
 
     def lines(self) -> NDArray[np.void]:
-        if _has_room(self._size):
+        if _has_room(self._size) and self._hud.standings is not None:
+            draw_standings(self._draw_list, self._hud, self._hud.standings, self._width, self._k)
+        elif _has_room(self._size):
             self._title(self._tempo())
             self._phase(self._place())
         return self._draw_list.shapes()
 
     def free_line(self) -> FreeLine:
-        """From the phase's end to where the place begins, and the middle of that line."""
+        """From the phase's end to where the place begins, and the middle of that line; nowhere between standings."""
+        if self._hud.standings is not None:
+            return self._width / 2, self._width / 2, (_SECOND - 0.35 * _SECOND_SIZE) * self._k
         right = self._place()
         return self._phase(right), right, (_SECOND - 0.35 * _SECOND_SIZE) * self._k
 

@@ -14,6 +14,7 @@ from station.motion.kit.kit import Kit
 from station.render import hud
 from station.render.camera import Camera
 from station.render.framing import named, stage_of
+from station.render.gpu.bone_palette import BoneFrame
 from station.render.gpu.cached_layer import CachedLayer
 from station.render.gpu.edge_smoothing import EdgeSmoother
 from station.render.gpu.gl import RenderTarget, give_back
@@ -21,7 +22,7 @@ from station.render.gpu.light_layers import LightLayers, Lights
 from station.render.gpu.moving_parts import DoublePlace, frames_of
 from station.render.gpu.shape_renderer import ShapeRenderer, Transform
 from station.render.notation.screen.score_place import ScoreForm, halves
-from station.render.notation.screen.score_view import ScoreView
+from station.render.notation.screen.score_view import ScorePaper, ScoreView
 from station.render.palette import INK_FAINT, NIGHT, PAPER, Theme, over_picture, themed
 from station.render.quality import QUALITIES, Quality
 from station.render.scene import Scene
@@ -120,76 +121,87 @@ class Painter:
         That takes `snapshot`, or one of the same scene that knows of more strokes.
         """
         self.printer.theme = self.theme
+        seen = self._seen(
+            snapshot, area, camera, form_of(snapshot, arrangement.form) if with_score else None, arrangement
+        )
+        self._draw_moving_parts(seen, target)
+
+        def finish(newest: Snapshot) -> None:
+            newest = newest if newest.score is snapshot.score and newest.kit is snapshot.kit else snapshot
+            self._finish(seen, newest, target, arrangement)
+
+        return finish
+
+    def _seen(
+        self, snapshot: Snapshot, area: Area, camera: Camera | None, form: ScoreForm | None, arrangement: Arrangement
+    ) -> "_Seen":
+        """All that a picture's parts are drawn from."""
         left, low, width, height = area
-        cut = halves((width, height), form := form_of(snapshot, arrangement.form) if with_score else None)
+        cut = halves((width, height), form)
         page = _page(snapshot.hud, cut.scene[2:], arrangement.letters)
         scene_area = (left + cut.scene[0], low + height - cut.scene[3], cut.scene[2], cut.scene[3] - page.band)
         paper = None if form is None else self._score.paper(snapshot, cut.score, form, arrangement.has_legend)
         scene = self._scene_of(snapshot)
         camera = camera or snapshot.camera or named(NamedView.SHOULDER, stage_of(snapshot))
         frames = frames_of(snapshot, arrangement.double, self.theme)
-        places = _side_by_side(scene_area, len(frames))
         scene.set(frames[0])
+        places = _side_by_side(scene_area, len(frames))
+        return _Seen(snapshot, scene, camera, area, places, frames, page, paper, arrangement.is_rough)
 
-        corners = hud.corners(snapshot.hud)
+    def _draw_moving_parts(self, seen: "_Seen", target: moderngl.Framebuffer) -> None:
+        """Draw the scene, whole or in layers, and under the score its paper."""
+        if not self.quality.is_layered:
+            seen.each(seen.scene.draw, target)
+            self._lay_paper(seen)
+            return
+        corners = hud.corners(seen.snapshot.hud)
+        key = (*seen.stands, self.theme, seen.paper, seen.lights, corners)
+        self._worded.under(target, key, partial(self._lay_words, seen, corners))
+        seen.each(partial(_draw_moving, seen.scene, self._smoother), target)
 
-        def each(draw: Callable[[moderngl.Framebuffer, Camera, Area], None], into: moderngl.Framebuffer) -> None:
-            for frame, window in zip(frames[::-1], places[::-1], strict=True):  # the demonstrator's stays set
-                scene.set(frame)
-                draw(into, camera, window)
-
-        def lay_paper() -> None:
-            self._ctx.viewport = area
-            if paper is not None:
-                self._score.draw_paper(snapshot, paper, (width, height))
-            self._fill_band(page, (width, height))
-
-        def lay_still(into: moderngl.Framebuffer) -> None:
-            into.clear(*themed(NIGHT, self.theme), depth=1.0)
-            each(partial(scene.draw_still, is_rough=arrangement.is_rough), into)
-            lay_paper()
-
-        def lay_lit(into: moderngl.Framebuffer, lights: Lights) -> None:
-            into.clear(*themed(NIGHT, self.theme), depth=1.0)
-            scene.draw_still(into, camera, scene_area, arrangement.is_rough, lights)
-
-        def lay_words(into: moderngl.Framebuffer) -> None:
-            samples = 0 if arrangement.is_rough else _STILL_SAMPLES
-            if lights is None:
-                self._still.under(into, key, lay_still, samples)
-            else:
-                self._lit_still.under(into, stands, lights, lay_lit, self.printer.picture, samples)
+    def _lay_words(self, seen: "_Seen", corners: Hud, into: moderngl.Framebuffer) -> None:
+        """Lay what stands still, and over it the upper lines."""
+        samples = 0 if seen.is_rough else _STILL_SAMPLES
+        if seen.lights is None:
+            key = (*seen.stands, self.theme, seen.paper)
+            self._still.under(into, key, partial(self._lay_still, seen), samples)
             into.use()
-            if lights is not None:
-                lay_paper()
-            self._ctx.viewport = area
-            self._lay_lines(self._lines.of(corners, page), (width, height))
-
-        if self.quality.is_layered:
-            lights = _lights_of(snapshot)
-            stands = scene, camera, area, page.band, scene.shows_figure, len(frames), self.theme, arrangement.is_rough
-            key = (stands, paper, lights)
-            self._worded.under(target, (key, corners), lay_words)
-            each(partial(_draw_moving, scene, self._smoother), target)
         else:
-            each(scene.draw, target)
-            lay_paper()
+            key, over = (*seen.stands, self.theme), self.printer.picture
+            self._lit_still.under(into, key, seen.lights, partial(self._lay_lit, seen), over, samples)
+            into.use()
+            self._lay_paper(seen)
+        self._ctx.viewport = seen.area
+        self._lay_lines(self._lines.of(corners, seen.page), seen.size)
 
-        def finish(newest: Snapshot) -> None:
-            nonlocal frames
-            newest = newest if newest.score is snapshot.score and newest.kit is snapshot.kit else snapshot
-            if self.quality.is_layered:
-                if newest is not snapshot and len(frames) == 1:
-                    frames = frames_of(newest, arrangement.double, self.theme)[:1]
-                each(scene.draw_glow, target)
-            if arrangement.inset is not None:
-                self._draw_inset(scene, target, arrangement.inset, places[0])
-            self._ctx.viewport = area
-            if paper is not None:
-                self._score.draw(newest, paper, (width, height))
-            self._print_words(newest.hud, (width, height), page, len(frames) > 1)
+    def _lay_still(self, seen: "_Seen", into: moderngl.Framebuffer) -> None:
+        into.clear(*themed(NIGHT, self.theme), depth=1.0)
+        seen.each(partial(seen.scene.draw_still, is_rough=seen.is_rough), into)
+        self._lay_paper(seen)
 
-        return finish
+    def _lay_lit(self, seen: "_Seen", into: moderngl.Framebuffer, lights: Lights) -> None:
+        into.clear(*themed(NIGHT, self.theme), depth=1.0)
+        seen.scene.draw_still(into, seen.camera, seen.places[0], seen.is_rough, lights)
+
+    def _lay_paper(self, seen: "_Seen") -> None:
+        """Lay the papers of the score and of the upper lines."""
+        self._ctx.viewport = seen.area
+        if seen.paper is not None:
+            self._score.draw_paper(seen.snapshot, seen.paper, seen.size)
+        self._fill_band(seen.page, seen.size)
+
+    def _finish(self, seen: "_Seen", newest: Snapshot, target: moderngl.Framebuffer, arrangement: Arrangement) -> None:
+        """Draw what glows, the score and the words of the `newest` snapshot of the same scene."""
+        if self.quality.is_layered:
+            if newest is not seen.snapshot and len(seen.frames) == 1:
+                seen = replace(seen, frames=frames_of(newest, arrangement.double, self.theme)[:1])
+            seen.each(seen.scene.draw_glow, target)
+        if arrangement.inset is not None:
+            self._draw_inset(seen.scene, target, arrangement.inset, seen.places[0])
+        self._ctx.viewport = seen.area
+        if seen.paper is not None:
+            self._score.draw(newest, seen.paper, seen.size)
+        self._print_words(newest.hud, seen.size, seen.page, len(seen.frames) > 1)
 
     def _print_words(self, shown: Hud, size: tuple[int, int], page: "_Page", has_names: bool) -> None:
         """Print what stands over the picture, and in its band where that is not kept with what stands still."""
@@ -263,6 +275,46 @@ class Painter:
         return self._scene
 
 
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """One picture: the `scene` in each of `frames`, at its of `places`, from `camera`; `paper` None for no score."""
+
+    snapshot: Snapshot
+    scene: Scene
+    camera: Camera
+    area: Area
+    places: list[Area]
+    frames: list[BoneFrame]
+    page: "_Page"
+    paper: ScorePaper | None
+    is_rough: bool
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Of the whole picture."""
+        return self.area[2:]
+
+    @property
+    def lights(self) -> Lights | None:
+        """The light that two drummers stand in, in whole steps; None where there is one."""
+        snapshot = self.snapshot
+        if snapshot.rival is None:
+            return None
+        return round(snapshot.light * _STEPS) / _STEPS, round(snapshot.rival.light * _STEPS) / _STEPS
+
+    @property
+    def stands(self) -> tuple[object, ...]:
+        """What the picture of what does not move depends on."""
+        band, count = self.page.band, len(self.frames)
+        return self.scene, self.camera, self.area, band, self.scene.shows_figure, count, self.is_rough
+
+    def each(self, draw: Callable[[moderngl.Framebuffer, Camera, Area], None], into: moderngl.Framebuffer) -> None:
+        """Draw every frame at its place; the demonstrator's stays set."""
+        for frame, window in zip(self.frames[::-1], self.places[::-1], strict=True):
+            self.scene.set(frame)
+            draw(into, self.camera, window)
+
+
 @dataclass(frozen=True, slots=True)
 class _Page:
     """Where words stand: scene and `band` together have `size` pixels; `letters` as in `Arrangement`."""
@@ -301,18 +353,10 @@ _STEPS = 32
 """In so many steps light goes from one drummer to the other where what stands is kept (our choice: none is seen)."""
 
 
-def _lights_of(snapshot: Snapshot) -> Lights | None:
-    """The light that two drummers stand in, in whole steps; None where there is one."""
-    if snapshot.rival is None:
-        return None
-    return round(snapshot.light * _STEPS) / _STEPS, round(snapshot.rival.light * _STEPS) / _STEPS
-
-
 def _same(some: _Players, others: _Players) -> bool:
     """Whether they are the very same, or alike in all that is drawn."""
     return len(some) == len(others) and all(
-        (one[0] is other[0] and one[1] is other[1]) or one == other
-        for one, other in zip(some, others, strict=True)
+        (one[0] is other[0] and one[1] is other[1]) or one == other for one, other in zip(some, others, strict=True)
     )
 
 

@@ -53,7 +53,8 @@ def _fields(limb: Limb) -> NDArray[np.int64]:
     return np.array(found)
 
 
-_FIELDS = {limb: _fields(limb) for limb in _JOINTS}
+LIMB_FIELDS = {limb: _fields(limb) for limb in _JOINTS}
+"""The places of each limb's numbers in a pose's row; what feet move of the pedals is apart."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +98,7 @@ class StudentFigure:
         row = now.row.copy()
         row[frame.PLAYED :] = 0.0
         kicks, _ = drummer.kit.feet
-        for limb, fields in _FIELDS.items():
+        for limb, fields in LIMB_FIELDS.items():
             time_s = self._time_s(limb, drummer, position_s)
             if time_s != position_s:
                 borrowed = drummer.pose(time_s).row

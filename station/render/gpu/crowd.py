@@ -37,11 +37,14 @@ void main() {
     vec3 aside = vec3(-to_eye.y, to_eye.x, 0.0);
     float nod = 0.5 - 0.5 * cos(TAU * (beat + build.w));         // down on the beat
     float sway = sin(0.5 * TAU * (beat + 2.0 * build.w));        // to and fro over two beats
-    vec3 at = vec3(foot.xy, 0.0) + aside * (v_at.x + 0.02 * build.z * sway * corner.y);
-    at.z = v_at.y + (0.022 * build.z * nod + 0.16 * foot.z) * corner.y;
+    vec3 at = vec3(foot.xy, LOWER_M) + aside * (v_at.x + 0.02 * build.z * sway * corner.y);
+    at.z += v_at.y + (0.022 * build.z * nod + 0.16 * foot.z) * corner.y;
     gl_Position = view_projection * vec4(at, 1.0);
 }
 """
+
+_VERTEX = _VERTEX.replace("LOWER_M", "-0.30")
+"""The crowd stands so much lower than the stage, as crowds do: heads stay below those of the drummers in the picture."""
 
 _FRAGMENT = """
 #version 330 core
@@ -60,7 +63,17 @@ float limb(vec2 p, vec2 a, vec2 b, float thick) {
     return length(pa - ba * clamp(dot(pa, ba) / dot(ba, ba), 0.0, 1.0)) - thick;
 }
 
+vec4 barrier() {                             // before the crowd: a dark board with a rail
+    float rail = smoothstep(0.05, 0.02, v_build.x - v_at.y);
+    return v_at.y > v_build.x ? vec4(0.0) : vec4(mix(vec3(0.016, 0.018, 0.026), vec3(0.075, 0.085, 0.105), rail), 1.0);
+}
+
 void main() {
+    if (v_build.y < 0.0) {
+        shade = barrier();
+        if (shade.a <= 0.0) discard;
+        return;
+    }
     float top = v_build.x, wide = v_build.y, hip = 0.50 * top, shoulder = top - 0.34;
     vec2 p = vec2(abs(v_at.x), v_at.y);         // both sides alike
     float head = (length((p - vec2(0.0, top - 0.12)) / vec2(0.088, 0.12)) - 1.0) * 0.09;
@@ -85,12 +98,15 @@ _FROM_RAD, _TO_RAD = radians(198), radians(342)
 _ROWS = ((0.45, 21, 1.0), (0.95, 19, 0.0))
 """How far from the wall a row stands in metres, how many are in it, and whether it stands a step up, behind (our
 choice: enough to fill the wall, and nobody alone)."""
+_BARRIER_M, _BARRIER_HIGH_M, _BOARDS = 1.35, 1.05, 25
+"""How far from the wall the barrier before them is, how high over where they stand, of how many boards: they overlap."""
 _SEED = 14
 
 
 def people() -> NDArray[np.float32]:
     """Everybody, those at the wall first, (n, 7): x, y, how far up the step, height, breadth, liveliness, phase.
 
+    Last come the boards of the barrier, of a breadth below 0.
     Heights of standing adults, 1.55–1.90 m; everybody is up to an eighth of a beat off, as crowds are (our choice).
     """
     rng = np.random.default_rng(_SEED)
@@ -102,6 +118,9 @@ def people() -> NDArray[np.float32]:
             far = WALL_RADIUS_M - from_wall - rng.uniform(0, 0.12)
             build = rng.uniform(1.55, 1.90), rng.uniform(0.19, 0.26), rng.uniform(0.5, 1.0), rng.uniform(-1, 1) / 8
             rows.append((far * cos(angle), CENTRE_Y + far * sin(angle), step, *build))
+    far = WALL_RADIUS_M - _BARRIER_M
+    boards = np.linspace(_FROM_RAD - 0.1, _TO_RAD + 0.1, _BOARDS)
+    rows += [(far * cos(a), CENTRE_Y + far * sin(a), 0.0, _BARRIER_HIGH_M, -1.0, 0.0, 0.0) for a in boards.tolist()]
     return np.array(rows, np.float32)
 
 

@@ -49,9 +49,7 @@ def frames_of(snapshot: Snapshot, where: DoublePlace, theme: Theme) -> list[Bone
 def _of_two(snapshot: Snapshot, rival: OnStage) -> BoneFrame:
     """Both drummers; what each of them struck glows in the colour of who they are."""
     other = BoneFrame(rival.pose, _glow(rival), light=rival.light)
-    return BoneFrame(
-        snapshot.pose, _glow(snapshot), light=snapshot.light, rival=other, crowd_beat=snapshot.crowd_beat
-    )
+    return BoneFrame(snapshot.pose, _glow(snapshot), light=snapshot.light, rival=other, crowd_beat=snapshot.crowd_beat)
 
 
 _PARTED = {TimingCue.EARLY: EARLY, TimingCue.LATE: LATE, TimingCue.MISSED: MISSED, TimingCue.WRONG_PIECE: WRONG}

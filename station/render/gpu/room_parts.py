@@ -79,11 +79,12 @@ class RoomParts:
 
     def _room_parts(self, level: int) -> tuple[moderngl.VertexArray, ...]:
         lights = len(self._places)
-        floor, rug = (
-            room_shaders.floor_fragment(level, is_varnished=has, lights=lights) for has in (level > 0, False)
-        )
+        floor, rug = (room_shaders.floor_fragment(level, is_varnished=has, lights=lights) for has in (level > 0, False))
         rugs = joined(
-            [room.rug_mesh().moved(translation([0, 0, k * _OVER_M]) @ place.matrix) for k, place in enumerate(self._places)]
+            [
+                room.rug_mesh().moved(translation([0, 0, k * _OVER_M]) @ place.matrix)
+                for k, place in enumerate(self._places)
+            ]
         )
         boards, carpet = self._part(floor, room.floor_mesh()), self._part(rug, rugs)
         boards.program["paint_map"], carpet.program["paint_map"] = _BOARDS, _RUG

@@ -53,8 +53,8 @@ class KitAndFigure:
 class SceneParts:
     """`solid`, `quick`, `ghost`: kit and figure pixel by pixel, corner by corner, and the student's double's limbs.
 
-    `glow` lays light over the kit. `still_rigid` is the kit as finely as can be, to be drawn once and kept. `rigid_depth`, `skin_depth` and, without the arms, `resting_depth`
-    cast shadows into `shadow_buffer`.
+    `glow` lays light over the kit. `still_rigid` is the kit as finely as can be, to be drawn once and kept.
+    `rigid_depth`, `skin_depth` and, without the arms, `resting_depth` cast shadows into `shadow_buffer`.
     """
 
     def __init__(self, ctx: moderngl.Context, rig: KitRig, figure: Figure, quality: Quality) -> None:
