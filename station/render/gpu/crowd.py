@@ -98,7 +98,7 @@ _FROM_RAD, _TO_RAD = radians(198), radians(342)
 _ROWS = ((0.45, 21, 1.0), (0.95, 19, 0.0))
 """How far from the wall a row stands in metres, how many are in it, and whether it stands a step up, behind (our
 choice: enough to fill the wall, and nobody alone)."""
-_BARRIER_M, _BARRIER_HIGH_M, _BOARDS = 1.35, 1.05, 25
+_BARRIER_M, _BARRIER_HIGH_M, _BOARDS = 1.35, 1.05, 61
 """How far from the wall the barrier before them is, how high over where they stand, of how many boards: they overlap."""
 _SEED = 14
 

@@ -7,12 +7,6 @@ from station.practice.battle.rules import BattleMode, BattleRules
 from station.render.snapshot import Hud, ScoreLine, SideLine
 from station.scenes.battle.cast import Sides
 
-MESSAGE_NS = 1_600_000_000
-"""How long a turn's message stands over the scene (our choice: long enough to be read once, then it is out of the
-way)."""
-_STAYS = (Doing.PAUSED, Doing.OVER, Doing.CHANGEOVER)
-
-
 def battle_hud(view: BattleView, sides: Sides, at_ns: int) -> Hud:
     """The words at a battle time, of the two `sides` that are seen."""
     rules = view.rules
@@ -27,7 +21,7 @@ def battle_hud(view: BattleView, sides: Sides, at_ns: int) -> Hud:
         beat=beat if is_running else None,
         beats=rules.ground.beats_a_bar,
         count_in=beat if is_counted else None,
-        message=_message(view, at_ns),
+        message=_message(view),
         halt="Paused" if view.doing is Doing.PAUSED else "",
         standings=line,
     )
@@ -60,15 +54,14 @@ def _side(view: BattleView, index: int) -> SideLine:
 
 
 def _middle(view: BattleView) -> str:
+    """The round, and whose turn it is while people play."""
     words = round_words(view.rules, view.round) if view.round else ""
-    return words[:1].upper() + words[1:]
+    parts = [words[:1].upper() + words[1:], view.message if view.doing is Doing.ANSWER else ""]
+    return " · ".join(filter(None, parts))
 
 
-def _message(view: BattleView, at_ns: int) -> str:
+def _message(view: BattleView) -> str:
+    """What stands over the scene while nobody plays; never over who does."""
     if view.doing is Doing.OVER:
         return "A draw" if view.winner is None else f"{name_of(view.rules, view.sides[view.winner])} wins"
-    if view.doing is Doing.PAUSED or view.turn is None:
-        return ""
-    turn = view.turns[view.turn]
-    is_new = at_ns - turn.start_ns < MESSAGE_NS
-    return view.message if view.doing in _STAYS or (view.doing is Doing.ANSWER and is_new) else ""
+    return view.message if view.doing is Doing.CHANGEOVER else ""
