@@ -44,7 +44,7 @@ void main() {
 """
 
 _VERTEX = _VERTEX.replace("LOWER_M", "-0.30")
-"""The crowd stands so much lower than the stage, as crowds do: heads stay below those of the drummers in the picture."""
+"""The crowd stands so much lower than the stage, as crowds do: in the picture heads stay below those who play."""
 
 _FRAGMENT = """
 #version 330 core
@@ -99,7 +99,7 @@ _ROWS = ((0.45, 21, 1.0), (0.95, 19, 0.0))
 """How far from the wall a row stands in metres, how many are in it, and whether it stands a step up, behind (our
 choice: enough to fill the wall, and nobody alone)."""
 _BARRIER_M, _BARRIER_HIGH_M, _BOARDS = 1.35, 1.05, 61
-"""How far from the wall the barrier before them is, how high over where they stand, of how many boards: they overlap."""
+"""How far from the wall the barrier before them is, how high over where they stand, of how many overlapping boards."""
 _SEED = 14
 
 

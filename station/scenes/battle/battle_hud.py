@@ -7,6 +7,7 @@ from station.practice.battle.rules import BattleMode, BattleRules
 from station.render.snapshot import Hud, ScoreLine, SideLine
 from station.scenes.battle.cast import Sides
 
+
 def battle_hud(view: BattleView, sides: Sides, at_ns: int) -> Hud:
     """The words at a battle time, of the two `sides` that are seen."""
     rules = view.rules

@@ -16,8 +16,8 @@ from station.practice.battle.battle_view import TurnView
 from station.practice.battle.ground import Ground
 from station.practice.battle.turn_plan import TurnKind
 
-LONG_BAR_S = 2.4
-"""From here on a bar is a shot of its own: four beats at 100 a minute (our choice)."""
+LONG_BAR_S = 2.6
+"""From here on a bar is a shot of its own: four beats at 92 a minute (our choice)."""
 
 
 class ShotKind(Enum):

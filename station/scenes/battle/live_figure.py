@@ -1,10 +1,10 @@
 """A player's figure, moved by strokes that nobody wrote, limb by limb.
 
-What a limb does about a stroke is borrowed from a vocabulary take: preparation, contact, rebound. Between two strokes
-it goes from the rebound of the one to the preparation of the other in minimum jerk, and where no other is known home. A
-stroke that is heard cannot be prepared: the limb goes to the piece within `ATTACK_S`, which is over before one sees
-that it is late, while the piece lights up at once. A stroke that is expected, for the phrase is known that is repeated,
-is prepared, and waited for above the piece; one that is known beforehand falls when it sounds.
+What a limb does about a stroke is borrowed from a vocabulary take; its rebound is its preparation backwards. Between
+two strokes it goes from the rebound of the one to the preparation of the other in minimum jerk, and where no other is
+known home. A stroke that is heard cannot be prepared: the limb goes to the piece within `ATTACK_S`, which is over
+before one sees that it is late, while the piece lights up at once. A stroke that is expected, for the phrase is known
+that is repeated, is prepared, and waited for above the piece; one that is known beforehand falls when it sounds.
 
 Which hand struck nobody knows but a kit that says it: it is the one that would come there soonest, for its way and for
 its last stroke; in a row of quick strokes the hands alternate so. The trunk is between what both hands' strokes ask of
@@ -32,8 +32,9 @@ from station.scenes.student_figure import LIMB_FIELDS
 ATTACK_S = 0.033
 """A limb is at a piece that it was not expected at so soon after the stroke was heard: two pictures of sixty a second.
 People see a flash and hear a beep as one to some 80 ms (our choice: well within)."""
-REBOUND_S = 0.14
-"""So long after a contact the borrowed motion goes on; then the limb stays raised, or goes on its way (our choice)."""
+REBOUND_S, REBOUNDS = 0.14, 0.6
+"""How long and how high a stick rises from a contact, of what it fell; then the limb stays raised, or goes on its way
+(our choice). It goes back the way that it came: the vocabulary's own strokes are followed by a rest, and stay low."""
 PREPARED_S = 0.22
 """So long before a contact the borrowed preparation begins (our choice)."""
 WAITS_S = 0.07
@@ -195,18 +196,18 @@ class LiveFigure:
     def _after(self, stroke: Stroke, at_s: float) -> NDArray[np.float64]:
         """What the limb does after a stroke: rebounds, stays, and at last goes home."""
         since_s = at_s - stroke.seen_s
-        row = self._contact(stroke, min(since_s, REBOUND_S))
+        row = self._contact(stroke, -min(since_s, REBOUND_S), REBOUNDS)
         share = minimum_jerk((since_s - HOME_AFTER_S) / HOME_S)
         return row if share <= 0 else row + share * (self._home(stroke.limb) - row)
 
-    def _contact(self, stroke: Stroke, after_s: float) -> NDArray[np.float64]:
-        """The borrowed row so long after the stroke's contact, as high as it was loud."""
+    def _contact(self, stroke: Stroke, after_s: float, share: float = 1.0) -> NDArray[np.float64]:
+        """The borrowed row so long after the stroke's contact, that `share` of as high as it was loud."""
         made = stroke.limb, stroke.piece
         contact = self._vocabulary.contact(made)
         if not after_s:
             return contact
         high = _SOFT + (_HARD - _SOFT) * stroke.velocity / 127
-        return contact + high * (self._vocabulary.pose(made, after_s).row - contact)
+        return contact + share * high * (self._vocabulary.pose(made, after_s).row - contact)
 
     def _home(self, limb: Limb) -> NDArray[np.float64]:
         """Where a limb waits: a hand over the snare, a foot on its pedal."""

@@ -181,7 +181,15 @@ def _key(note: np.void, begin: int) -> tuple[int, int, float]:
 
 
 def _together(before: NDArray[np.void], notes: NDArray[np.void]) -> NDArray[np.void]:
-    """All strokes; of a landing and the stroke that is written for the same piece and tick the later one."""
+    """All strokes of both, where a landing meets the first strokes of what follows.
+
+    Of one piece at one tick the later is left; a hand that lands somewhere makes no other stroke at that tick.
+    """
     new = {_key(note, 0) for note in notes}
-    kept = [row for row, note in enumerate(before) if _key(note, 0) not in new]
-    return np.concatenate([before[kept], notes])
+    kept = before[[_key(note, 0) not in new for note in before]] if len(before) else before
+    lands = {(int(note["tick"]), int(note["limb"])) for note in kept if note["limb"] in _HANDS}
+    free = [(int(note["tick"]), int(note["limb"])) not in lands for note in notes]
+    return np.concatenate([kept, notes[free]])
+
+
+_HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)
