@@ -12,7 +12,6 @@ Read `turn_plan` for who plays when, `turn_judging` for what it is worth, `battl
 from collections.abc import Iterable, Sequence
 
 from station.core.events import Hit
-from station.core.units import NS_PER_MS
 from station.engine.messages import AddCues, Annotate, Command, EngineEvent, Play, Stop, Unheard
 from station.practice.battle.battle_cues import count_in_cues, turn_cues
 from station.practice.battle.battle_ear import BattleEar
@@ -34,7 +33,7 @@ from station.practice.battle.repeating.demands import MOST_STEP
 from station.practice.battle.repeating.live_answer import LiveAnswer
 from station.practice.battle.repeating.staircase import USUAL_FIRST_STEP, Staircase
 from station.practice.battle.rules import BattleRules
-from station.practice.battle.turn_judging import judged_turn, judged_turns
+from station.practice.battle.turn_judging import ARRIVES_NS, judged_at_ns, judged_turn, result_of
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.battle.view_building import Moment, view_of
 from station.practice.session.cues.stroke_cues import in_order, moved_by
@@ -42,9 +41,6 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.engine_state import EngineState
 from station.practice.session.plan import TAIL_NS
 from station.practice.session.session import LEAD_IN_NS
-
-ARRIVES_NS = 150 * NS_PER_MS
-"""A stroke has arrived so long after it was played (as in `session.loop_recording`)."""
 
 
 class Battle:
@@ -65,10 +61,11 @@ class Battle:
         self._drum = drum
         self._plan: list[PlannedTurn] = []
         self._parts: list[int] = []  # the first turn of each part
+        self._last: tuple[tuple[int, bool], BattleResult] | None = None
         self._sent = 0  # turns whose cues the engine has
         self._judged: list[JudgedTurn] = []  # the turns that are over, in order
         self._live: dict[int, LiveAnswer] = {}  # answers by the indices of their turns, as they are shown
-        self._is_last_chosen = False
+        self._is_last_chosen = self._is_complete = False
         first_step = USUAL_FIRST_STEP if rules.first_step is None else rules.first_step
         self._staircase = Staircase(MOST_STEP, min(first_step, MOST_STEP))
 
@@ -81,9 +78,9 @@ class Battle:
 
     def stop(self) -> tuple[Command, ...]:
         """End it, at the present that it knows."""
-        is_complete = self.over
+        self._is_complete = self.over
         self.stopped = True
-        return (_kept(BattleEnded(self.ear.now_ns, is_complete)), Stop())
+        return (_kept(BattleEnded(self.ear.now_ns, self._is_complete)), Stop())
 
     def pause(self) -> tuple[Command, ...]:
         """Stand still until `resume`, which plays the present part again; nothing where it may not pause."""
@@ -142,8 +139,9 @@ class Battle:
         """Tell the session time: what is over is judged, what comes is chosen and sounds."""
         self.ear.advance(now_ns)
         if (at_ns := self.at_ns) is not None:
-            for live in self._live.values():
-                live.advance(at_ns)
+            for index, live in self._live.items():
+                if index >= len(self._judged):
+                    live.advance(at_ns)
         commands: list[Command] = []
         while not (self.stopped or self.over) and self._is_due(self._next_ns):
             commands += self._move_on()
@@ -168,9 +166,7 @@ class Battle:
         """When the next turn is judged: its last stroke has come by then."""
         if len(self._judged) >= self._sent:
             return None
-        turn = self._plan[len(self._judged)]
-        late_ns = self.rules.late_ns + ARRIVES_NS if turn.kind is TurnKind.ANSWER else 0
-        return self._end_ns(turn) + late_ns
+        return judged_at_ns(self.rules, self._plan[len(self._judged)])
 
     @property
     def _chooses_ns(self) -> int | None:
@@ -253,15 +249,23 @@ class Battle:
 
     def result(self) -> BattleResult:
         """All that was played, judged once more; of a battle that was stopped the turns that were over."""
-        turns = judged_turns(self.rules, self._plan[: len(self._judged)], self.ear)
-        return BattleResult(self.rules, turns, self.over, self.latency, self.heard.output)
+        return result_of(self.rules, self._plan, self.ear, self._is_complete or self.over)
 
     def view(self) -> BattleView:
         """What a stage and a window show, as of the last event and time."""
-        result = self.result() if self.over or self.stopped else None
+        result = self._last_result()
         judged = self._judged if result is None else result.turns
         moment = Moment(self.rules, self.at_ns, self._plan, judged, self.ear.from_ns, self.paused, result)
         return view_of(moment, tuple(self._turn_view(turn) for turn in self._plan))
+
+    def _last_result(self) -> BattleResult | None:
+        """The result of a battle that is over or was stopped, reckoned once."""
+        if not (self.over or self.stopped):
+            return None
+        key = len(self.ear.strokes), self.stopped
+        if self._last is None or self._last[0] != key:
+            self._last = key, self.result()
+        return self._last[1]
 
     def _turn_view(self, turn: PlannedTurn) -> TurnView:
         judged = self._judged[turn.index] if turn.index < len(self._judged) else None

@@ -32,6 +32,7 @@ class BattleEar:
         """The session time that it knows."""
         self.from_ns = 0
         """The battle time at which the count-in ends."""
+        self._count_in_ns = rules.ground.ns_of_bars(rules.count_in_bars)
         self._hearing = {side: Hearing(rules.player_of(side)) for side in rules.player_sides}
 
     def handle(self, event: EngineEvent) -> Hit | None:
@@ -80,5 +81,4 @@ class BattleEar:
         return self._counted(self.heard.played_ns(hit))
 
     def _counted(self, transport_ns: int | None) -> int | None:
-        count_in_ns = self._rules.ground.ns_of_bars(self._rules.count_in_bars)
-        return None if transport_ns is None else transport_ns - count_in_ns + self.from_ns
+        return None if transport_ns is None else transport_ns - self._count_in_ns + self.from_ns

@@ -15,9 +15,10 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from station.practice.battle.phrase import Turn
+from station.practice.battle.repeating.answer_marks import AnswerMarks
 from station.practice.battle.rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.turn_marks import TurnMarks
-from station.practice.battle.turn_plan import PlannedTurn, TurnKind
+from station.practice.battle.turn_plan import PlannedTurn
 from station.practice.session.device_latency import Latency
 
 
@@ -62,9 +63,7 @@ def standings(rules: BattleRules, turns: Sequence[JudgedTurn]) -> tuple[Standing
 
 def is_lost(rules: BattleRules, turn: JudgedTurn) -> bool:
     """Whether a turn costs a life."""
-    if rules.mode is not BattleMode.REPEAT or turn.planned.kind is not TurnKind.ANSWER or turn.marks is None:
-        return False
-    return turn.marks.is_won(rules.target) is False
+    return isinstance(turn.marks, AnswerMarks) and turn.marks.is_won(rules.target) is False
 
 
 def is_decided(rules: BattleRules, turns: Sequence[JudgedTurn]) -> bool:
@@ -128,6 +127,7 @@ class BattleResult:
     """A battle when it is over: every turn with what was played and what it is worth, and who has won.
 
     `is_complete` unless it was stopped before its end; `output` is what the click was heard on, None: nothing.
+    `devices` are what most strokes of each side came from, None where there were none.
     """
 
     rules: BattleRules
@@ -135,6 +135,7 @@ class BattleResult:
     is_complete: bool
     latency: Latency
     output: str | None = None
+    devices: tuple[str | None, ...] = ()
 
     @property
     def standings(self) -> tuple[Standing, ...]:

@@ -84,12 +84,10 @@ def next_turns(before: SoFar, drum: Drum, staircase: Staircase) -> tuple[Planned
 def _rest_of_round(before: SoFar, number: int) -> Part | None:
     """The part of the round that runs which is not planned yet, if there is one."""
     planned = {turn.side for turn in before.plan if turn.round == number and turn.kind is TurnKind.ANSWER}
-    if not planned:
+    if not planned or not before.sides_in:
         return None
     parts = parts_of_round(before.rules, number, before.sides_in)
-    return next(
-        (part for part in parts if not planned & {side for kind, side in part if kind is TurnKind.ANSWER}), None
-    )
+    return next((part for part in parts if planned.isdisjoint(side for _, side in part)), None)
 
 
 def _laid_out(before: SoFar, number: int, part: Part, drum: Drum, staircase: Staircase) -> tuple[PlannedTurn, ...]:

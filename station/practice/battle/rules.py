@@ -6,6 +6,7 @@ the last is the final, if there is one.
 
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
 
 from station.core.errors import BadInput
 from station.core.units import NS_PER_MS, NS_PER_S
@@ -39,7 +40,7 @@ class BattleMode(Enum):
     IMPROVISE = "improvise"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class BattleRules:
     """All that is agreed before the count-in; the same rules and the same strokes are the same battle.
 
@@ -118,32 +119,32 @@ class BattleRules:
 
     # --- time -------------------------------------------------------------------------------------------------------
 
-    @property
+    @cached_property
     def bar_ns(self) -> int:
         """How long a bar lasts."""
         return self.ground.ns_of_bars(1)
 
-    @property
+    @cached_property
     def beat_ns(self) -> int:
         """How long a counted beat lasts."""
         return int(self.ground.tempo_map.ns_at(self.ground.beat_ticks))
 
-    @property
+    @cached_property
     def count_in_bars(self) -> int:
         """Bars that are counted before the first downbeat."""
         return 1 if self.bar_ns >= LONG_COUNT_IN_BELOW_S * NS_PER_S else 2
 
-    @property
+    @cached_property
     def changeover_bars(self) -> int:
         """Bars in which players change seats."""
         return max(2, -(-round(CHANGEOVER_S * NS_PER_S) // self.bar_ns))
 
-    @property
+    @cached_property
     def chosen_ahead_ns(self) -> int:
         """How long before it begins a turn is chosen."""
         return max(self.beat_ns, min(CHOSEN_AHEAD_NS, self.bar_ns // 2))
 
-    @property
+    @cached_property
     def early_ns(self) -> int:
         """So long before its downbeat a stroke belongs to the turn that follows: half a beat's quarter.
 
@@ -151,7 +152,7 @@ class BattleRules:
         """
         return max(self.beat_ns // 8, round(MAX_LATE_MS * NS_PER_MS))
 
-    @property
+    @cached_property
     def late_ns(self) -> int:
         """So long after the last bar a stroke still belongs to the turn before: half a beat, as `Turn` has it."""
         return self.beat_ns // 2

@@ -5,14 +5,20 @@ It is the one answer, live at the end of each turn, at the end of the battle and
 
 from collections.abc import Sequence
 
+from station.core.units import NS_PER_MS
 from station.practice.battle.battle_ear import BattleEar
-from station.practice.battle.battle_result import JudgedTurn
+from station.practice.battle.battle_result import BattleResult, JudgedTurn
+from station.practice.battle.judging.judged_improvisation import judged_improvisation
 from station.practice.battle.phrase import Turn
 from station.practice.battle.phrase_as_turn import phrase_as_turn
 from station.practice.battle.repeating.answer_marks import answer_marks
 from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.battle.turn_marks import TurnMarks
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
+from station.scoring.matching.unheard import Span
+
+ARRIVES_NS = 150 * NS_PER_MS
+"""A stroke has arrived so long after it was played (as in `session.loop_recording`)."""
 
 
 def judged_turn(rules: BattleRules, planned: PlannedTurn, ear: BattleEar, before: Sequence[JudgedTurn]) -> JudgedTurn:
@@ -20,7 +26,22 @@ def judged_turn(rules: BattleRules, planned: PlannedTurn, ear: BattleEar, before
     played = played_in(rules, planned, ear)
     if played is None:
         return JudgedTurn(planned, None, None)
-    return JudgedTurn(planned, played, _marks(rules, planned, ear, played))
+    if rules.mode is BattleMode.IMPROVISE:
+        return JudgedTurn(planned, played, _improvised(rules, JudgedTurn(planned, played, None), ear, before))
+    return JudgedTurn(planned, played, _repeated(rules, planned, ear, played))
+
+
+def judged_at_ns(rules: BattleRules, planned: PlannedTurn) -> int:
+    """When in the battle a turn can be judged: the last stroke that may belong to it has come by then."""
+    late_ns = rules.late_ns + ARRIVES_NS if planned.kind is TurnKind.ANSWER else 0
+    return rules.ground.ns_of_bars(planned.end_bar) + late_ns
+
+
+def turns_over(rules: BattleRules, plan: Sequence[PlannedTurn], ear: BattleEar) -> Sequence[PlannedTurn]:
+    """The turns of `plan` that are over; where the transport stands those before the part that is to come again."""
+    if ear.at_ns is None:
+        return [turn for turn in plan if rules.ground.ns_of_bars(turn.end_bar) <= ear.from_ns]
+    return [turn for turn in plan if judged_at_ns(rules, turn) <= ear.at_ns]
 
 
 def judged_turns(rules: BattleRules, plan: Sequence[PlannedTurn], ear: BattleEar) -> tuple[JudgedTurn, ...]:
@@ -29,6 +50,13 @@ def judged_turns(rules: BattleRules, plan: Sequence[PlannedTurn], ear: BattleEar
     for planned in plan:
         judged.append(judged_turn(rules, planned, ear, judged))
     return tuple(judged)
+
+
+def result_of(rules: BattleRules, plan: Sequence[PlannedTurn], ear: BattleEar, is_complete: bool) -> BattleResult:
+    """The battle of the turns of `plan` that are over."""
+    turns = judged_turns(rules, turns_over(rules, plan, ear), ear)
+    devices = (None, *(ear.strokes.device_of(player) for player in rules.players))
+    return BattleResult(rules, turns, is_complete, ear.heard.latency, ear.heard.output, devices)
 
 
 def played_in(rules: BattleRules, planned: PlannedTurn, ear: BattleEar) -> Turn | None:
@@ -40,9 +68,25 @@ def played_in(rules: BattleRules, planned: PlannedTurn, ear: BattleEar) -> Turn 
     return None
 
 
-def _marks(rules: BattleRules, planned: PlannedTurn, ear: BattleEar, played: Turn) -> TurnMarks | None:
-    if rules.mode is BattleMode.REPEAT:
-        if planned.kind is not TurnKind.ANSWER or planned.phrase is None:
-            return None
-        return answer_marks(planned.phrase, played, rules.level.windows, ear.unheard(planned))
-    return None
+def _repeated(rules: BattleRules, planned: PlannedTurn, ear: BattleEar, played: Turn) -> TurnMarks | None:
+    if planned.kind is not TurnKind.ANSWER or planned.phrase is None:
+        return None
+    return answer_marks(planned.phrase, played, rules.level.windows, ear.unheard(planned))
+
+
+def _improvised(rules: BattleRules, turn: JudgedTurn, ear: BattleEar, before: Sequence[JudgedTurn]) -> TurnMarks | None:
+    """The marks of an improvised turn, the drummer's as anybody's; None where too little of it could be heard.
+
+    It answers the last turn of somebody else.
+    """
+    planned = turn.planned
+    if planned.kind is TurnKind.ANSWER and _unheard_ns(ear.unheard(planned)) > rules.beat_ns:
+        return None
+    own = [one.played for one in before if one.planned.side == planned.side and one.played is not None]
+    others = [one.played for one in before if one.planned.side != planned.side and one.played is not None]
+    assert turn.played is not None, "whoever plays a turn has played something, if only nothing"
+    return judged_improvisation(turn.played, own, others[-1] if others else None)
+
+
+def _unheard_ns(spans: Sequence[Span]) -> int:
+    return sum(end_ns - begin_ns for begin_ns, end_ns in spans)

@@ -5,12 +5,14 @@ hits it to the millisecond, until half a beat after its last bar, where what was
 """
 
 from bisect import bisect_left, insort
+from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 from operator import attrgetter
 
 from station.core.events import Hit
 from station.music.performance import Performance
+from station.practice.battle.people.player import Player
 from station.practice.battle.phrase import Turn
 from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
@@ -24,6 +26,9 @@ class TurnStrokes:
     def __init__(self, rules: BattleRules) -> None:
         self._rules = rules
         self._hits: list[Hit] = []
+
+    def __len__(self) -> int:
+        return len(self._hits)
 
     def add(self, hit: Hit) -> None:
         """Take a stroke, in battle time."""
@@ -39,6 +44,11 @@ class TurnStrokes:
             return ()
         start_ns = self._rules.ground.ns_of_bars(turn.first_bar)
         return tuple(replace(hit, at_ns=hit.at_ns - start_ns) for hit in self._between(turn, until_ns))
+
+    def device_of(self, player: Player) -> str | None:
+        """What most of a player's strokes came from; None where there were none."""
+        devices = Counter(hit.device for hit in self._hits if player.plays_on(hit.device))
+        return devices.most_common(1)[0][0] if devices else None
 
     def turn(self, turn: PlannedTurn, until_ns: int | None = None) -> Turn:
         """The same as what somebody has played."""

@@ -6,11 +6,12 @@ from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.session.cues.click_options import click_text, parse_click
 from station.practice.session.log_values import rows_in, table_in, whole
 from station.scoring.matching.hit_windows import Level
+from station.scoring.report.assessment_document import Json
 
 _MOST_BEATS, _UNITS = 64, (1, 2, 4, 8, 16, 32)
 
 
-def rules_fields(rules: BattleRules) -> dict[str, object]:
+def rules_fields(rules: BattleRules) -> dict[str, Json]:
     """All that was agreed, as `rules_of` reads it."""
     ground = rules.ground
     return {

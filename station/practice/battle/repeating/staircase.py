@@ -14,21 +14,23 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from math import log
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 TARGET = 0.75
 """Our choice: three of four phrases are won, which players call fun and learn by (TEACHING: 70 to 85 % success)."""
-USUAL_FIRST_STEP = 6
-"""Where a player begins of whom nothing is known (our choice: hands and kick, a bar, no dynamics yet)."""
+USUAL_FIRST_STEP = 8
+"""Where a player begins of whom nothing is known (our choice: a third of the way up, so that eight rounds reach both ends)."""
 LAPSE = 0.03
 """So often is an answer lost, or won, whatever the step (our choice)."""
 SLOPES = (0.5, 1.0, 2.0, 3.0)
 """Steps over which the odds change e-fold (our choice: from who has a sharp limit to who has hardly one)."""
-PRIOR_SD = 5.0
-"""How far from the first step players' thresholds lie before anything is known (our choice: a fifth of the steps)."""
+USUAL_SLOPE = 1.5
+"""The middle of them."""
+PRIOR_SD = 9.0
+"""How far from the first step players' thresholds lie before anything is known (our choice: wide, for a battle meets children and professionals)."""
 MOST_UP, MOST_DOWN = 4, 4
 """A phrase is at most so much harder or easier than the one before (our choice: a leap is no staircase)."""
 _BETWEEN = 4
@@ -67,6 +69,16 @@ class Staircase:
         return float(thresholds @ weight / weight.sum())
 
 
+    def wins_at(self, step: int, threshold: float) -> float:
+        """How often a player of that `threshold` and of a usual slope wins a phrase of `step`."""
+        return _won((step - threshold) / USUAL_SLOPE)
+
+
+def _won(off: float | NDArray[np.float64]) -> Any:
+    """The probability of winning `off` slopes beyond the threshold."""
+    return LAPSE + (1 - 2 * LAPSE) / (1 + np.exp(off - log(TARGET / (1 - TARGET))))
+
+
 @lru_cache(maxsize=8)
 def _grid(most_step: int) -> NDArray[np.float64]:
     """The thresholds (n,) that are weighed."""
@@ -83,6 +95,5 @@ def _prior(most_step: int, first_step: int) -> tuple[NDArray[np.float64], NDArra
 @lru_cache(maxsize=128)
 def _likelihood(most_step: int, step: int, is_won: bool) -> NDArray[np.float64]:
     """How likely the outcome is, (n, slopes)."""
-    off = (step - _grid(most_step)[:, None]) / np.array(SLOPES) - log(TARGET / (1 - TARGET))
-    won = LAPSE + (1 - 2 * LAPSE) / (1 + np.exp(off))
+    won = _won((step - _grid(most_step)[:, None]) / np.array(SLOPES))
     return np.asarray(won if is_won else 1 - won)

@@ -1,0 +1,93 @@
+"""The folder of a battle under the sessions of whoever plays first: capture, document and report.
+
+`<sessions>/<student>/<date>_battle-<opponent>/` has `battle.capture`, `battle.json` and `battle.txt`. The capture is
+written by the engine while it is played, so that one that was cut off lacks its report and nothing else.
+"""
+
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from station.core.disk.files import write_whole
+from station.core.errors import BadInput
+from station.core.settings import Settings
+from station.devices.capture.capture import read_capture
+from station.practice.battle.battle_result import BattleResult
+from station.practice.battle.records.battle_document import battle_document
+from station.practice.battle.records.battle_report import battle_report
+from station.practice.battle.records.judge_battle_again import judge_battle_again
+from station.practice.records.session_files import session_folder, student_folder, write_document
+from station.scoring.matching.hit_windows import Level
+
+CAPTURE_NAME = "battle.capture"
+DOCUMENT_NAME = "battle.json"
+TEXT_NAME = "battle.txt"
+
+
+@dataclass(frozen=True, slots=True)
+class BattleFolder:
+    """One battle's folder; as a context manager it takes one that `is_new` away again if it stayed empty."""
+
+    path: Path
+    is_new: bool
+
+    @classmethod
+    def make(cls, wanted: Path | None, settings: Settings, opponent: str) -> "BattleFolder":
+        """One made before anybody plays; `wanted` is a folder that the user named, None for a new one of the student's.
+
+        Raises `BadInput` or `DeviceError` where it cannot be made.
+        """
+        if wanted is None:
+            name = f"battle-{opponent}"
+            return cls(session_folder(settings.sessions_dir, settings.student, name, datetime.now()), is_new=True)
+        if (wanted / CAPTURE_NAME).exists() or (wanted / DOCUMENT_NAME).exists():
+            raise BadInput(wanted, "", "there is a battle in this folder already")
+        is_new = not wanted.exists()
+        try:
+            wanted.mkdir(parents=True, exist_ok=True)
+        except OSError as fault:
+            raise BadInput(wanted, "", f"no folder can be made: {fault.strerror or fault}") from fault
+        return cls(wanted, is_new)
+
+    @property
+    def capture(self) -> Path:
+        """Where the capture is kept."""
+        return self.path / CAPTURE_NAME
+
+    @property
+    def report(self) -> Path:
+        """Where the report in words is kept."""
+        return self.path / TEXT_NAME
+
+    def write(self, result: BattleResult) -> None:
+        """Keep a battle that is over; raises `DeviceError`."""
+        write_document(self.path / DOCUMENT_NAME, battle_document(result))
+        write_whole(self.report, battle_report(result).encode())
+
+    def __enter__(self) -> "BattleFolder":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self.is_new and self.path.is_dir() and not any(self.path.iterdir()):
+            self.path.rmdir()
+
+
+def kept_battle(path: Path, level: Level | None = None) -> BattleResult:
+    """The battle that is kept in a folder, or in a capture, judged again; raises `BadInput` where there is none."""
+    capture = path / CAPTURE_NAME if path.is_dir() else path
+    return judge_battle_again(read_capture(capture), level)
+
+
+def recovered_battle(folder: Path) -> BattleResult:
+    """A battle that was cut off, judged as it would have been at its end; raises `BadInput` where none was."""
+    if (folder / DOCUMENT_NAME).exists():
+        raise BadInput(folder, "", "this battle has its report")
+    if not (folder / CAPTURE_NAME).is_file():
+        raise BadInput(folder, "", f"no battle was begun in this folder: it holds no {CAPTURE_NAME}")
+    return kept_battle(folder)
+
+
+def battles_cut_off(sessions: Path, student: str) -> list[Path]:
+    """The folders of a student's battles that lack their report, the newest first; `sessions` holds all students."""
+    captures = sorted(student_folder(sessions, student).glob(f"*/{CAPTURE_NAME}"), reverse=True)
+    return [path.parent for path in captures if not (path.parent / DOCUMENT_NAME).exists()]
