@@ -57,9 +57,7 @@ def _virtual(
     return fault
 
 
-def _live(
-    rules: BattleRules, settings: Settings, folder: BattleFolder, options: BattleOptions
-) -> StationError | None:
+def _live(rules: BattleRules, settings: Settings, folder: BattleFolder, options: BattleOptions) -> StationError | None:
     from station.cli.battling.battle_terminal import battle_in_terminal
 
     with ExitStack() as until_saved:

@@ -78,8 +78,8 @@ class BattleOptions:
         "N", f"how hard the first phrase to repeat is, 0 to {MOST_STEP} (8)", whole_number, None
     )
     keep_time: bool | None = switch("the drummer keeps time under your turns (on when you improvise)")
-    seed: int = option("N", "which battle: the same number and the same strokes are the same battle (1)", whole_number, 1)
-    level: Level | None = choice(OUR_LEVELS, "how strictly is judged (intermediate; with --judge-again as it was)", None)
+    seed: int = option("N", "which battle: the same number and strokes are the same battle (1)", whole_number, 1)
+    level: Level | None = choice(OUR_LEVELS, "how strictly is judged (intermediate; judged again: as it was)", None)
     players: tuple[Player, ...] = option(
         "NAME[=PORT],…",
         "people who play each other: each on a kit of their own by part of its port's name, or in turn on one",

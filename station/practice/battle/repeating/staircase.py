@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import lru_cache
 from math import log
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,15 +22,13 @@ from numpy.typing import NDArray
 TARGET = 0.75
 """Our choice: three of four phrases are won, which players call fun and learn by (TEACHING: 70 to 85 % success)."""
 USUAL_FIRST_STEP = 8
-"""Where a player begins of whom nothing is known (our choice: a third of the way up, so that eight rounds reach both ends)."""
+"""Where a player begins of whom nothing is known (our choice: a third of the way up; eight rounds reach both ends)."""
 LAPSE = 0.03
 """So often is an answer lost, or won, whatever the step (our choice)."""
 SLOPES = (0.5, 1.0, 2.0, 3.0)
 """Steps over which the odds change e-fold (our choice: from who has a sharp limit to who has hardly one)."""
-USUAL_SLOPE = 1.5
-"""The middle of them."""
 PRIOR_SD = 9.0
-"""How far from the first step players' thresholds lie before anything is known (our choice: wide, for a battle meets children and professionals)."""
+"""How far from the first step thresholds lie before anything is known (our choice: a child plays, and a professional)."""
 MOST_UP, MOST_DOWN = 4, 4
 """A phrase is at most so much harder or easier than the one before (our choice: a leap is no staircase)."""
 _BETWEEN = 4
@@ -68,13 +66,15 @@ class Staircase:
         weight = weight.sum(axis=1)
         return float(thresholds @ weight / weight.sum())
 
+    def wins_at(self, step: int, answered: Iterable[Answered]) -> float:
+        """How often a player who has `answered` so wins a phrase of `step`, as far as their answers show."""
+        _, weight = _prior(self.most_step, self.first_step)
+        for earlier, is_won in answered:
+            weight = weight * _likelihood(self.most_step, earlier, is_won)
+        return float((weight * _likelihood(self.most_step, step, True)).sum() / weight.sum())
 
-    def wins_at(self, step: int, threshold: float) -> float:
-        """How often a player of that `threshold` and of a usual slope wins a phrase of `step`."""
-        return _won((step - threshold) / USUAL_SLOPE)
 
-
-def _won(off: float | NDArray[np.float64]) -> Any:
+def _won(off: NDArray[np.float64]) -> NDArray[np.float64]:
     """The probability of winning `off` slopes beyond the threshold."""
     return LAPSE + (1 - 2 * LAPSE) / (1 + np.exp(off - log(TARGET / (1 - TARGET))))
 
