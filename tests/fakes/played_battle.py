@@ -1,4 +1,4 @@
-"""A battle that is played by hand: strokes at times of our choosing, told at any frame rate, and what the engine is sent.
+"""A battle that is played by hand: strokes at times of our choosing, at any frame rate, and what the engine is sent.
 
 Session time begins with the transport's zero at 1 s; strokes arrive `ARRIVAL_NS` after they were played.
 """

@@ -1,30 +1,21 @@
 """A session with a virtual student: the same engine, decoder and runner, on a clock that is moved by hand."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 from station.core.errors import DeviceError, StationError
 from station.practice.headless.engine_here import EngineHere
 from station.practice.headless.live import begin, end
+from station.practice.records.virtual_practice import VirtualSession
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import TAIL_NS, Plan
 from station.practice.session.runner import SessionRunner
-from station.practice.session.session import LEAD_IN_NS, SessionResult
+from station.practice.session.session import LEAD_IN_NS
 from station.simulation.student_spec import StudentSpec
 from station.simulation.virtual_student import VirtualPerformance, VirtualStudent, joined, play
 
 DEVICE = "virtual student"
-
-
-@dataclass(frozen=True, eq=False)
-class VirtualSession:
-    """What the session made of it, what the student knows it did, and why the capture lacks some of it, if it does."""
-
-    result: SessionResult
-    student: VirtualPerformance
-    fault: StationError | None
 
 
 def practise_virtually(plan: Plan, spec: StudentSpec, capture: Path | None = None) -> VirtualSession:

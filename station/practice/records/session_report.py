@@ -41,7 +41,7 @@ from station.scoring.report.assessment_document import Json, assessment
 from station.scoring.report.technique_text import technique_lines
 
 if TYPE_CHECKING:
-    from station.practice.headless.virtual_session import VirtualSession
+    from station.practice.records.virtual_practice import VirtualSession
     from station.simulation.virtual_student import VirtualPerformance
 
 

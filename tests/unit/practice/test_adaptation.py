@@ -18,9 +18,10 @@ from station.drills.mastery.feedback_fading import Feedback
 from station.drills.mastery.practice_steps import PassKind
 from station.music.judgement import Judgement, Label
 from station.music.score import NOTE_DTYPE
-from station.practice.headless.virtual_session import VirtualSession, practise_adaptively
+from station.practice.headless.virtual_session import practise_adaptively
 from station.practice.records.mastery_report import with_mastery
 from station.practice.records.session_report import practice_document, report_text, with_truth
+from station.practice.records.virtual_practice import VirtualSession
 from station.practice.session.adaptation import SILENT_TO_STOP, Adaptation, ScoreRow
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.session import Session

@@ -30,7 +30,8 @@ def _lines(result: BattleResult) -> Iterator[str]:
     yield _outcome(result)
     for side in _competing(result):
         yield _score(result, side)
-    for number, turns in groupby(result.turns, key=lambda turn: turn.planned.round):
+    answered = [turn for turn in result.turns if turn.marks is not None]
+    for number, turns in groupby(answered, key=lambda turn: turn.planned.round):
         yield ""
         yield round_words(rules, number).capitalize()
         yield from _round(result, turns)

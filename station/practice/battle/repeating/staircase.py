@@ -28,7 +28,7 @@ LAPSE = 0.03
 SLOPES = (0.5, 1.0, 2.0, 3.0)
 """Steps over which the odds change e-fold (our choice: from who has a sharp limit to who has hardly one)."""
 PRIOR_SD = 9.0
-"""How far from the first step thresholds lie before anything is known (our choice: a child plays, and a professional)."""
+"""How far from the first step thresholds lie before one is known (our choice: children play, and professionals)."""
 MOST_UP, MOST_DOWN = 4, 4
 """A phrase is at most so much harder or easier than the one before (our choice: a leap is no staircase)."""
 _BETWEEN = 4
