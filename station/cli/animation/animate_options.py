@@ -73,7 +73,7 @@ class AnimateOptions:
 
     score: str = argument("SCORE", "a lesson, a MIDI file, a text score or a take (.capture)", str)
     out: Path = required(
-        "FILE", f"the file to write: {ENDINGS}; %%05d.png in a name numbers the pictures of all bars", Path
+        "FILE", f"the file to write: {ENDINGS}; %05d.png in a name numbers the pictures of all bars", Path
     )
     style: str = option(
         "NAME", f"{', '.join(style_names())}, {PROPOSED} (what the score itself suggests), or a file", str, "natural"

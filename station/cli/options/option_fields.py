@@ -239,7 +239,7 @@ def _add(to: "argparse.ArgumentParser | argparse._ArgumentGroup", options: type[
             case _OptionGroup(options=shared, title=title):
                 _add(to.add_argument_group(title) if title else to, shared)
             case _Spec(is_option=False, keywords=keywords):
-                to.add_argument(one.name, default=argparse.SUPPRESS, **keywords)
+                to.add_argument(one.name, default=argparse.SUPPRESS, **_plain(keywords))
             case _Spec(rivals=name) as spec:
                 if name and name not in rivals:
                     rivals[name] = to.add_mutually_exclusive_group()
@@ -247,10 +247,15 @@ def _add(to: "argparse.ArgumentParser | argparse._ArgumentGroup", options: type[
 
 
 def _add_option(add: _Add, field_name: str, spec: _Spec) -> None:
-    keywords = {**spec.keywords, "dest": field_name, "default": argparse.SUPPRESS}
+    keywords = {**_plain(spec.keywords), "dest": field_name, "default": argparse.SUPPRESS}
     add(_name(field_name, spec), **keywords)
     for old in spec.names[1:]:
         add(old, **{**keywords, "help": HIDDEN})
+
+
+def _plain(keywords: Mapping[str, Any]) -> dict[str, Any]:
+    """The keywords with their help as it is to be read: a percent sign is one."""
+    return {**keywords, "help": keywords["help"].replace("%", "%%")}
 
 
 def _name(field_name: str, spec: _Spec) -> str:

@@ -11,7 +11,7 @@ import mido
 import numpy as np
 import pytest
 
-from station.cli.command_line import main
+from station.cli.command_line import _COMMANDS, main
 from station.core.events import Hit
 from station.core.settings import load_settings
 from station.devices.capture.capture import RecordKind, read_capture
@@ -360,6 +360,23 @@ def test_help_needs_no_command(capsys: pytest.CaptureFixture[str]) -> None:
         main(["--help"])
     assert leaving.value.code == 0
     assert "practice" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", _COMMANDS)
+def test_every_command_has_a_help(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as leaving:
+        main([name, "--help"])
+    assert leaving.value.code == 0
+    assert f"station {name}" in capsys.readouterr().out
+
+
+def test_a_percent_sign_of_a_help_is_one(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["practice", "--help"])
+    assert "such as 60%\n" in capsys.readouterr().out
+    with pytest.raises(SystemExit):
+        main(["animate", "--help"])
+    assert "%05d.png" in capsys.readouterr().out
 
 
 def test_a_folder_holds_one_session(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
