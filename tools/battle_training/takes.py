@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from station.music.formats.smf.standard_midi import performance_from_midi, read_midi, score_from_midi
+from station.music.performance import Performance
 from station.practice.battle.ground import Feel, Ground
 from station.practice.battle.improvising.beat_steps import Music, styles_of
 from station.practice.battle.improvising.played_beats import Beats, beats_of, joined
@@ -23,13 +24,18 @@ NO_CLICK = frozenset({"drummer2/session2/7_rock_130_beat_4-4.mid"})
 
 @dataclass(frozen=True, eq=False)
 class GrooveTake:
-    """A take: whose it is, its file, its music, whether it is one of the grooves that several drummers play."""
+    """A take: whose it is, its file, its music, whether it is one of the grooves that several drummers play.
+
+    `played` is as the file has it, `beats` what it is read as, from bar `first_bar` of the file on.
+    """
 
     drummer: str
     file: str
     ground: Ground
     music: Music
+    played: Performance
     beats: Beats
+    first_bar: int
     is_shared: bool
 
     @property
@@ -59,19 +65,25 @@ def _take(data: Path, name: str, style: str) -> GrooveTake:
     feel = Feel.TRIPLET if styles & SWUNG else Feel.STRAIGHT
     ground = Ground(round(tempo_map.tempos[0].tempo_bpm, 2), meter.beats, meter.unit, feel, style)
     played = performance_from_midi(midi)
-    last_bar = int(
-        played.hits["at_ns"].max() / ground.ns_of_bars(1) + 0.25
-    )  # what comes late is the last bar's landing
-    first_bar = int(max(played.hits["at_ns"].min() / ground.ns_of_bars(1), 0))
-    starts = range(first_bar, max(last_bar, first_bar + 1), WINDOW_BARS)
-    turns = [
-        Turn(ground, min(WINDOW_BARS, max(last_bar, first_bar + 1) - bar), played.shifted(-ground.ns_of_bars(bar)))
-        for bar in starts
-    ]
-    beats = joined([beats_of(turn) for turn in turns])
+    bar_ns = ground.ns_of_bars(1)
+    first_bar = int(max(played.hits["at_ns"].min() / bar_ns, 0))
+    last_bar = int(played.hits["at_ns"].max() / bar_ns + 0.25)  # what comes late is the last bar's landing
+    last_bar = max(last_bar, first_bar + 1)
+    beats = joined(
+        [
+            beats_of(Turn(ground, min(WINDOW_BARS, last_bar - bar), played.shifted(-ground.ns_of_bars(bar))))
+            for bar in range(first_bar, last_bar, WINDOW_BARS)
+        ]
+    )
     is_fill = "_fill_" in name and beats.bars < 4
     music = Music(styles, feel, ground.beats_a_minute, phrase_bar=3 if is_fill else 0)
-    return GrooveTake(name.split("/", maxsplit=1)[0], name, ground, music, beats, "eval_session" in name)
+    drummer = name.split("/", maxsplit=1)[0]
+    return GrooveTake(drummer, name, ground, music, played, beats, first_bar, "eval_session" in name)
+
+
+def turn_of(take: GrooveTake, bar: int, bars: int) -> Turn:
+    """So many bars of the take from bar `bar` of its beats on, as a turn."""
+    return Turn(take.ground, bars, take.played.shifted(-take.ground.ns_of_bars(take.first_bar + bar)))
 
 
 def on_sixteenths(take: GrooveTake) -> GrooveTake:
