@@ -2,16 +2,16 @@
 
     python -m tools.human_playing [--data ../shared/data/gmd]
 
-Measured on the files of the Groove MIDI Dataset that are there (Gillick et al. 2019, CC BY 4.0), read as beats. Timing:
-four bars at a time, their median set apart; of the normal scores of what is left, how much strokes of one moment have
-in common (the clock), and strokes of neighbouring moments (its AR(1)). Loudness: the deciles of the velocities by
-instrument and place, and of their normal scores how much is the take's, how much the take's own way with that
-instrument and place, and how much of the rest a stroke has from the one before it on the same instrument.
+Measured on the files of the Groove MIDI Dataset that are there (Gillick et al. 2019, CC BY 4.0), read as beats, four
+bars at a time. What strokes have in common is the mean product of normal scores of pairs of them: pairs of one moment,
+of moments so far apart, of one instrument, of one spot (instrument and place in the bar) in different bars. Lateness
+is taken about the phrase's median, at most `MAX_LATE_MS`, and in units of its spread.
 """
 
 import argparse
 import json
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -22,16 +22,18 @@ from station.core.pieces import Ornament, word
 from station.music.score import MAX_LATE_MS
 from station.practice.battle.improvising.human_playing import HUMAN_PLAYING, QUANTILES
 from station.practice.battle.improvising.played_beats import Beats, Instrument
-from station.practice.battle.improvising.stroke_place import StrokePlace, moments_of, places_of, struck_cells
+from station.practice.battle.improvising.stroke_place import StrokePlace, moments_of, places_of, spots_of, struck_cells
 from tools.battle_training.takes import GrooveTake, groove_takes
 
 Floats = NDArray[np.float64]
+PHRASE_BARS = 4
+LEAST_STROKES = 30
+"""Phrases with fewer tell nothing of a spread."""
+LEAST_SPREAD_MS = 6.0
+LAGS = (2, 4)
+"""Moments apart between which the clock's course is measured: at one, hands alternate and undo each other's errors."""
 ENOUGH = 25
 """Fewer strokes of an instrument at a place are measured with those at all its places."""
-LEAST_STROKES = 60
-"""Takes with fewer tell nothing of a spread."""
-WINDOW_BARS = 4
-"""Within so many bars a clock's course is measured: as long as a phrase."""
 DECILES = np.linspace(0, 1, 11)
 SOURCE = "Groove MIDI Dataset v1.0.0, Gillick et al. 2019, CC BY 4.0"
 
@@ -39,69 +41,87 @@ SOURCE = "Groove MIDI Dataset v1.0.0, Gillick et al. 2019, CC BY 4.0"
 def table(takes: Sequence[GrooveTake]) -> dict[str, object]:
     """The whole document."""
     beats = [take.beats for take in takes]
+    phrases = [phrase for one in beats for phrase in _phrases(one) if phrase.struck.sum() >= LEAST_STROKES]
     return {
         "source": SOURCE,
         "made_by": "python -m tools.human_playing",
         "takes": len(beats),
+        "phrases": len(phrases),
         "strokes": sum(int(one.struck.sum()) for one in beats),
-        "timing": timing(beats),
-        "loudness": loudness(beats),
+        "strokes_a_beat": round(sum(int(p.struck.sum()) for p in phrases) / sum(map(len, phrases)), 2),
+        "timing": timing(phrases),
+        "loudness": loudness(phrases),
         "ornaments": ornaments(beats),
     }
+
+
+def _phrases(take: Beats) -> list[Beats]:
+    return [take.of_bars(bar, bar + PHRASE_BARS) for bar in range(0, take.bars - PHRASE_BARS + 1, PHRASE_BARS)]
 
 
 # --- timing -----------------------------------------------------------------------------------------------------------
 
 
-def timing(takes: Sequence[Beats]) -> dict[str, object]:
-    """Quantiles of lateness in ms about a phrase's lean, how strokes go together, the places' own medians."""
-    windows = [one for take in takes for one in _windows(take) if one.struck.sum() >= LEAST_STROKES // 2]
-    struck = [struck_cells(window) for window in windows]
-    leans = [float(np.median(_late(window))) for window in windows]
-    late = np.concatenate([_late(window) - lean for window, lean in zip(windows, leans, strict=True)])
-    place = np.concatenate([places_of(window, cells) for window, cells in zip(windows, struck, strict=True)])
-    instrument = np.concatenate(struck)[:, 2]
-    moment = np.concatenate(
-        [moments_of(w, cells) + 10_000 * at for at, (w, cells) in enumerate(zip(windows, struck, strict=True))]
-    )
-    late = np.clip(late, -MAX_LATE_MS, MAX_LATE_MS)  # what is later belongs to another cell
-    score = norm.ppf((rankdata(late) - 0.5) / len(late))
+def timing(phrases: Sequence[Beats]) -> dict[str, object]:
+    """Leans and spreads in ms, quantiles in spreads, what strokes share, the places' and instruments' own medians."""
+    lean, spread, late, place, instrument = [], [], [], [], []
+    moment, spot = [], []
+    for at, phrase in enumerate(phrases):
+        struck = struck_cells(phrase)
+        own = phrase.late_ms[phrase.struck].astype(np.float64)
+        lean.append(float(np.median(own)))
+        own = np.clip(own - lean[-1], -MAX_LATE_MS, MAX_LATE_MS)
+        spread.append(max(float(own.std()), LEAST_SPREAD_MS))
+        late.append(own / spread[-1])
+        place.append(places_of(phrase, struck))
+        instrument.append(struck[:, 2])
+        moment.append(moments_of(phrase, struck) + at * 10_000)
+        spot.append(at * 10_000 + spots_of(phrase, struck))
+    whole, where, who = np.concatenate(late), np.concatenate(place), np.concatenate(instrument)
+    score = norm.ppf((rankdata(whole) - 0.5) / len(whole))
+    moments = np.concatenate(moment)
+    near, far = (_apart(score, moments, lag) for lag in LAGS)
     return {
-        "quantiles_ms": [round(float(ms), 1) for ms in np.quantile(late, QUANTILES)],
-        "together": round(_correlation(score, moment, 0), 2),
-        "from_last": round(_correlation(score, moment, 1), 2),
-        "lean_sd_ms": round(float(np.std(leans)), 1),
-        "place_ms": {p.name.lower(): round(float(np.median(late[place == p])), 1) for p in StrokePlace},
-        "instrument_ms": {one.name.lower(): round(float(np.median(late[instrument == one])), 1) for one in Instrument},
+        "lean_ms": [round(float(np.mean(lean)), 1), round(float(np.std(lean)), 1)],
+        "spread_ms": round(float(np.median(spread)), 1),
+        "spread_log_sd": round(float(np.std(np.log(spread))), 2),
+        "quantiles": [round(float(v), 2) for v in np.quantile(whole, QUANTILES)],
+        "of_clock": round(_together(score, moments), 2),
+        "from_last": round(float((far / near) ** (1 / (LAGS[1] - LAGS[0]))), 2),
+        "of_spot": round(_together(score, np.concatenate(spot)), 2),
+        "place": {p.name.lower(): round(float(np.median(whole[where == p])), 2) for p in StrokePlace},
+        "instrument": {one.name.lower(): round(float(np.median(whole[who == one])), 2) for one in Instrument},
     }
 
 
-def _correlation(score: Floats, moment: NDArray[np.int64], apart: int) -> float:
-    """Of normal scores of strokes that are so many moments apart."""
-    pairs = [
-        (i, j)
-        for i in range(len(score))
-        for j in range(i + 1, min(i + 9, len(score)))
-        if moment[j] - moment[i] == apart
-    ]
-    before, after = np.array(pairs).T
-    return float(np.corrcoef(score[before], score[after])[0, 1])
+def _together(score: Floats, group: NDArray[np.int64]) -> float:
+    """The mean product of all pairs within a group."""
+    total, pairs = _pairs(score, group)
+    return total / pairs
 
 
-def _windows(take: Beats) -> list[Beats]:
-    return [take.of_bars(bar, bar + WINDOW_BARS) for bar in range(0, take.bars - WINDOW_BARS + 1, WINDOW_BARS)]
+def _pairs(score: Floats, group: NDArray[np.int64]) -> tuple[float, float]:
+    """The sum of the products of all pairs within a group, and how many there are."""
+    inverse = np.unique(group, return_inverse=True)[1]
+    count, whole, square = (np.bincount(inverse, w) for w in (np.ones(len(score)), score, score**2))
+    return float((whole**2 - square).sum() / 2), float((count * (count - 1)).sum() / 2)
 
 
-def _late(beats: Beats) -> Floats:
-    return beats.late_ms[beats.struck].astype(np.float64)
+def _apart(score: Floats, moment: NDArray[np.int64], lag: int) -> float:
+    """The mean product of pairs that are so many moments apart, within a phrase."""
+    numbers, inverse = np.unique(moment, return_inverse=True)
+    whole, count = np.bincount(inverse, score), np.bincount(inverse)
+    same = numbers[lag:] - numbers[:-lag] == lag
+    products, pairs = whole[lag:] * whole[:-lag], count[lag:] * count[:-lag]
+    return float(products[same].sum() / pairs[same].sum())
 
 
 # --- loudness ---------------------------------------------------------------------------------------------------------
 
 
-def loudness(takes: Sequence[Beats]) -> dict[str, object]:
-    """Deciles of velocity by instrument and place, and where the variance of their normal scores comes from."""
-    strokes = np.concatenate([_strokes(at, take) for at, take in enumerate(takes)])
+def loudness(phrases: Sequence[Beats]) -> dict[str, object]:
+    """Deciles of velocity by instrument and place, and what strokes of a phrase share of their normal scores."""
+    strokes = np.concatenate([_strokes(at, phrase) for at, phrase in enumerate(phrases)])
     deciles = {
         instrument.name.lower(): {place.name.lower(): _deciles(strokes, instrument, place) for place in StrokePlace}
         for instrument in Instrument
@@ -115,11 +135,12 @@ def loudness(takes: Sequence[Beats]) -> dict[str, object]:
     return {"deciles": deciles, **_shares(strokes, score)}
 
 
-def _strokes(at: int, take: Beats) -> NDArray[np.int64]:
-    """Take, instrument, place, velocity of each stroke (n, 4)."""
-    struck = struck_cells(take)
-    velocity = take.velocity[take.struck].astype(np.int64)
-    return np.column_stack([np.full(len(struck), at), struck[:, 2], places_of(take, struck), velocity])
+def _strokes(at: int, phrase: Beats) -> NDArray[np.int64]:
+    """Phrase, instrument, place, velocity and spot of each stroke (n, 5)."""
+    struck = struck_cells(phrase)
+    velocity = phrase.velocity[phrase.struck].astype(np.int64)
+    columns = np.full(len(struck), at), struck[:, 2], places_of(phrase, struck), velocity, spots_of(phrase, struck)
+    return np.column_stack(columns)
 
 
 def _deciles(strokes: NDArray[np.int64], instrument: Instrument, place: StrokePlace) -> list[int]:
@@ -129,27 +150,37 @@ def _deciles(strokes: NDArray[np.int64], instrument: Instrument, place: StrokePl
     return [int(v) for v in np.rint(found)]
 
 
-def _shares(strokes: NDArray[np.int64], score: Floats) -> dict[str, float]:
-    """Shares of the variance: of the take, of its way with an instrument and place; what a stroke has of the last."""
-    take = strokes[:, 0]
-    cell = (take * 16 + strokes[:, 1]) * 16 + strokes[:, 2]
-    take_mean, way_mean = _means(take, score), _means(cell, score)
-    rest = score - way_mean
-    order = np.lexsort((np.arange(len(take)), strokes[:, 1], take))  # the strokes of one instrument of a take, in turn
-    same = (take[order][1:] == take[order][:-1]) & (strokes[order, 1][1:] == strokes[order, 1][:-1])
-    before, after = rest[order][:-1][same], rest[order][1:][same]
-    return {
-        "of_take": round(float(take_mean.var() / score.var()), 2),
-        "of_way": round(float((way_mean - take_mean).var() / score.var()), 2),
-        "of_last": round(float(np.corrcoef(before, after)[0, 1]), 2),
-    }
+def _shares(strokes: NDArray[np.int64], score: Floats) -> dict[str, object]:
+    """What all strokes of a phrase share; by instrument what its strokes do, those of a place, and of a spot.
+
+    Every phrase counts once: a solo has a hundred times the pairs of a groove.
+    """
+    phrase = strokes[:, 0]
+    groups = [phrase * 16 + strokes[:, 1]]
+    groups += [groups[0] * 16 + strokes[:, 2], phrase * 10_000 + strokes[:, 4]]
+    found: dict[str, list[float]] = {name: [] for name in ("of_instrument", "of_place", "of_spot")}
+    for instrument in Instrument:
+        rows = strokes[:, 1] == instrument
+        inside = [_phrase_pairs(score[rows], group[rows], phrase[rows]) for group in groups]
+        outer = [(a[0] - b[0], a[1] - b[1]) for a, b in pairwise(inside)]  # pairs that no finer group has
+        for name, level in zip(found, [*outer, inside[-1]], strict=True):
+            found[name].append(round(_mean_of_phrases(*level), 2))
+    whole, own = _phrase_pairs(score, phrase, phrase), _phrase_pairs(score, groups[0], phrase)
+    return {"of_phrase": round(_mean_of_phrases(whole[0] - own[0], whole[1] - own[1]), 2), **found}
 
 
-def _means(group: NDArray[np.int64], score: Floats) -> Floats:
-    """Each stroke's group's mean (n,)."""
-    inverse = np.unique(group, return_inverse=True)[1]
-    means: Floats = (np.bincount(inverse, score) / np.bincount(inverse))[inverse]
-    return means
+def _phrase_pairs(score: Floats, group: NDArray[np.int64], phrase: NDArray[np.int64]) -> tuple[Floats, Floats]:
+    """By phrase the sum of the products of all pairs within its groups, and how many there are."""
+    _, first, inverse = np.unique(group, return_index=True, return_inverse=True)
+    count, whole, square = (np.bincount(inverse, w) for w in (np.ones(len(score)), score, score**2))
+    of_phrase, longest = phrase[first], int(phrase.max()) + 1
+    products, pairs = (whole**2 - square) / 2, count * (count - 1) / 2
+    return np.bincount(of_phrase, products, longest), np.bincount(of_phrase, pairs, longest)
+
+
+def _mean_of_phrases(products: Floats, pairs: Floats) -> float:
+    has = pairs > 0
+    return float((products[has] / pairs[has]).mean()) if has.any() else 0.0
 
 
 # --- ornaments --------------------------------------------------------------------------------------------------------

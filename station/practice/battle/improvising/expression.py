@@ -39,14 +39,14 @@ def _velocity(beats: Beats, opponent: Opponent, plan: Sequence[PlannedBar], rng:
     manner = opponent.manner
     bar = struck_cells(beats)[:, 0] // beats.beats_a_bar
     louder = np.array([one.loudness for one in plan])[bar]
-    plain = _MIDDLE + (human_velocity(beats, rng) - _MIDDLE) * manner.contrast
+    plain = _MIDDLE + (human_velocity(beats, manner.evenness, rng) - _MIDDLE) * manner.contrast
     return np.asarray(np.clip(plain * manner.loudness * louder, 5.0, 127.0))
 
 
 def _late_ms(beats: Beats, opponent: Opponent, ground: Ground, rng: Generator) -> Floats:
     manner, mistakes = opponent.manner, opponent.mistakes
     struck = struck_cells(beats)
-    late = human_late_ms(beats, manner.clock, rng) + manner.lean_ms
+    late = human_late_ms(beats, manner.clock, rng) + manner.lean_ms + manner.lean_spread_ms * rng.normal()
     late += rng.normal(0.0, 1.0, len(struck)) * mistakes.spread_ms
     if _SWINGING in opponent.styles:
         late += swing_ms(beats, ground)[struck[:, 0], struck[:, 1]]

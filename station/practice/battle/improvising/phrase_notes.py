@@ -17,6 +17,7 @@ from station.practice.battle.ground import Ground
 from station.practice.battle.improvising.beat_model import BeatModel
 from station.practice.battle.improvising.beat_steps import PHRASE_BARS, Music, styles_of
 from station.practice.battle.improvising.continuation import continued
+from station.practice.battle.improvising.human_playing import human_playing
 from station.practice.battle.improvising.motif import motif_of, turned
 from station.practice.battle.improvising.phrase_plan import Part, PlannedBar
 from station.practice.battle.improvising.played_beats import Beats, Instrument
@@ -28,13 +29,14 @@ from station.practice.battle.vocabulary.lesson_bars import known_bars
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Who improvises upon what: the opponent, the ground, the plan, the bars that were `heard` and `said`."""
+    """Who improvises upon what: the opponent, the ground, the plan, the bars that were `heard` and `said`, the `model`."""
 
     opponent: Opponent
     ground: Ground
     plan: tuple[PlannedBar, ...]
     heard: tuple[Beats, ...]
     said: tuple[Beats, ...]
+    model: BeatModel
 
 
 def phrase_notes(scene: Scene, rng: Generator) -> Beats:
@@ -52,13 +54,12 @@ def _drafted(scene: Scene, rng: Generator) -> Beats:
     favour = _favour(scene)
     wanted = Wanted(music, manner.boldness, manner.memory, given=given, is_given=is_given, favour=favour)
     context = [*_quotes(scene, 2, rng), *_in_turn(scene)] or [Beats.silent(0, ground.beats_a_bar)]
-    model = BeatModel.load()
-    draft = continued(model, context, len(scene.plan), wanted, rng)
+    draft = continued(scene.model, context, len(scene.plan), wanted, rng)
     off = _density_off(draft, scene)
     if abs(off) <= _DENSITY_OFF:
         return draft
     shifted = favour + np.clip(off * _SHIFTED, -_MOST_SHIFT, _MOST_SHIFT)
-    other = continued(model, context, len(scene.plan), replace(wanted, favour=shifted), rng)
+    other = continued(scene.model, context, len(scene.plan), replace(wanted, favour=shifted), rng)
     return min(draft, other, key=lambda beats: abs(_density_off(beats, scene)))
 
 
@@ -70,11 +71,11 @@ def _density_off(beats: Beats, scene: Scene) -> float:
 def _strokes_a_beat(scene: Scene) -> float:
     """How many strokes a beat the opponent plays at this tempo."""
     slower: float = (_HUMAN_BPM / scene.ground.beats_a_minute) ** _TEMPO_POWER
-    return _HUMAN_STROKES * scene.opponent.manner.density * slower
+    return human_playing().strokes_a_beat * scene.opponent.manner.density * slower
 
 
-_HUMAN_STROKES, _HUMAN_BPM = 4.7, 105.0
-"""Strokes a beat in the Groove MIDI Dataset's takes, and their middle tempo (data/human_playing.json)."""
+_HUMAN_BPM = 105.0
+"""The middle tempo of the Groove MIDI Dataset's takes."""
 _TEMPO_POWER = 0.5
 """Beats that are twice as quick have seven tenths of the strokes (our choice, between as many and half as many)."""
 _DENSITY_OFF, _SHIFTED, _MOST_SHIFT = 0.5, 0.6, 1.5
@@ -141,13 +142,14 @@ def _favour(scene: Scene) -> NDArray[np.float64]:
     favour[:, Instrument.KICK] += log(idiom.kick_share / _USUAL_KICKS)
     toms = 1 - idiom.voices[Piece.SNARE]
     favour[:, _TALK[1:]] += log(max(toms, 0.05) / _USUAL_TOMS)
+    favour *= idiom.strength
     for bar, planned in enumerate(scene.plan):
         rows = slice(bar * a_bar, (bar + 1) * a_bar)
         favour[rows] += log(manner.density * planned.density)
         if planned.part is Part.RETURN:
             late = slice(rows.start + (a_bar + 1) // 2, rows.stop)
-            favour[late, _TALK] += _FILL_TALK
-            favour[late, _TIME] += _FILL_TIME
+            favour[late, _TALK] += _FILL_TALK * manner.fills
+            favour[late, _TIME] += _FILL_TIME * manner.fills
         if planned.air:
             favour[rows.stop - 1] += _RING
     return favour

@@ -43,5 +43,11 @@ def moments_of(beats: Beats, struck: Struck) -> NDArray[np.int64]:
     return np.asarray(np.unique(places, return_inverse=True)[1], np.int64)
 
 
+def spots_of(beats: Beats, struck: Struck) -> NDArray[np.int64]:
+    """The spot of each stroke (n,): a number for its instrument and its place in the bar."""
+    in_bar = struck[:, 0] % beats.beats_a_bar + struck[:, 1] / beats.division[struck[:, 0]]
+    return np.rint(_FINEST * in_bar).astype(np.int64) * 16 + struck[:, 2]
+
+
 _FINEST = 24
 """The least common multiple of the divisions 3, 4, 6 and 8."""

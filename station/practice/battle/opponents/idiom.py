@@ -14,7 +14,7 @@ class Idiom:
     `time_on` is what the right hand keeps time on, `voices` what the hands talk on and how much of the talk each has,
     `kick_share` of the strokes is the feet's, `two_feet` whether both play the kick; `groove_share` how often a phrase
     is a groove rather than a solo; `pedal_on` the beats of the bar, from 0, on which the hi-hat foot falls; `ghosts`
-    how many of the soft strokes are ghosts.
+    how many of the soft strokes are ghosts. `strength` scales what all this adds to what drummers play in general.
     """
 
     time_on: Piece = Piece.HIHAT
@@ -24,6 +24,7 @@ class Idiom:
     groove_share: float = 0.5
     pedal_on: tuple[int, ...] = (1, 3)
     ghosts: float = 0.5
+    strength: float = 1.0
 
 
 def _voices(snare: float, high: float, middle: float, floor: float) -> Mapping[Piece, float]:
@@ -40,3 +41,4 @@ METAL = Idiom(
 ROCK = Idiom(voices=_voices(0.55, 0.16, 0.12, 0.17), kick_share=0.28, groove_share=0.55, ghosts=0.3)
 PLAIN = Idiom(voices=_voices(0.85, 0.05, 0.02, 0.08), kick_share=0.25, groove_share=0.8, ghosts=0.0)
 STEADY = Idiom(voices=_voices(0.7, 0.1, 0.08, 0.12), kick_share=0.28, groove_share=0.7, ghosts=0.4)
+ANYBODY = Idiom(voices=_voices(0.75, 0.1, 0.05, 0.1), strength=0.0)

@@ -11,7 +11,7 @@ from types import MappingProxyType
 from station.core.did_you_mean import did_you_mean
 from station.core.errors import BadInput
 from station.practice.battle.ground import Feel, Ground
-from station.practice.battle.opponents.idiom import JAZZ, METAL, PLAIN, POCKET, ROCK, STEADY, Idiom
+from station.practice.battle.opponents.idiom import ANYBODY, JAZZ, METAL, PLAIN, POCKET, ROCK, STEADY, Idiom
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,8 +34,11 @@ class Manner:
     what was heard; `memory` 0–1.5 what the student's and its own last bars weigh against what drummers play in general,
     1 as predicts them best (`Wanted`). `density` scales the strokes a beat; `quotes` 0–1 is how often a bar of its own
     is one that its lessons taught it; `air` 0–1 is how often a bar's end is left to ring; `loudness` scales velocities
-    and `contrast` their distance from the middle; `ornaments` is how much is dressed, 0.1 as drummers do; `clock`
-    scales a human's spread of timing and `lean_ms` is where it sits (behind the beat positive).
+    and `contrast` their distance from the middle; `ornaments` is how much is dressed, 0.1 as drummers do; `fills`
+    is how sure a phrase ends in a fill; `clock`
+    scales a human's spread of timing and `lean_ms` is where it sits: before the click, as drummers do (HUMANS, Timing;
+    −13 in the Groove MIDI Dataset). `lean_spread_ms` is how far its phrases lean apart, `evenness` 0–1 how alike
+    they are in loudness.
     """
 
     boldness: float = 0.5
@@ -47,8 +50,11 @@ class Manner:
     loudness: float = 1.0
     contrast: float = 1.0
     ornaments: float = 0.1
+    fills: float = 1.0
     clock: float = 1.0
-    lean_ms: float = 0.0
+    lean_ms: float = -13.0
+    evenness: float = 0.5
+    lean_spread_ms: float = 6.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,7 +88,7 @@ _ALL = (
         motion_style="funk",
         figure="curls",
         ground=Ground(96, style="funk"),
-        manner=Manner(boldness=0.45, takes_up=0.35, density=0.95, contrast=1.15, ornaments=0.12, clock=0.8, lean_ms=8),
+        manner=Manner(boldness=0.45, takes_up=0.35, density=0.95, contrast=1.15, ornaments=0.12, clock=0.8, lean_ms=2),
         idiom=POCKET,
         vocabulary=("funk", "soul", "hip-hop", "ghosts", "linear", "new-orleans"),
         styles=("funk",),
@@ -165,7 +171,7 @@ _ALL = (
         motion_style="natural",
         figure="any",
         ground=Ground(92, style="rock"),
-        manner=Manner(boldness=0.35, takes_up=0.5, density=0.9, air=0.08, contrast=0.9, clock=0.5),
+        manner=Manner(boldness=0.35, takes_up=0.5, density=0.9, air=0.08, contrast=0.9, clock=0.6, lean_ms=-8, evenness=0.8),
         idiom=STEADY,
         vocabulary=("rock", "fill", "soul", "country"),
         styles=("rock",),
@@ -184,3 +190,18 @@ def find_opponent(name: str) -> Opponent:
     if name not in OPPONENTS:
         raise BadInput("opponent", name, f"no such drummer{did_you_mean(name, OPPONENTS)}")
     return OPPONENTS[name]
+
+
+ANY_DRUMMER = Opponent(
+    name="any",
+    title="Any drummer",
+    about="Nobody in particular: what the model has learned, with a human's touch.",
+    motion_style="natural",
+    figure="any",
+    ground=Ground(),
+    manner=Manner(quotes=0.0, air=0.0, fills=0.3, evenness=0.0, lean_spread_ms=16.0),
+    idiom=ANYBODY,
+    vocabulary=(),
+    styles=(),
+)
+"""Who is held against human drummers by measure; no student meets it."""
