@@ -70,9 +70,9 @@ def timing(phrases: Sequence[Beats]) -> dict[str, object]:
         struck = struck_cells(phrase)
         own = phrase.late_ms[phrase.struck].astype(np.float64)
         lean.append(float(np.median(own)))
-        own = np.clip(own - lean[-1], -MAX_LATE_MS, MAX_LATE_MS)
         spread.append(max(float(own.std()), LEAST_SPREAD_MS))
-        late.append(own / spread[-1])
+        own = np.clip(own - lean[-1], -MAX_LATE_MS, MAX_LATE_MS)
+        late.append(own / max(float(own.std()), LEAST_SPREAD_MS))
         place.append(places_of(phrase, struck))
         instrument.append(struck[:, 2])
         moment.append(moments_of(phrase, struck) + at * 10_000)
@@ -163,10 +163,20 @@ def _shares(strokes: NDArray[np.int64], score: Floats) -> dict[str, object]:
         rows = strokes[:, 1] == instrument
         inside = [_phrase_pairs(score[rows], group[rows], phrase[rows]) for group in groups]
         outer = [(a[0] - b[0], a[1] - b[1]) for a, b in pairwise(inside)]  # pairs that no finer group has
-        for name, level in zip(found, [*outer, inside[-1]], strict=True):
-            found[name].append(round(_mean_of_phrases(*level), 2))
+        levels = [*(_mean_of_phrases(*level) for level in outer), _of_spot(score[rows], groups[-1][rows])]
+        for name, level in zip(found, levels, strict=True):
+            found[name].append(round(level, 2))
     whole, own = _phrase_pairs(score, phrase, phrase), _phrase_pairs(score, groups[0], phrase)
     return {"of_phrase": round(_mean_of_phrases(whole[0] - own[0], whole[1] - own[1]), 2), **found}
+
+
+def _of_spot(score: Floats, spot: NDArray[np.int64]) -> float:
+    """What strokes of one spot share in a usual phrase: by the median of their change from one to the next."""
+    order = np.argsort(spot, kind="stable")
+    same = spot[order][1:] == spot[order][:-1]
+    change = np.abs(np.diff(score[order])[same])
+    own = (float(np.median(change)) / (0.6745 * 2**0.5)) ** 2  # of a normal number, whose median size is 0.6745
+    return 1 - own
 
 
 def _phrase_pairs(score: Floats, group: NDArray[np.int64], phrase: NDArray[np.int64]) -> tuple[Floats, Floats]:
@@ -175,7 +185,11 @@ def _phrase_pairs(score: Floats, group: NDArray[np.int64], phrase: NDArray[np.in
     count, whole, square = (np.bincount(inverse, w) for w in (np.ones(len(score)), score, score**2))
     of_phrase, longest = phrase[first], int(phrase.max()) + 1
     products, pairs = (whole**2 - square) / 2, count * (count - 1) / 2
-    return np.bincount(of_phrase, products, longest), np.bincount(of_phrase, pairs, longest)
+    return _sums(of_phrase, products, longest), _sums(of_phrase, pairs, longest)
+
+
+def _sums(group: NDArray[np.int64], values: Floats, groups: int) -> Floats:
+    return np.bincount(group, values, groups).astype(np.float64)
 
 
 def _mean_of_phrases(products: Floats, pairs: Floats) -> float:

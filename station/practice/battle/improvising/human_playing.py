@@ -26,6 +26,8 @@ HUMAN_PLAYING = Path(__file__).parents[1] / "data" / "human_playing.json"
 """Measured on the Groove MIDI Dataset (Gillick et al. 2019, CC BY 4.0)."""
 QUANTILES = (0.0, 0.005, 0.02, 0.05, *np.linspace(0.1, 0.9, 17).tolist(), 0.95, 0.98, 0.995, 1.0)
 """Where the distribution of lateness is kept: its tails closer than its middle."""
+_ENOUGH = 12
+"""So many strokes have a spread of their own (our choice)."""
 Floats = NDArray[np.float64]
 
 
@@ -100,6 +102,8 @@ def human_late_ms(beats: Beats, spread: float, rng: Generator) -> Floats:
     late = np.interp(_ranks(score), QUANTILES, table.late)
     late += table.place[places_of(beats, struck)] + table.instrument[struck[:, 2]]
     wide = table.spread_ms * float(np.exp(table.spread_log_sd * np.clip(rng.normal(), -2, 2)))
+    if len(struck) >= _ENOUGH:
+        late /= late.std()  # the table's unit is the spread of the phrase itself
     return np.asarray(np.clip(spread * wide * late, -MAX_LATE_MS, MAX_LATE_MS))
 
 

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from station.core.pieces import DRUMS, Dynamic, Limb, Piece
 from station.music.score import NOTE_DTYPE, Note, Score
 from station.practice.battle.ground import Ground
-from station.practice.battle.improvising.beat_model import BeatModel
 from station.practice.battle.improvising.expression import expressed
 from station.practice.battle.improvising.human_playing import human_playing
 from station.practice.battle.improvising.phrase_notes import Scene, phrase_notes
@@ -39,22 +38,14 @@ _HUMAN_ORNAMENTS = 0.1
 
 
 def improvised(
-    opponent: Opponent,
-    ground: Ground,
-    bars: int,
-    heard: Sequence[Turn],
-    said: Sequence[Turn],
-    rng: Generator,
-    model: BeatModel | None = None,
+    opponent: Opponent, ground: Ground, bars: int, heard: Sequence[Turn], said: Sequence[Turn], rng: Generator
 ) -> Phrase:
     """So many bars that `opponent` improvises after the student's turns `heard` and its own `said`, each in order.
 
-    The same for the same state of `rng`. Every stroke can be played, and its limb is written. `model` is the one that
-    ships unless another is given.
+    The same for the same state of `rng`. Every stroke can be played, and its limb is written.
     """
     plan = phrase_plan(opponent.manner, bars, rng)
-    model = BeatModel.load() if model is None else model
-    scene = Scene(opponent, ground, plan, _last(heard, _HEARD_BARS), _last(said, _SAID_BARS), model)
+    scene = Scene(opponent, ground, plan, _last(heard, _HEARD_BARS), _last(said, _SAID_BARS))
     beats = expressed(phrase_notes(scene, rng), opponent, plan, ground, rng)
     score = _played(beats, scene, rng)
     lands = rng.random() < _LANDS * (1 - opponent.mistakes.lost_one)

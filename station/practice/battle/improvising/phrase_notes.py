@@ -29,14 +29,13 @@ from station.practice.battle.vocabulary.lesson_bars import known_bars
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Who improvises upon what: the opponent, the ground, the plan, the bars that were `heard` and `said`, the `model`."""
+    """Who improvises upon what: the opponent, the ground, the plan, the bars that were `heard` and `said`."""
 
     opponent: Opponent
     ground: Ground
     plan: tuple[PlannedBar, ...]
     heard: tuple[Beats, ...]
     said: tuple[Beats, ...]
-    model: BeatModel
 
 
 def phrase_notes(scene: Scene, rng: Generator) -> Beats:
@@ -54,12 +53,13 @@ def _drafted(scene: Scene, rng: Generator) -> Beats:
     favour = _favour(scene)
     wanted = Wanted(music, manner.boldness, manner.memory, given=given, is_given=is_given, favour=favour)
     context = [*_quotes(scene, 2, rng), *_in_turn(scene)] or [Beats.silent(0, ground.beats_a_bar)]
-    draft = continued(scene.model, context, len(scene.plan), wanted, rng)
+    model = BeatModel.load()
+    draft = continued(model, context, len(scene.plan), wanted, rng)
     off = _density_off(draft, scene)
     if abs(off) <= _DENSITY_OFF:
         return draft
     shifted = favour + np.clip(off * _SHIFTED, -_MOST_SHIFT, _MOST_SHIFT)
-    other = continued(scene.model, context, len(scene.plan), replace(wanted, favour=shifted), rng)
+    other = continued(model, context, len(scene.plan), replace(wanted, favour=shifted), rng)
     return min(draft, other, key=lambda beats: abs(_density_off(beats, scene)))
 
 

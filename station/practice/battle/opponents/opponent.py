@@ -171,7 +171,9 @@ _ALL = (
         motion_style="natural",
         figure="any",
         ground=Ground(92, style="rock"),
-        manner=Manner(boldness=0.35, takes_up=0.5, density=0.9, air=0.08, contrast=0.9, clock=0.6, lean_ms=-8, evenness=0.8),
+        manner=Manner(
+            boldness=0.35, takes_up=0.5, density=0.9, air=0.08, contrast=0.9, clock=0.6, lean_ms=-8, evenness=0.8
+        ),
         idiom=STEADY,
         vocabulary=("rock", "fill", "soul", "country"),
         styles=("rock",),

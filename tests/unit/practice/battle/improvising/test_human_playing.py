@@ -46,9 +46,9 @@ def test_backbeats_are_louder_than_what_lies_between() -> None:
 def test_velocities_are_midi_and_as_wide_as_a_humans() -> None:
     """HUMANS, Velocity: 15–21 within a take and place, so more over places."""
     rng = np.random.default_rng(3)
-    spreads = [human_velocity(_groove(16), rng).std() for _ in range(40)]
+    spreads = [human_velocity(_groove(16), 0.0, rng).std() for _ in range(40)]
     assert 10 < np.mean(spreads) < 40
-    values = human_velocity(_groove(64), rng)
+    values = human_velocity(_groove(64), 0.0, rng)
     assert values.min() >= 1
     assert values.max() <= 127
 
