@@ -32,6 +32,19 @@ def address_of(written: str, port: int = DEFAULT_PORT) -> Address:
     return str(name), int(number)
 
 
+def own_address() -> str | None:
+    """The address under which others of this network reach this computer; None where it is in no network.
+
+    No datagram is sent: the system says only which way it would go to an address that nobody has (RFC 5737).
+    """
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as asked:
+        try:
+            asked.connect(("192.0.2.1", DEFAULT_PORT))
+        except OSError:
+            return None
+        return str(asked.getsockname()[0])
+
+
 class LinkSocket:
     """A socket bound to `host` and `port`, 0 for any; raises `DeviceError` where it cannot be had."""
 

@@ -11,6 +11,7 @@ from enum import Enum
 from typing import Literal
 
 from station.core.errors import BadInput
+from station.core.events import Hit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.engine.messages import AddCues, Annotate, Command, EngineEvent, Play, Stop, Unheard
 from station.practice.battle.battle import ARRIVES_NS
@@ -40,6 +41,7 @@ from station.practice.battle.records.battle_log import (
     TurnChosen,
     battle_text,
 )
+from station.practice.battle.repeating.live_answer import LiveAnswer
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.session.cues.stroke_cues import in_order, moved_by
 from station.practice.session.device_latency import Latency
@@ -90,6 +92,8 @@ class LinkedBattle:
         """The sides that asked for a pause."""
         self.plan: list[PlannedTurn] = []
         """What was and will be played here, bar after bar."""
+        self.live: dict[int, LiveAnswer] = {}
+        """Our answers by the indices of their turns, as they are shown while they are played."""
         self._line = line
         self._is_last_chosen = self._said_outcome = self._stands_next = False
         self._own = 0  # the first of the plan that may be a turn of ours that is not over
@@ -168,10 +172,19 @@ class LinkedBattle:
 
     def handle(self, event: EngineEvent) -> tuple[Command, ...]:
         """Take one event."""
-        self.ear.handle(event)
+        stroke = self.ear.handle(event)
+        if stroke is not None:
+            self._show(stroke)
         if isinstance(event, Unheard):
             return (_kept(BattleUnheard(event.from_ns, event.until_ns)),)
         return ()
+
+    def _show(self, stroke: Hit) -> None:
+        """Judge a stroke for the view, as soon as it comes."""
+        for turn in self.plan[self._own :]:
+            if turn.phrase is not None and self.ear.strokes.is_of(turn, stroke):
+                live = self.live.setdefault(turn.index, LiveAnswer(turn.phrase, self._ns(turn.first_bar)))
+                live.hit(stroke)
 
     def advance(self, now_ns: int) -> tuple[Command, ...]:
         """Tell the session time: what was played is sent, what was said is taken, what comes next sounds."""
@@ -206,13 +219,24 @@ class LinkedBattle:
             return ()
         return (_kept(TurnChosen(turn)), AddCues(moved_by(turn_cues(self.rules, turn), self._zero_ns)))
 
+    @property
+    def _own_turn(self) -> PlannedTurn | None:
+        """Our turn that runs or comes next, or whose last stroke may still come."""
+        return next((one for one in self.plan[self._own :] if self._is_own(one)), None)
+
+    def _bar_whole_ns(self, turn: PlannedTurn) -> int | None:
+        """When the next bar of our turn has come whole; None where all were sent."""
+        if self._own_bars == turn.bars:
+            return None
+        return self._ns(turn.first_bar + self._own_bars + 1) - self.rules.early_ns + ARRIVES_NS
+
     def _send_own(self, at_ns: int) -> bool:
         """Send what of a turn of ours is whole; whether there was something."""
-        turn = next((one for one in self.plan[self._own :] if self._is_own(one)), None)
+        turn = self._own_turn
         if turn is None:
             return False
-        whole_ns = self._ns(turn.first_bar + self._own_bars + 1) - self.rules.early_ns + ARRIVES_NS
-        if self._own_bars < turn.bars and at_ns >= whole_ns:
+        whole_ns = self._bar_whole_ns(turn)
+        if whole_ns is not None and at_ns >= whole_ns:
             self.rounds.bar_played(turn.round, self._own_bars, self.ear.turn(turn))
             self._own_bars += 1
             return True
@@ -309,6 +333,21 @@ class LinkedBattle:
         if self.ended is None:
             self.ended = why
             self._line.send(Bye(_BYES[why]))
+
+    @property
+    def at_ns(self) -> int | None:
+        """Battle time now; None while the transport stands."""
+        return self.ear.at_ns
+
+    @property
+    def began_ns(self) -> int | None:
+        """The session time at which battle time 0 was heard; None while the transport stands."""
+        return None if self.at_ns is None else self.ear.now_ns - self.at_ns
+
+    @property
+    def started(self) -> bool:
+        """Whether the transport runs or ran."""
+        return self.at_ns is not None or self.standing
 
     # --- time -------------------------------------------------------------------------------------------------------
 

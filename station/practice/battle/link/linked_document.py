@@ -1,51 +1,73 @@
-"""The document of a battle of two stations: what was agreed, every turn with both judgements, who won, the digests."""
+"""What is kept of a battle of two stations: the result as of any battle, and how both ends came to agree on it."""
 
-from station.practice.battle.battle_result import standings, winner_of
+from dataclasses import replace
+
+from station.practice.battle.battle_result import BattleResult, JudgedTurn
 from station.practice.battle.link.link_messages import Claim
 from station.practice.battle.link.linked_battle import LinkedBattle, LinkEnd
 from station.practice.battle.link.linked_record import SharedTurn
-from station.practice.battle.link.linked_rules import Agreed
-from station.practice.battle.records.rules_fields import rules_fields
-
-SCHEMA = "drum-station/linked-battle/1"
+from station.scoring.report.assessment_document import Json
 
 
-def linked_document(battle: LinkedBattle) -> dict[str, object]:
-    """Plain JSON; `winner` is a side (1 the host, 2 the joiner), None where nothing was decided."""
-    rules, shared = battle.rules, battle.rounds.shared
-    judged = shared.judged()
-    sides = standings(rules, judged)[1:]
+def linked_result(battle: LinkedBattle) -> BattleResult:
+    """The turns that stand, of both players, where this station played or heard them."""
+    here = {(turn.round, turn.side): turn for turn in reversed(battle.plan)}
+    turns: list[JudgedTurn] = []
+    for turn in battle.rounds.shared.judged():
+        planned = here.get((turn.planned.round, turn.planned.side))
+        first_bar = 0 if planned is None else planned.first_bar
+        turns.append(replace(turn, planned=replace(turn.planned, first_bar=first_bar)))
+    devices: list[str | None] = [None, None, None]
+    devices[battle.agreed.our_side] = battle.heard.devices[-1] if battle.heard.devices else None
+    is_complete = battle.ended is LinkEnd.COMPLETE
+    return BattleResult(battle.rules, tuple(turns), is_complete, battle.latency, battle.heard.output, tuple(devices))
+
+
+def network_fields(battle: LinkedBattle) -> dict[str, Json]:
+    """How the two stations agree: plain JSON, for the document's `network`."""
+    agreed, shared = battle.agreed, battle.rounds.shared
     return {
-        "schema": SCHEMA,
-        "rules": rules_fields(rules),
-        "we_host": battle.agreed.is_host,
-        "sides": [
-            {
-                "side": side,
-                "name": rules.player_of(side).name,
-                "level": battle.agreed.level_of(side).value,
-                "points": one.points,
-                "lives": one.lives,
-                "rounds_won": one.rounds_won,
-            }
-            for side, one in zip(rules.player_sides, sides, strict=True)
-        ],
-        "turns": [_turn_fields(battle.agreed, one) for one in shared.standing()],
-        "ended": battle.ended.name.lower() if battle.ended else None,
+        "hosts": agreed.is_host,
+        "stations": [agreed.host.station, agreed.joiner.station],
+        "levels": [agreed.host.level.value, agreed.joiner.level.value],
+        "programs": [agreed.host.program, agreed.joiner.program],
+        "ended": None if battle.ended is None else battle.ended.name.lower(),
         "fault": battle.fault,
-        "winner": winner_of(rules, judged, battle.ended is LinkEnd.COMPLETE),
         "digest": shared.digest,
         "their_digest": battle.their_digest,
         "agree": not shared.disputed and battle.their_digest == shared.digest,
+        "turns": [_turn_fields(one) for one in shared.standing()],
     }
 
 
-def _turn_fields(agreed: Agreed, shared: SharedTurn) -> dict[str, object]:
+def network_report(battle: LinkedBattle) -> str:
+    """The same in words, in lines that end."""
+    agreed, shared = battle.agreed, battle.rounds.shared
+    lines = [
+        f"Over the network: {agreed.host.station} hosts, {agreed.joiner.station} joined.",
+        *([] if battle.ended is None else [f"The battle ended: {battle.ended.value}."]),
+        *([battle.fault] if battle.fault else []),
+        *(
+            f"Round {one.round}, {agreed.rules.player_of(one.side).name}: the stations judge it otherwise; nobody gets it."
+            for one in shared.disputed
+        ),
+        f"Record {shared.digest}: {_digest_words(battle)}.",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _digest_words(battle: LinkedBattle) -> str:
+    if battle.their_digest is None:
+        return "the other station has not said what it has"
+    same = battle.their_digest == battle.rounds.shared.digest
+    return "the other station has the same" if same else f"the other station has {battle.their_digest}"
+
+
+def _turn_fields(shared: SharedTurn) -> dict[str, Json]:
     assert shared.checked is not None, "it stands"
     return {
         "round": shared.round,
         "side": shared.side,
-        "name": agreed.rules.player_of(shared.side).name,
         "step": shared.step,
         "strokes": len(shared.turn.played),
         "claim": _claim_fields(shared.claim),
@@ -54,6 +76,6 @@ def _turn_fields(agreed: Agreed, shared: SharedTurn) -> dict[str, object]:
     }
 
 
-def _claim_fields(claim: Claim) -> dict[str, object]:
-    figures = {figure.name: figure.value for figure in claim.figures}
+def _claim_fields(claim: Claim) -> dict[str, Json]:
+    figures: dict[str, Json] = {figure.name: figure.value for figure in claim.figures}
     return {"points": claim.points, "won": claim.won, "figures": figures}

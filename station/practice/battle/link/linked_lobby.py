@@ -55,6 +55,7 @@ class HostLobby:
         match message:
             case Hello() if self._guest is None:
                 self._guest = message
+                self.notices.append(f"{message.player} at {message.station} has come")
                 self._line.send(self._hello)
                 self._line.send(self._offer)
             case Accept() if self._guest is not None:
@@ -72,9 +73,13 @@ class HostLobby:
 
 
 class GuestLobby:
-    """The joiner's: `advance` until it gives what both agree on; it accepts what can be played."""
+    """The joiner's: `advance` until it gives what both agree on; it accepts what can be played.
+
+    `notices` say whose battle it is.
+    """
 
     def __init__(self, line: LinkLine, knock: Knock, hello: Hello, own: BattleRules) -> None:
+        self.notices: list[str] = []
         self._line, self._knock, self._hello, self._own = line, knock, hello, own
         self._host: Hello | None = None
         self._since_ns: int | None = None
@@ -107,6 +112,7 @@ class GuestLobby:
         match message:
             case Hello() if self._host is None:
                 self._host = message
+                self.notices.append(f"{message.player} at {message.station} hosts")
             case Offer() if self._host is not None:
                 found = agreed(message, self._host, self._hello, is_host=False, own=self._own)
                 self._line.send(Accept())

@@ -70,7 +70,7 @@ def _message(battle: LinkedBattle, running: int | None) -> str:
 
 def _turn_view(battle: LinkedBattle, turn: PlannedTurn) -> TurnView:
     shared = battle.rounds.shared.turns.get((turn.round, turn.side))
-    is_own = turn.kind is TurnKind.ANSWER
+    live = battle.live.get(turn.index)
     return TurnView(
         index=turn.index,
         round=turn.round,
@@ -81,7 +81,8 @@ def _turn_view(battle: LinkedBattle, turn: PlannedTurn) -> TurnView:
         phrase=turn.phrase,
         keeping=turn.keeping,
         step=turn.step,
-        played=battle.ear.strokes.of(turn) if is_own else (),
+        played=battle.ear.strokes.of(turn) if live is None else live.played,
+        judged=() if live is None else live.judged,
         marks=None if shared is None or turn.kind is TurnKind.CHANGEOVER else shared.marks,
     )
 

@@ -36,7 +36,8 @@ def test_a_bar_sounds_as_it_was_played() -> None:
     assert phrase.score.onset_ns.tolist() == pytest.approx([-50e6, 123_456_789, 500e6], abs=5_000)  # a tick
     kick, hat, crash = phrase.score
     assert (kick.velocity, kick.limb, kick.midi_note, kick.openness) == (30, Limb.RIGHT_FOOT, 36, None)
-    assert (hat.zone, hat.velocity, hat.openness) == (Zone.EDGE, 101, pytest.approx(0.4))
+    assert (hat.zone, hat.velocity) == (Zone.EDGE, 101)
+    assert hat.openness == pytest.approx(0.4)
     assert crash.choke_ticks == GROUND.bar_ticks // 4  # half a second
 
 

@@ -13,7 +13,7 @@ from station.practice.battle.ground import Ground
 from station.practice.battle.link.link_datagram import Kind, headed
 from station.practice.battle.link.link_messages import Claim, Message, PlayedBar, PlayedTurn
 from station.practice.battle.link.linked_battle import LONGEST_CUT_NS, LinkedBattle, LinkEnd
-from station.practice.battle.link.linked_document import linked_document
+from station.practice.battle.link.linked_document import linked_result, network_fields, network_report
 from station.practice.battle.link.linked_view import linked_view
 from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.battle.turn_plan import TurnKind
@@ -82,10 +82,12 @@ def test_over_a_bad_network_both_ends_agree_on_every_judgement(mode: BattleMode)
     assert len(claims(host)) == 2 * 3
     assert all(claim == checked for _, _, claim, checked in claims(host))
     assert host.rounds.shared.digest == guest.rounds.shared.digest == host.their_digest == guest.their_digest
-    ours, theirs = linked_document(host), linked_document(guest)
+    ours, theirs = network_fields(host), network_fields(guest)
     assert ours["agree"] is theirs["agree"] is True
-    for key in ("turns", "sides", "winner", "digest"):
-        assert ours[key] == theirs[key]
+    assert ours["turns"] == theirs["turns"]
+    assert linked_result(host).standings == linked_result(guest).standings
+    assert linked_result(host).winner == linked_result(guest).winner
+    assert f"Record {host.their_digest}: the other station has the same." in network_report(guest)
 
 
 def test_the_networks_delay_counts_in_no_judgement(mode: BattleMode) -> None:
@@ -175,7 +177,8 @@ def test_who_vanishes_ends_the_battle_for_the_other_and_what_stands_is_kept(mode
     assert guest.battle is not None
     kept = claims(host)
     assert kept == claims(guest.battle)[: len(kept)]
-    assert linked_document(host)["agree"] is False  # nobody said what they have
+    assert network_fields(host)["agree"] is False  # nobody said what they have
+    assert not linked_result(host).is_complete
 
 
 def test_who_leaves_says_so(mode: BattleMode) -> None:
@@ -196,7 +199,7 @@ def test_a_child_may_beat_a_parent_by_windows_of_their_own() -> None:
     strict = TwoStations(rules(BattleMode.REPEAT), Network(), (repeats(20.0), repeats(40.0)))
     for pair in (sloppy, strict):
         pair.run(100)
-    points = [[side["points"] for side in linked_document(battles(pair)[1])["sides"]] for pair in (sloppy, strict)]  # type: ignore[attr-defined]
+    points = [[side.points for side in linked_result(battles(pair)[1]).standings[1:]] for pair in (sloppy, strict)]
     assert points[0][0] < points[1][0]  # ±5 ms instead of ±15
     assert points[0][1] > points[1][1]  # ±30 ms instead of ±15
 
@@ -230,7 +233,8 @@ def test_a_claim_that_the_strokes_do_not_bear_out_counts_for_nobody_and_is_shown
     host, guest = battles(stations)
     assert [one.side for one in host.rounds.shared.disputed] == [2, 2, 2]
     assert host.rounds.shared.digest != guest.rounds.shared.digest  # whatever the guest's own record says
-    assert linked_document(host)["agree"] is linked_document(guest)["agree"] is False
+    assert network_fields(host)["agree"] is network_fields(guest)["agree"] is False
+    assert "Round 2, Ben: the stations judge it otherwise" in network_report(host)
     sides = linked_view(host).sides
     assert sides[2].points == 0
     assert (sides[1].points or 0) > 0
