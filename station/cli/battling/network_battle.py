@@ -6,6 +6,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from time import sleep
 
+from station.practice.battle.drummed import drummed
+from station.practice.battle.records.battle_document import battle_document
+from station.practice.battle.records.battle_folder import DOCUMENT_NAME, BattleFolder
+from station.practice.battle.records.battle_report import battle_report
+
 from station.cli.battling.network_options import LIST, NetworkOptions
 from station.cli.console import print_json, say, write
 from station.core.clock import Clock, MonotonicClock
@@ -15,15 +20,11 @@ from station.core.measured_latency import load_calibration
 from station.core.settings import Settings
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
-from station.practice.battle.drummed import drummed
 from station.practice.battle.link.link_socket import address_of, own_address
 from station.practice.battle.link.linked_battle import LinkedBattle
 from station.practice.battle.link.linked_document import linked_result, network_fields, network_report
 from station.practice.battle.link.linked_rules import Agreed
 from station.practice.battle.link.linked_station import LinkedStation, hosts_here, introduction
-from station.practice.battle.records.battle_document import battle_document
-from station.practice.battle.records.battle_folder import DOCUMENT_NAME, BattleFolder
-from station.practice.battle.records.battle_report import battle_report
 from station.practice.battle.rules import BattleRules
 from station.practice.headless.end_signals import end_asked
 from station.practice.headless.linked_live import ROUND_S, LinkedSetup, meet, play_linked

@@ -1,4 +1,4 @@
-"""A battle of two stations as a terminal shows it while it is played: who plays, who is waited for, what it was worth."""
+"""A battle of two stations as a terminal shows it: who plays, who is waited for, what each turn was worth."""
 
 from collections.abc import Callable
 
@@ -9,8 +9,6 @@ from station.practice.battle.link.linked_record import SharedTurn
 from station.practice.battle.link.linked_view import linked_view
 from station.practice.battle.repeating.answer_marks import AnswerMarks
 from station.practice.battle.turn_plan import TurnKind
-
-_VERBS = {TurnKind.CALL: "plays", TurnKind.ANSWER: "answers"}
 
 
 class LinkedText:
@@ -49,7 +47,8 @@ def _now(view: BattleView) -> str:
     if view.message or view.turn is None:
         return view.message or ("count-in" if view.doing is Doing.COUNT_IN else "")
     turn = view.turns[view.turn]
-    return f"{view.sides[turn.side].name} {_VERBS[turn.kind]}"
+    repeats = turn.kind is TurnKind.ANSWER and turn.phrase is not None
+    return f"{view.sides[turn.side].name} {'answers' if repeats else 'plays'}"
 
 
 def _worth(shared: SharedTurn, view: BattleView) -> str:

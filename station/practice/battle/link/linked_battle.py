@@ -162,8 +162,8 @@ class LinkedBattle:
 
     @property
     def is_cut(self) -> bool:
-        """Whether the other station has not been heard for too long."""
-        return self._line.is_cut(self.ear.now_ns)
+        """Whether the other station has not been heard for too long, and had not said yet that it has all."""
+        return self.their_digest is None and self._line.is_cut(self.ear.now_ns)
 
     def update(self, now_ns: int, events: Iterable[EngineEvent]) -> tuple[Command, ...]:
         """Take all `events`, then move on to the present."""

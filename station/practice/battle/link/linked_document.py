@@ -48,12 +48,16 @@ def network_report(battle: LinkedBattle) -> str:
         *([] if battle.ended is None else [f"The battle ended: {battle.ended.value}."]),
         *([battle.fault] if battle.fault else []),
         *(
-            f"Round {one.round}, {agreed.rules.player_of(one.side).name}: the stations judge it otherwise; nobody gets it."
+            f"Round {one.round}, {_name(battle, one)}: the stations judge it otherwise; nobody gets it."
             for one in shared.disputed
         ),
         f"Record {shared.digest}: {_digest_words(battle)}.",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _name(battle: LinkedBattle, shared: SharedTurn) -> str:
+    return battle.rules.player_of(shared.side).name
 
 
 def _digest_words(battle: LinkedBattle) -> str:
