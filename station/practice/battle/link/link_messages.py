@@ -28,6 +28,8 @@ MOST_SPANS, MOST_FIGURES = 64, 32
 """Times in a turn in which a kit was not heard, and figures of a judgement (our choices)."""
 MOST_FRACTION = 1 - 2**-24
 """The greatest number of 32 bits below 1."""
+MOST_OFF_MS = 250.0
+"""How far a written stroke may sound from its tick (our choice: several times what a drummer's own timing may be)."""
 FARTHEST_NS = 10**12
 """Of a time in a turn: sixteen bars of nine slow beats take half of it (our choice)."""
 
@@ -108,8 +110,8 @@ class WrittenStroke(_Row, frozen=True):
     duration_ticks: Ticks
     choke_ticks: Ticks
     swing_ticks: Ticks
-    lead_ms: Annotated[float, Meta(ge=0, le=1000)]
-    late_ms: Annotated[float, Meta(ge=-1000, le=1000)]
+    lead_ms: Annotated[float, Meta(ge=0, le=MOST_OFF_MS)]
+    late_ms: Annotated[float, Meta(ge=-MOST_OFF_MS, le=MOST_OFF_MS)]
     openness: Fraction | None
 
 

@@ -76,9 +76,13 @@ def called(phrase: Phrase, number: int, step: int) -> Called:
 def phrase_of(said: Called, ground: Ground, source: str) -> Phrase:
     """The phrase that the host calls; raises `BadInput` of `source` for a stroke outside its bars."""
     end_tick = said.bars * ground.bar_ticks
-    far = next((stroke.tick for stroke in said.strokes if stroke.tick >= end_tick), None)
-    if far is not None or any(stroke.tick for stroke in said.landing):
+    if any(stroke.tick >= end_tick for stroke in said.strokes) or any(stroke.tick for stroke in said.landing):
         raise BadInput(source, f"phrase of round {said.round}", "has a stroke outside its bars")
+    longest = (
+        max(stroke.duration_ticks, stroke.choke_ticks, stroke.swing_ticks) for stroke in said.strokes + said.landing
+    )
+    if max(longest, default=0) > end_tick:
+        raise BadInput(source, f"phrase of round {said.round}", "has a stroke that outlasts its bars")
     names = WrittenStroke.__struct_fields__
     score = Score.from_array(_table(said.strokes, names, NOTE_DTYPE), ground.tempo_map, end_tick)
     return Phrase(score, _table(said.landing, names, NOTE_DTYPE), said.words)

@@ -111,6 +111,14 @@ def test_a_phrase_with_strokes_outside_its_bars_is_refused() -> None:
         phrase_of(msgspec.structs.replace(said, landing=(late,)), Ground(100.0, 3, 4), "them")
 
 
+@pytest.mark.parametrize("field", ["duration_ticks", "choke_ticks", "swing_ticks"])
+def test_a_phrase_with_a_stroke_that_never_ends_is_refused(field: str) -> None:
+    said = called(a_phrase(), 1, 0)
+    endless = msgspec.structs.replace(said.strokes[0], **{field: 1 << 40})
+    with pytest.raises(BadInput, match="outlasts its bars"):
+        phrase_of(msgspec.structs.replace(said, strokes=(endless,)), Ground(100.0, 3, 4), "them")
+
+
 ROW = list(msgspec.structs.astuple(TURN.strokes[0]))
 
 
