@@ -98,6 +98,17 @@ def test_the_networks_delay_counts_in_no_judgement(mode: BattleMode) -> None:
     assert battles(quick)[0].rounds.shared.digest == battles(slow)[1].rounds.shared.digest
 
 
+@pytest.mark.parametrize("cut_s", [4, 11, 19])
+def test_wherever_the_cut_falls_the_record_is_the_same(mode: BattleMode, cut_s: int) -> None:
+    cuts = ((cut_s * NS_PER_S, (cut_s + 10) * NS_PER_S),)
+    stations = two(mode, Network(cut_s, delay_ns=300 * NS_PER_MS, loss=0.1, cuts=cuts))
+    stations.run(300)
+    host, guest = battles(stations)
+    assert host.ended is guest.ended is LinkEnd.COMPLETE
+    assert host.rounds.shared.digest == guest.rounds.shared.digest
+    assert claims(host) == claims(guest) == claims(battles(played(mode, False))[0])
+
+
 def test_bars_run_on_without_a_gap_and_a_cut_is_stood_out_with_a_count_in(mode: BattleMode) -> None:
     stations = played(mode, True)
     cut_ns, back_ns = (round(at * NS_PER_S) for at in CUT_S)
