@@ -14,7 +14,6 @@ from station.core.errors import BadInput
 from station.core.events import Hit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.engine.messages import AddCues, Annotate, Command, EngineEvent, Play, Stop, Unheard
-from station.practice.battle.battle import ARRIVES_NS
 from station.practice.battle.battle_cues import count_in_cues, turn_cues
 from station.practice.battle.battle_ear import BattleEar
 from station.practice.battle.link.link_line import WHO, LinkLine
@@ -42,6 +41,7 @@ from station.practice.battle.records.battle_log import (
     battle_text,
 )
 from station.practice.battle.repeating.live_answer import LiveAnswer
+from station.practice.battle.turn_judging import ARRIVES_NS, judged_at_ns
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.session.cues.stroke_cues import in_order, moved_by
 from station.practice.session.device_latency import Latency
@@ -213,7 +213,7 @@ class LinkedBattle:
         """What follows on all that is planned, or the stop where nothing may."""
         if self._is_held or self._stands_next:
             self._stands_next = True  # too late to go on without a gap, whatever comes meanwhile
-            return self._stand() if at_ns >= self._over_ns(self.plan[-1]) else None
+            return self._stand() if at_ns >= judged_at_ns(self.rules, self.plan[-1]) else None
         turn = self._choose()
         if turn is None:
             return ()
@@ -240,7 +240,7 @@ class LinkedBattle:
             self.rounds.bar_played(turn.round, self._own_bars, self.ear.turn(turn))
             self._own_bars += 1
             return True
-        if at_ns < self._over_ns(turn):
+        if at_ns < judged_at_ns(self.rules, turn):
             return False
         self.rounds.turn_played(turn.round, self.ear.turn(turn), self.ear.unheard(turn))
         self._own, self._own_bars = self.plan.index(turn) + 1, 0
@@ -257,11 +257,6 @@ class LinkedBattle:
         if self.plan and self.plan[-1].kind is TurnKind.CALL and self.plan[-1].side not in self.rules.player_sides:
             return False
         return bool(self.pausing) or (self.is_cut and self.rounds.is_waiting)
-
-    def _over_ns(self, turn: PlannedTurn) -> int:
-        """When the last stroke of a turn has come."""
-        late_ns = self.rules.late_ns + ARRIVES_NS if turn.kind is TurnKind.ANSWER else 0
-        return self._ns(turn.end_bar) + late_ns
 
     def _stand(self) -> tuple[Command, ...]:
         from_ns = self._ns(self.end_bar)

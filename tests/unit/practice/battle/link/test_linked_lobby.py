@@ -73,7 +73,7 @@ def test_a_guest_who_speaks_out_of_turn_is_shown_out() -> None:
         with pytest.raises(StationError):  # the host hangs up, and says nothing more
             both.run(15)
         assert both.host.battle is None
-        assert both.host.lobby.notices  # type: ignore[union-attr]
+        assert both.host.lobby.notices
 
 
 def test_nobody_at_the_address_is_said() -> None:
