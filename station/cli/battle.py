@@ -30,6 +30,8 @@ def run(options: BattleOptions) -> int:
         result = recovered_battle(options.recover)
         _leave(BattleFolder(options.recover, is_new=False), result, options)
         return 0
+    if options.network.is_wanted:
+        return _over_network(options, settings)
     rules = battle_rules(options, settings)
     specs = _virtual_players(options, rules, settings)
     with BattleFolder.make(options.report, settings, rules.opponent) as folder:
@@ -38,6 +40,25 @@ def run(options: BattleOptions) -> int:
         else:
             _say_what_was_cut_off(settings)
             fault = _live(rules, settings, folder, options)
+    if fault is not None:
+        raise fault
+    return 0
+
+
+def _over_network(options: BattleOptions, settings: Settings) -> int:
+    from station.cli.battling.network_battle import NetworkBattle, list_hosts, play_over_network
+    from station.cli.battling.network_options import LIST
+
+    if options.network.join == LIST:
+        list_hosts(options.network)
+        return 0
+    if len(options.players) > 1:
+        raise BadInput("--players", f"{len(options.players)}", "one plays at each station of a network")
+    rules = battle_rules(options, settings)
+    specs = _virtual_players(options, rules, settings)
+    with BattleFolder.make(options.report, settings, "network") as folder:
+        spec = specs[0] if specs else None
+        fault = play_over_network(NetworkBattle(rules, settings, options.network, spec, folder, options.json))
     if fault is not None:
         raise fault
     return 0

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
+from station.cli.battling.network_options import NetworkOptions
 from station.cli.options.device_option import devices_option
 from station.cli.options.option_fields import (
     choice,
@@ -98,6 +99,7 @@ class BattleOptions:
         "DIR|CAPTURE", "judge a kept battle again, by the windows of --level if that is given", Path, None
     )
     json: bool = flag("print the battle as one JSON document")
+    network: NetworkOptions = group(NetworkOptions, "two stations on one network")
     sound: SoundOptions = group(SoundOptions, "sound")
 
 

@@ -2,14 +2,9 @@
 
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from time import sleep
-
-from station.practice.battle.drummed import drummed
-from station.practice.battle.records.battle_document import battle_document
-from station.practice.battle.records.battle_folder import DOCUMENT_NAME, BattleFolder
-from station.practice.battle.records.battle_report import battle_report
 
 from station.cli.battling.network_options import LIST, NetworkOptions
 from station.cli.console import print_json, say, write
@@ -20,12 +15,17 @@ from station.core.measured_latency import load_calibration
 from station.core.settings import Settings
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
+from station.practice.battle.drummed import drummed
 from station.practice.battle.link.link_socket import address_of, own_address
 from station.practice.battle.link.linked_battle import LinkedBattle
 from station.practice.battle.link.linked_document import linked_result, network_fields, network_report
 from station.practice.battle.link.linked_rules import Agreed
 from station.practice.battle.link.linked_station import LinkedStation, hosts_here, introduction
-from station.practice.battle.rules import BattleRules
+from station.practice.battle.records.battle_document import battle_document
+from station.practice.battle.records.battle_folder import DOCUMENT_NAME, BattleFolder
+from station.practice.battle.records.battle_report import battle_report
+from station.practice.battle.rules import BattleMode, BattleRules
+from station.practice.battle.vocabulary.lesson_bars import lesson_bars
 from station.practice.headless.end_signals import end_asked
 from station.practice.headless.linked_live import ROUND_S, LinkedSetup, meet, play_linked
 from station.practice.headless.linked_text import LinkedText
@@ -92,6 +92,8 @@ def _station(asked: NetworkBattle, clock: Clock) -> LinkedStation:
     network, rules = asked.network, asked.rules
     hello = introduction(rules.players[0].name, rules, network.name or "")
     if network.host:
+        if rules.mode is BattleMode.REPEAT:
+            lesson_bars(rules.ground.beats, rules.ground.unit, rules.ground.feel)  # read once, before anybody waits
         station = LinkedStation.hosting(hello, rules, (network.bind, network.port), not network.guest_begins)
         where = network.bind or own_address() or "this computer's address"
         say(f"{hello.station} hosts on port {station.port.address[1]} (UDP); the other types")
@@ -114,7 +116,7 @@ def _leave(battle: LinkedBattle, asked: NetworkBattle) -> None:
     """Keep what both ends have, and print it."""
     result = linked_result(battle)
     document = {**battle_document(result), "network": network_fields(battle)}
-    report = battle_report(replace(result)) + network_report(battle)
+    report = battle_report(result) + network_report(battle)
     refused: StationError | None = None
     try:
         write_document(asked.folder.path / DOCUMENT_NAME, document)

@@ -53,6 +53,8 @@ LONGEST_CUT_NS = 180 * NS_PER_S
 """A line that is cut for longer ends the battle (our choice: time to plug a router in again)."""
 
 
+CALL_TAKES_NS = 700 * NS_PER_MS
+"""To choose a phrase that is to be repeated (our choice: half a second was measured)."""
 LEAST_MARGIN_NS = 60 * NS_PER_MS
 """On a quick network: how unevenly a computer that also draws does its work (our choice)."""
 
@@ -104,6 +106,8 @@ class LinkedBattle:
     def start(self) -> tuple[Command, ...]:
         """Begin with the count-in."""
         began = _kept(BattleBegan(self.rules, self.latency))
+        if self.rounds.must_call:
+            self.rounds.call()
         commands = (began, *self._play())
         self._say()
         return commands
@@ -153,6 +157,12 @@ class LinkedBattle:
             self.plan.append(turn)
         return turn
 
+    def _let_pass(self, late_ns: int) -> PlannedTurn:
+        """After a stall: what should begin now begins on a bar line that can still be prepared."""
+        turn = self.rounds.let_pass(self.end_bar, -(-late_ns // self.rules.bar_ns))
+        self.plan.append(turn)
+        return turn
+
     # --- input ------------------------------------------------------------------------------------------------------
 
     @property
@@ -192,12 +202,22 @@ class LinkedBattle:
         if self.ended is not None:
             return ()
         self._take_messages()
+        if self._has_time_to_call:
+            self.rounds.call()
         commands: list[Command] = []
         while self.ended is None and (more := self._move_on()) is not None:
             commands += more
         self._say()
         self._end_where_it_is_over()
         return tuple(commands)
+
+    @property
+    def _has_time_to_call(self) -> bool:
+        """Whether the next call is to be chosen, and no turn is to be laid out while that lasts."""
+        if not self.rounds.must_call or self.at_ns is None:
+            return self.rounds.must_call and self.standing
+        left_ns = self._ns(self.end_bar) - self.rules.chosen_ahead_ns - self.at_ns
+        return left_ns >= min(CALL_TAKES_NS, self.rules.bar_ns // 2)
 
     def _move_on(self) -> Sequence[Command] | None:
         """What is due next; None where nothing is."""
@@ -214,7 +234,8 @@ class LinkedBattle:
         if self._is_held or self._stands_next:
             self._stands_next = True  # too late to go on without a gap, whatever comes meanwhile
             return self._stand() if at_ns >= judged_at_ns(self.rules, self.plan[-1]) else None
-        turn = self._choose()
+        late_ns = at_ns + self.rules.chosen_ahead_ns - self._ns(self.end_bar)
+        turn = self._choose() if late_ns <= self.rules.chosen_ahead_ns // 2 else self._let_pass(late_ns)
         if turn is None:
             return ()
         return (_kept(TurnChosen(turn)), AddCues(moved_by(turn_cues(self.rules, turn), self._zero_ns)))

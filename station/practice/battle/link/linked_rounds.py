@@ -127,8 +127,6 @@ class LinkedRounds:
             return PlannedTurn(self._index, call.round, *answer, call.phrase, keeping, call.index, call.step)
         if self._round > self.rules.rounds_in_all or self._is_decided:
             return None
-        if self.agreed.is_host:
-            self._choose(self._round)
         if self.is_waiting:
             return self._vamp(self._round, first_bar)
         step, phrase = self._called[self._round]
@@ -136,21 +134,33 @@ class LinkedRounds:
         self._answers = turn
         return turn
 
-    def _vamp(self, number: int, first_bar: int) -> PlannedTurn:
-        """A bar in which the time goes on."""
+    def let_pass(self, first_bar: int, bars: int) -> PlannedTurn:
+        """Bars in which the time goes on, whatever could be played."""
+        number = self.shared.slots[min(self._turn, len(self.shared.slots) - 1)][0] if self._is_trade else self._round
+        turn = self._vamp(min(number, self.rules.rounds_in_all), first_bar, bars)
+        self._index += 1
+        return turn
+
+    def _vamp(self, number: int, first_bar: int, bars: int = 1) -> PlannedTurn:
         kind, side = TurnKind.CHANGEOVER, self.agreed.their_side
-        return PlannedTurn(self._index, number, side, kind, first_bar, 1, keeping=self._time(1))
+        return PlannedTurn(self._index, number, side, kind, first_bar, bars, keeping=self._time(bars))
 
     def _time(self, bars: int) -> Phrase | None:
         if not self.rules.keeps_time:
             return None
         return self._drum(PhraseRequest(self.rules, self._index, Asked.TIME, bars))
 
-    def _choose(self, number: int) -> None:
-        """The host's call of a round, once all before it stands."""
-        before = self.shared.standing(number - 1)
-        if number in self._called or len(before) < 2 * (number - 1):
-            return
+    @property
+    def must_call(self) -> bool:
+        """Whether the host's next call can be chosen: all rounds before it stand."""
+        number = self._round
+        if self._is_trade or not self.agreed.is_host or number in self._called or number > self.rules.rounds_in_all:
+            return False
+        return len(self.shared.standing(number - 1)) == 2 * (number - 1) and not self._is_decided
+
+    def call(self) -> None:
+        """Choose the call of the next round and say it; it may take the drummer a part of a second."""
+        number = self._round
         step = step_of_round(SoFar(self.rules, (), self.shared.judged()), number, self._staircase)
         phrase = self._drum(PhraseRequest(self.rules, number, Asked.TO_REPEAT, self.rules.bars, step))
         said = called(phrase, number, step)

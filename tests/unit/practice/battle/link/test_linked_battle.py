@@ -109,6 +109,26 @@ def test_wherever_the_cut_falls_the_record_is_the_same(mode: BattleMode, cut_s: 
     assert claims(host) == claims(guest) == claims(battles(played(mode, False))[0])
 
 
+@pytest.mark.parametrize("stalls_at_s", [5.0, 8.3, 12.1, 15.4])
+def test_a_station_that_stalls_for_seconds_begins_no_turn_in_the_past(mode: BattleMode, stalls_at_s: float) -> None:
+    """What would have begun meanwhile begins on a bar line that is still to come: nobody misses what they never heard."""
+    stations = two(mode)
+    stations.run(stalls_at_s)
+    host, guest = battles(stations)
+    stalled = stations.ends.pop(HOST)
+    stations.run(4)
+    stations.ends[HOST] = stalled
+    before = len(host.plan)
+    stations.run(1)
+    at_ns = host.at_ns
+    if at_ns is not None and len(host.plan) > before:
+        begun = [turn for turn in host.plan[before:] if turn.kind is not TurnKind.CHANGEOVER]
+        assert all(turn.first_bar * host.rules.bar_ns > at_ns - NS_PER_S for turn in begun)
+    stations.run(200)
+    assert claims(host) == claims(guest) == claims(battles(played(mode, False))[0])
+    assert host.rounds.shared.digest == guest.rounds.shared.digest
+
+
 def test_bars_run_on_without_a_gap_and_a_cut_is_stood_out_with_a_count_in(mode: BattleMode) -> None:
     stations = played(mode, True)
     cut_ns, back_ns = (round(at * NS_PER_S) for at in CUT_S)
