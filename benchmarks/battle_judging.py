@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from battle_versions import VERSIONS, HumanPhrase, changed_strokes, glued, human_phrases, partners
 
+from benchmarks.battle_versions import VERSIONS, HumanPhrase, changed_strokes, glued, human_phrases, partners
 from station.practice.battle.judging.judged_improvisation import judged_improvisation
 from station.practice.battle.phrase import Turn
 

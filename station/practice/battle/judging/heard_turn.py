@@ -26,6 +26,12 @@ SLOTS = 24
 BLUR = (1.0, 2 / 3, 1 / 3)
 """What of a stroke is seen 0, 1 and 2 slots from it: a triangle as wide as a 1/32 triplet on either side, by which a
 triplet's second stroke and a sixteenth's (8 and 6 slots) still resemble each other a little (our choice)."""
+FAMILIES = (
+    (Instrument.KICK,),
+    (Instrument.SNARE, Instrument.HIGH_TOM, Instrument.MID_TOM, Instrument.FLOOR_TOM),
+    (Instrument.CLOSED_HIHAT, Instrument.OPEN_HIHAT, Instrument.RIDE, Instrument.CRASH),
+)
+TIMEKEEPERS = frozenset({Instrument.CLOSED_HIHAT, Instrument.OPEN_HIHAT, Instrument.RIDE})
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +81,24 @@ class HeardTurn:
     def beat_shapes(self) -> Floats:
         """(beats, slots, instruments)."""
         return _blurred(self._sharp.reshape(self.beats, SLOTS, len(Instrument)))
+
+    @cached_property
+    def bar_family_shapes(self) -> Floats:
+        """(bars, slots, families): kick, drums, cymbals, whichever of them it is."""
+        bars = self._sharp.reshape(self.bars, self.beats_a_bar * SLOTS, len(Instrument))
+        return _blurred(np.stack([bars[:, :, list(family)].max(axis=2) for family in FAMILIES], axis=2))
+
+    @cached_property
+    def displaced_bar_shapes(self) -> tuple[Floats, ...]:
+        """(bars, slots, instruments) with all but the timekeeping half a beat or a beat earlier or later in its bar."""
+        bars = self._sharp.reshape(self.bars, self.beats_a_bar * SLOTS, len(Instrument))
+        moved = [i for i in Instrument if i not in TIMEKEEPERS]
+        shapes = []
+        for by in (-SLOTS, -SLOTS // 2, SLOTS // 2, SLOTS):
+            displaced = bars.copy()
+            displaced[:, :, moved] = np.roll(bars[:, :, moved], by, axis=1)
+            shapes.append(_blurred(displaced))
+        return tuple(shapes)
 
     @cached_property
     def bar_shapes_as_played(self) -> Floats:

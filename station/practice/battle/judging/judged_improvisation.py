@@ -14,9 +14,9 @@ from station.practice.battle.phrase import Turn
 
 WEIGHTS: Mapping[Component, float] = MappingProxyType(
     {
-        Component.TIME: 20.0,
+        Component.TIME: 22.0,
         Component.DYNAMICS: 24.0,
-        Component.VOCABULARY: 15.0,
+        Component.VOCABULARY: 13.0,
         Component.DEVELOPMENT: 26.0,
         Component.KIT: 8.0,
         Component.SPACE: 7.0,

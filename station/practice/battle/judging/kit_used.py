@@ -17,8 +17,8 @@ from station.practice.battle.improvising.played_beats import Instrument
 from station.practice.battle.judging.heard_turn import Floats, HeardTurn, Ints
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks
 
-VOICINGS, VOICINGS_CREDIT = (1.0, 4.0), (0.0, 1.0)
-"""Three in four human phrases reach four: hat, hat with kick, hat with snare, and one more (our choice)."""
+VOICINGS, VOICINGS_CREDIT = (1.0, 6.0), (0.0, 1.0)
+"""The middle human phrase has 5.6: hat alone, with kick, with snare, a ghost, an open hat or a crash (our choice)."""
 HANDS = 2
 FEET = (Instrument.KICK, Instrument.CLOSED_HIHAT)
 """Feet can play these, the hi-hat by its pedal."""

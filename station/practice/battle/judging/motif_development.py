@@ -1,6 +1,7 @@
 """Development: whether bars take up what was said, by the call or the player, and change it.
 
-    kept_k   = the best likeness of bar k to an earlier bar of the turn or to a bar of the call
+    kept_k   = the best likeness of bar k to an earlier bar of the turn or to a bar of the call: as it was; 0.85 of that
+               on other drums or cymbals; 0.8 of that with all but the timekeeping displaced by half a beat or a beat
     copy_k   = how much of a copy bar k is: of any earlier bar of the turn, of bar k of the call, or half as much of
                bar k of an earlier turn of the player's
     kept     = mean of kept_k over the bars that can take something up
@@ -24,13 +25,16 @@ from station.practice.battle.judging.heard_turn import Floats, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 from station.practice.battle.judging.likeness import copied, likeness
 
-KEPT, KEPT_CREDIT = (0.15, 0.75), (0.0, 1.0)
-"""Human phrases lie at .65 (.27–.92; four drummers of the Groove MIDI Dataset), bars of four strangers at .4."""
+KEPT, KEPT_CREDIT = (0.15, 0.7), (0.0, 1.0)
+"""Human phrases lie at .65 (.27–.92; four drummers of the Groove MIDI Dataset), bars of four strangers at .4, and
+where motifs on other drums or displaced count too, all a little higher."""
 OWN, OWN_CREDIT = (0.25, 0.5), (0.0, 1.0)
-"""One bar four times has a quarter of its own; human phrases have .7 to 1."""
+"""One bar four times has a quarter of its own, two bars by turns a half; human phrases have .5 to 1."""
 
 BEFORE_COUNTS = 0.5
 """A groove may go on from turn to turn: to say it again counts half as much as a copy of the call (our choice)."""
+ORCHESTRATED, DISPLACED = 0.85, 0.8
+"""How much of a motif is heard again on other drums, or half a beat or a beat from its place (our choice)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,12 +57,12 @@ class BarLikeness:
 
 def bar_likeness(turn: HeardTurn, before: Sequence[HeardTurn], call: HeardTurn | None) -> BarLikeness:
     """How each bar stands to what was said earlier."""
-    called = call.bar_shapes if call is not None else turn.bar_shapes[:0]
-    inside = np.tril(likeness(turn.bar_shapes, turn.bar_shapes), -1)
-    motifs = np.concatenate([inside, likeness(turn.bar_shapes, called)], axis=1)
+    motifs = np.tril(_taken_up(turn, turn), -1)
+    if call is not None:
+        motifs = np.concatenate([motifs, _taken_up(turn, call)], axis=1)
     copy = np.max([copied(np.tril(_sameness(turn, turn), -1).max(axis=1)), *_copies(turn, before, call)], axis=0)
     best = motifs.argmax(axis=1)
-    can = turn.bar_sounds & ((np.cumsum(turn.bar_sounds) > 1) | (len(called) > 0))
+    can = turn.bar_sounds & ((np.cumsum(turn.bar_sounds) > 1) | (call is not None))
     source = [int(b) if b < turn.bars else turn.bars - 1 - int(b) for b in best]
     return BarLikeness(
         np.where(can, motifs.max(axis=1), np.nan),
@@ -80,6 +84,16 @@ def motif_development(turn: HeardTurn, bars: BarLikeness) -> ComponentMarks:
     places = _places(bars)
     words = _words(kept, bars.own)
     return ComponentMarks(Component.DEVELOPMENT, FULL_POINTS * float(credit), words, figures, places)
+
+
+def _taken_up(turn: HeardTurn, other: HeardTurn) -> Floats:
+    """(bars, other's bars): how far a motif is taken up: as it was, on other drums or cymbals, or displaced."""
+    displaced = [likeness(turn.bar_shapes, shapes) for shapes in other.displaced_bar_shapes]
+    orchestrated = likeness(turn.bar_family_shapes, other.bar_family_shapes)
+    as_it_was = likeness(turn.bar_shapes, other.bar_shapes)
+    return np.asarray(
+        np.maximum.reduce([as_it_was, ORCHESTRATED * orchestrated, DISPLACED * np.max(displaced, axis=0)])
+    )
 
 
 def _copies(turn: HeardTurn, before: Sequence[HeardTurn], call: HeardTurn | None) -> list[Floats]:

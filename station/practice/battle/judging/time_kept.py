@@ -4,7 +4,8 @@
     spread = √mean(a²) ms,                        blur = √mean((a / length of its cell)²)
     drift  = slope of a over the bars · bars      ms from the phrase's beginning to its end
     home   = the downbeat after the last bar, less the mean: the nearest stroke, in ms
-    points = 100·proof·(0.6·min(credit(spread), credit(blur)) + 0.15·credit(drift) + 0.25·credit(home))
+    even   = min(credit(spread), credit(blur))
+    points = 100·proof·(0.6·even + 0.15·min(credit(drift), even) + 0.25·credit(home))
 
 The mean lean is style and costs nothing. Points fall as the spread grows and never rise with it. Strokes at random lie
 about their nearest cells by a spread that is small where cells are short: they are told by the blur, which is 1/√12 =
@@ -20,7 +21,7 @@ import numpy as np
 from station.practice.battle.judging.heard_turn import Floats, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 
-SPREAD_MS, SPREAD_CREDIT = (8.0, 25.0, 40.0, 60.0), (1.0, 0.6, 0.2, 0.0)
+SPREAD_MS, SPREAD_CREDIT = (4.0, 10.0, 25.0, 40.0, 60.0), (1.0, 0.9, 0.6, 0.2, 0.0)
 BLUR, BLUR_CREDIT = (0.18, 0.28), (1.0, 0.0)
 """Human phrases lie at .10–.24 of a cell, strokes at random at .289 (our choice between)."""
 DRIFT_MS, DRIFT_CREDIT = (15.0, 60.0), (1.0, 0.0)

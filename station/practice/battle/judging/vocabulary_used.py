@@ -20,7 +20,7 @@ from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Com
 from station.practice.battle.judging.likeness import copied, likeness
 
 AGAIN_FROM, AGAIN_AT = 0.5, 0.9
-NEWS, NEWS_CREDIT = (0.08, 0.4), (0.0, 1.0)
+NEWS, NEWS_CREDIT = (0.08, 0.55), (0.0, 1.0)
 ROOTED, ROOTED_CREDIT = (0.3, 0.75), (0.0, 1.0)
 ROUNDS, ROUNDS_CREDIT = (0.0, 0.3), (0.2, 1.0)
 """A player may keep their words, if three beats of ten are new in each turn."""
