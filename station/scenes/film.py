@@ -56,14 +56,29 @@ def encoder() -> str:
 
 def write_film(drummer: Drummer, span: FilmSpan, shot: Shot, sounds: Sounds, path: Path, show: ShowProgress) -> None:
     """A video at `path`, whole or not at all; raises `DeviceError` without OpenGL, disk or encoder."""
+    soundtrack = Soundtrack.of_score(drummer.score, span.start_s, sounds)
+    write_video(_snapshots(drummer, span), span, shot, soundtrack, (path, show))
+
+
+def write_video(
+    snapshots: Iterable[Snapshot],
+    span: FilmSpan,
+    shot: Shot,
+    soundtrack: Soundtrack,
+    into: tuple[Path, ShowProgress],
+) -> None:
+    """The pictures of `snapshots`, one for each of `span`, with their sound, as a video at a path, whole or not at all.
+
+    Raises `DeviceError` without OpenGL, disk or encoder.
+    """
     encoder()
     from station.render.files.video_file import EFFORTS, VideoFormat, video_file
 
-    soundtrack = Soundtrack.of_score(drummer.score, span.start_s, sounds)
+    path, show = into
     effort = EFFORTS[QUALITIES.index(shot.quality)]
     video = VideoFormat(shot.size, span.fps, soundtrack.rate_hz, effort)
     with artist(shot, span.pictures) as drawer, video_file(path, video) as sink:
-        for done, planes in enumerate(drawer.film(_snapshots(drummer, span)), 1):
+        for done, planes in enumerate(drawer.film(snapshots), 1):
             sink.add_picture(planes)
             sink.add_sound(soundtrack.until(float(done / span.fps)))
             show(done)

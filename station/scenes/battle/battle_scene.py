@@ -48,8 +48,8 @@ WINNERS: Mapping[bool, Lights] = {True: (1.0, 0.0), False: (0.0, 1.0)}
 class StageOptions:
     """What may be switched off: cuts of the camera, which then shows both throughout, and the crowd.
 
-    `is_kept`: the battle is over and all strokes are known, so that players too are planned; each link of it is planned
-    when its time comes.
+    `is_kept`: the battle is over and all strokes are known (`BattleScene.know`), so that players too are planned, each
+    link when its time comes.
     """
 
     cuts: bool = True
@@ -95,6 +95,16 @@ class BattleScene:
             crowd_beat=at_ns / self.rules.beat_ns if self.options.crowd else None,
             camera=self._camera(view, sides, at_ns),
         )
+
+    def know(self, turns: Sequence[TurnView]) -> None:
+        """Let all strokes of all `turns` be known from now on, of a battle that is kept."""
+        for side, mover in self._movers.items():
+            assert isinstance(mover, _Drummer), "whoever is heard live knows nothing beforehand"
+            mover.know(side, turns)
+
+    def camera_of(self, shot: Shot, view: BattleView, at_ns: int) -> Camera:
+        """The camera of a shot of whoever is on stage then."""
+        return self._camera_of(shot, sides_on_stage(self.rules, view.turns, at_ns))
 
     def cameras(self, view: BattleView) -> Sequence[Camera]:
         """All that the plan may use of who is on stage now, so that whoever paints may prepare them."""
@@ -156,21 +166,31 @@ class _Drummer:
         self._rules, self.figure = rules, body.figure
         self._chain = MotionChain(rules.ground, body, waits)
         self.kit = self._chain.kit
-        self._added = 0
+        self._added, self._knows_all = 0, False
 
     def take(self, side: int, view: BattleView, hits: Sequence[Hit], at_ns: int) -> None:
         """Plan what has become known, and leave what will not be played."""
         del hits, at_ns
+        if self._knows_all:
+            return
         bar_ns = self._rules.ground.ns_of_bars(1)
         if len(view.turns) < self._added:
             last = view.turns[-1]
             self._chain.cut(round(last.start_ns / bar_ns) + last.bars)
             self._added = len(view.turns)
-        for turn in view.turns[self._added :]:
+        self._add(side, view.turns[self._added :])
+        self._added = len(view.turns)
+
+    def know(self, side: int, turns: Sequence[TurnView]) -> None:
+        """Plan all `turns`; nothing becomes known after that."""
+        self._add(side, turns)
+        self._knows_all = True
+
+    def _add(self, side: int, turns: Sequence[TurnView]) -> None:
+        for turn in turns:
             notes = _notes_of(self._rules, side, turn)
             if len(notes):
-                self._chain.add(round(turn.start_ns / bar_ns), turn.bars, notes)
-        self._added = len(view.turns)
+                self._chain.add(round(turn.start_ns / self._rules.ground.ns_of_bars(1)), turn.bars, notes)
 
     def pose(self, at_ns: int) -> Pose:
         """How they are at a battle time."""
