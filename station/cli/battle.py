@@ -5,6 +5,7 @@ from contextlib import ExitStack
 from station.app.sessions.session_checks import check_settings
 from station.app.settings.settings_store import SettingsStore
 from station.cli.battling.battle_options import BattleOptions, battle_rules
+from station.cli.battling.battle_video import check_film, film_battle
 from station.cli.console import print_json, say, write
 from station.cli.options.device_option import wanted_kits
 from station.cli.options.option_fields import Command
@@ -22,13 +23,17 @@ STAND_IN = "intermediate,seed=1"
 
 def run(options: BattleOptions) -> int:
     """Play, or judge again."""
+    check_film(options.video)
     if options.judge_again is not None:
-        _print(kept_battle(options.judge_again, options.level), options)
+        result = kept_battle(options.judge_again, options.level)
+        _print(result, options)
+        film_battle(result, options.video, _wanted(options))
         return 0
     settings = _wanted(options)
     if options.recover is not None:
         result = recovered_battle(options.recover)
         _leave(BattleFolder(options.recover, is_new=False), result, options)
+        film_battle(result, options.video, settings)
         return 0
     if options.network.is_wanted:
         return _over_network(options, settings)
@@ -42,6 +47,8 @@ def run(options: BattleOptions) -> int:
             fault = _live(rules, settings, folder, options)
     if fault is not None:
         raise fault
+    if options.video.film is not None:
+        film_battle(kept_battle(folder.path), options.video, settings)
     return 0
 
 

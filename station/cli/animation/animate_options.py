@@ -40,7 +40,8 @@ _MEANT_FOR = {
 """Which options say something of what."""
 
 
-def _size(text: str) -> tuple[int, int]:
+def picture_size(text: str) -> tuple[int, int]:
+    """Width and height of a picture, from words such as 1280x720."""
     width, _, height = text.lower().partition("x")
     try:
         size = int(width), int(height)
@@ -55,7 +56,7 @@ def _size(text: str) -> tuple[int, int]:
 class PictureOptions:
     """How it looks."""
 
-    size: tuple[int, int] = option("WxH", "in pixels (1280x720)", _size, (1280, 720))
+    size: tuple[int, int] = option("WxH", "in pixels (1280x720)", picture_size, (1280, 720))
     quality: int = choice(LEVELS, "how fine (middle)", LEVELS["middle"])
     view: NamedView = choice(
         {view.name.lower(): view for view in NamedView}, "from where (shoulder)", NamedView.SHOULDER

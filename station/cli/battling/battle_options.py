@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
 
+from station.cli.battling.battle_video import FilmOptions
 from station.cli.battling.network_options import NetworkOptions
 from station.cli.options.device_option import devices_option
 from station.cli.options.option_fields import (
@@ -100,6 +101,7 @@ class BattleOptions:
     )
     json: bool = flag("print the battle as one JSON document")
     network: NetworkOptions = group(NetworkOptions, "two stations on one network")
+    video: FilmOptions = group(FilmOptions, "video")
     sound: SoundOptions = group(SoundOptions, "sound")
 
 

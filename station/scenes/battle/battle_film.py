@@ -5,7 +5,7 @@ said of an answer while it was played comes on the staff as it did then.
 """
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil
 from pathlib import Path
@@ -39,16 +39,23 @@ def film_span(result: BattleResult, fps: Fraction) -> FilmSpan:
     return FilmSpan(start_s, ceil(length_s * fps), fps)
 
 
-def battle_snapshots(
-    result: BattleResult, cast: Mapping[int, Body], span: FilmSpan, options: StageOptions = _USUAL
-) -> Iterator[Snapshot]:
-    """The pictures of a battle at the times of `span`, in order; `cast` has a body for each side."""
-    views = KeptViews(result)
-    scene = BattleScene(result.rules, cast, replace(options, is_kept=True))
-    scene.know(views.whole_turns())
-    for at_s in span.times_s.tolist():
-        at_ns = round(at_s * NS_PER_S)
-        yield scene.snapshot(views.at(at_ns), views.hits, at_ns)
+@dataclass(frozen=True, eq=False)
+class BattleFilm:
+    """What is filmed of `result`: its `span`; `cast` has a body for each side (`cast.cast_of`)."""
+
+    result: BattleResult
+    cast: Mapping[int, Body]
+    span: FilmSpan
+    options: StageOptions = _USUAL
+
+    def snapshots(self) -> Iterator[Snapshot]:
+        """The pictures at the times of the span, in order."""
+        views = KeptViews(self.result)
+        scene = BattleScene(self.result.rules, self.cast, replace(self.options, is_kept=True))
+        scene.know(views.whole_turns())
+        for at_s in self.span.times_s.tolist():
+            at_ns = round(at_s * NS_PER_S)
+            yield scene.snapshot(views.at(at_ns), views.hits, at_ns)
 
 
 def battle_cues(result: BattleResult, start_s: float) -> NDArray[np.void]:
@@ -60,14 +67,7 @@ def battle_cues(result: BattleResult, start_s: float) -> NDArray[np.void]:
     return cues[cues["at_ns"] >= 0]
 
 
-def write_battle_film(
-    result: BattleResult,
-    cast: Mapping[int, Body],
-    shot: Shot,
-    sounds: Sounds,
-    span: FilmSpan,
-    into: tuple[Path, ShowProgress],
-) -> None:
-    """The video of a battle at a path, whole or not at all; raises `DeviceError` without OpenGL, disk or encoder."""
-    soundtrack = Soundtrack(battle_cues(result, span.start_s), sounds)
-    write_video(battle_snapshots(result, cast, span), span, shot, soundtrack, into)
+def write_battle_film(film: BattleFilm, shot: Shot, sounds: Sounds, path: Path, show: ShowProgress) -> None:
+    """The video of a battle at `path`, whole or not at all; raises `DeviceError` without OpenGL, disk or encoder."""
+    soundtrack = Soundtrack(battle_cues(film.result, film.span.start_s), sounds)
+    write_video(film.snapshots(), film.span, shot, soundtrack, (path, show))

@@ -23,7 +23,7 @@ def battle_hud(view: BattleView, sides: Sides, at_ns: int) -> Hud:
         beats=rules.ground.beats_a_bar,
         count_in=beat if is_counted else None,
         message=_message(view),
-        halt="Paused" if view.doing is Doing.PAUSED else "",
+        halt="Paused" if view.doing is Doing.PAUSED else _ending(view),
         standings=line,
     )
 
@@ -63,6 +63,11 @@ def _middle(view: BattleView) -> str:
 
 def _message(view: BattleView) -> str:
     """What stands over the scene while nobody plays; never over who does."""
-    if view.doing is Doing.OVER:
-        return "A draw" if view.winner is None else f"{name_of(view.rules, view.sides[view.winner])} wins"
     return view.message if view.doing is Doing.CHANGEOVER else ""
+
+
+def _ending(view: BattleView) -> str:
+    """Who has won, large; nothing before the end."""
+    if view.doing is not Doing.OVER:
+        return ""
+    return "A draw" if view.winner is None else f"{name_of(view.rules, view.sides[view.winner])} wins"

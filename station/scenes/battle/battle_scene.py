@@ -41,6 +41,8 @@ from station.scenes.battle.vocabulary import Vocabulary
 from station.scenes.session_part import AHEAD
 from station.scenes.session_scene import STRIKE_SHOWN_NS, strikes
 
+REMEMBERED_NS = 2 * NS_PER_S
+"""A stroke that comes later than that after it was made moves nobody (our choice)."""
 WINNERS: Mapping[bool, Lights] = {True: (1.0, 0.0), False: (0.0, 1.0)}
 
 
@@ -206,7 +208,8 @@ class _Player:
         self.kit: Kit = self._rest.kit
         self._coming: Future[Vocabulary] = AHEAD.submit(lambda: Vocabulary.of(body))
         self._figure: LiveFigure | None = None
-        self._heard_ns = -(2**62)
+        self._heard: set[Hit] = set()
+        self._told_ns = -(2**62)
         self._expects: int | None = None
 
     def take(self, side: int, view: BattleView, hits: Sequence[Hit], at_ns: int) -> None:
@@ -215,13 +218,15 @@ class _Player:
             if not self._coming.done():
                 return
             self._figure = LiveFigure(self._coming.result())
-        if at_ns < self._heard_ns:  # a part is played again
+        if at_ns < self._told_ns:  # a part is played again
             self._figure.forget_from(at_ns / NS_PER_S)
-            self._heard_ns = at_ns
+        self._told_ns = at_ns
+        self._heard = {hit for hit in self._heard if at_ns - REMEMBERED_NS < hit.at_ns <= at_ns}
         for hit in hits:
-            if self._heard_ns < hit.at_ns <= at_ns and _is_by(view, side, hit):
+            is_recent = at_ns - REMEMBERED_NS < hit.at_ns <= at_ns
+            if is_recent and hit not in self._heard and _is_by(view, side, hit):
                 self._figure.strike(hit.at_ns / NS_PER_S, hit.piece, hit.velocity, hit.limb)
-                self._heard_ns = hit.at_ns
+                self._heard.add(hit)
         self._expect(side, view)
 
     def _expect(self, side: int, view: BattleView) -> None:

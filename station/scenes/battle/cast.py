@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from station.motion.kinematics.figure import load_figure
-from station.motion.kit.kit import Kit
+from station.motion.kinematics.figure import figure_names, load_figure
+from station.motion.style.style import ANYBODY
 from station.motion.style.style_file import load_style
 from station.practice.battle.battle_view import TurnView
 from station.practice.battle.opponents.opponent import find_opponent
@@ -20,15 +20,18 @@ _FINISH = {"jazz": "maple", "steady": "maple"}
 """What an opponent's shells are made of; the others' are black (our choice: one tells the two kits apart)."""
 
 
-def opponent_body(name: str, kit: Kit) -> Body:
-    """The opponent of that name at a kit like `kit` of another finish, with its own figure and style.
+def opponent_body(name: str, player: Body) -> Body:
+    """The opponent of that name at a kit like the `player`'s of another finish, in its own style.
 
-    Raises `BadInput` for a name that is none.
+    Its figure is its own, but for one that looks like the player. Raises `BadInput` for a name that is none.
     """
     opponent = find_opponent(name)
     finish = _FINISH.get(name, "black")
-    own = replace(kit, finish=finish if finish != kit.finish else "teal")
-    return Body(own, load_figure(opponent.figure), load_style(opponent.motion_style))
+    kit = replace(player.kit, finish=finish if finish != player.kit.finish else "teal")
+    own = [] if opponent.figure == ANYBODY else [opponent.figure]
+    figures = [load_figure(word) for word in (*own, *figure_names())]
+    figure = next(figure for figure in figures if figure.look != player.figure.look)
+    return Body(kit, figure, load_style(opponent.motion_style))
 
 
 def cast_of(rules: BattleRules, player: Body, others: Mapping[int, Body] | None = None) -> dict[int, Body]:
@@ -36,7 +39,7 @@ def cast_of(rules: BattleRules, player: Body, others: Mapping[int, Body] | None 
 
     One figure for all who take turns at one place of the stage is best: another one has to be built, in a second or so.
     """
-    bodies = {DRUMMER: opponent_body(rules.opponent, player.kit)}
+    bodies = {DRUMMER: opponent_body(rules.opponent, player)}
     bodies |= dict.fromkeys(rules.player_sides, player)
     return bodies | dict(others or {})
 

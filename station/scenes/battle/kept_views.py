@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from station.core.events import Hit
-from station.practice.battle.battle import ARRIVES_NS
 from station.practice.battle.battle_result import BattleResult, JudgedTurn
 from station.practice.battle.battle_view import BattleView, TurnView
 from station.practice.battle.repeating.live_answer import LiveAnswer
+from station.practice.battle.turn_judging import judged_at_ns
 from station.practice.battle.turn_plan import TurnKind
 from station.practice.battle.view_building import Moment, view_of
 
@@ -31,7 +31,7 @@ class KeptViews:
 
     def at(self, at_ns: int) -> BattleView:
         """The view at a battle time, not before that of the last call."""
-        judged = [turn for turn in self._result.turns if self._judges_ns(turn) <= at_ns]
+        judged = [turn for turn in self._result.turns if judged_at_ns(self._rules, turn.planned) <= at_ns]
         is_over = at_ns >= self.end_ns and len(judged) == len(self._planned)
         moment = Moment(self._rules, at_ns, self._planned, judged, result=self._result if is_over else None)
         return view_of(moment, tuple(self._turn(turn, at_ns) for turn in self._result.turns))
@@ -39,10 +39,6 @@ class KeptViews:
     def whole_turns(self) -> tuple[TurnView, ...]:
         """All turns with all their strokes, as they are after the end."""
         return tuple(self._view(turn, _hits(turn)) for turn in self._result.turns)
-
-    def _judges_ns(self, turn: JudgedTurn) -> int:
-        end_ns = self._rules.ground.ns_of_bars(turn.planned.end_bar)
-        return end_ns + (self._rules.late_ns + ARRIVES_NS if turn.planned.kind is TurnKind.ANSWER else 0)
 
     def _turn(self, turn: JudgedTurn, at_ns: int) -> TurnView:
         begin_ns, planned = self._rules.ground.ns_of_bars(turn.planned.first_bar), turn.planned
