@@ -47,12 +47,13 @@ class Controller:
         self._view, self._now_ns = None, now_ns
         parts, attempt = self.parts, self.parts.toasts.attempt
         attempt(parts.calibration.advance)
-        if not parts.editor.is_open and not parts.exam.looks:
+        if not (parts.editor.is_open or parts.exam.looks or parts.battle.is_open):
             attempt(parts.chooser.update)
         events = self._heard()
         asked = [action for event in events if (action := self._handle(event)) is not None]
         parts.mapping.advance(now_ns)
-        for part in (parts.sticks, parts.sessions, parts.exam, parts.editor, parts.phase, parts.song, parts.sound):
+        first = parts.sticks, parts.sessions, parts.exam, parts.battle
+        for part in (*first, parts.editor, parts.phase, parts.song, parts.sound):
             attempt(partial(part.advance, now_ns))
         attempt(lambda: parts.toasts.notify(parts.export.news() or parts.export.written() or ""))
         attempt(lambda: take_imported(parts))

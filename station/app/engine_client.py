@@ -50,6 +50,11 @@ class EngineClient:
         """The kits that are connected, in words."""
         return ", ".join(self._kits)
 
+    @property
+    def devices(self) -> tuple[str, ...]:
+        """The kits that are connected, by their names, in the order in which they came."""
+        return tuple(self._kits)
+
     def wake(self) -> None:
         """Have an engine: another one where the last has died. Raises `DeviceError`."""
         if self._resting is not None:

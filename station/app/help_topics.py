@@ -18,6 +18,7 @@ class Topic(Enum):
     RESULT = "The result"
     EDITOR = "The editor"
     EXAM = "An exam"
+    BATTLE = "A battle"
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +108,21 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("The marks", "stand beside what was asked; the result behind them is that of any session"),
             ),
         ),
+        Topic.BATTLE: Help(
+            "You against a drummer or a friend, bar after bar; nothing stops the music between rounds.",
+            (
+                ("Repeat", "the drummer plays a phrase, you play it back at once; what is right of it wins the round"),
+                ("Improvise", "you trade bars; each turn is judged by six things, and says what it saw"),
+                ("The drummers", "each has a manner; choose one by what is said of them"),
+                ("Pads", "below the page: the snare begins, the others turn what stands on them, More has the rest"),
+                ("The board", "who is on, how much of the turn is left, what the last turns were worth and why"),
+                ("Pause", "or Backspace; two kicks begin a battle, but never end or pause one"),
+                ("Stop", "or Esc: it ends here and is kept"),
+                ("The result", "press a round to see what it was made of; the windows may be others, the strokes stay"),
+                ("See the best bar", "once more, on the stage; of phrases the hardest that you played back"),
+                ("Practise it", "the phrase that went worst becomes a lesson of your own"),
+            ),
+        ),
         Topic.EDITOR: Help(
             "Write a lesson: the drummer plays what stands there while you write. Every change is kept as a draft.",
             (
@@ -127,6 +143,8 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
 
 def topic_of(room: RoomState, free: bool, edits: bool = False) -> Topic:
     """What the page is about; `free` where Just play is chosen or runs, `edits` where a lesson is written."""
+    if room.battle:
+        return Topic.BATTLE
     if room.exam:
         return Topic.EXAM
     if room.stage is Stage.RESULT:

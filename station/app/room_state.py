@@ -105,8 +105,9 @@ class RoomState:
     `listening` while something sounds that was played or is written;
     `paused` while a session stands still, `can_pause` where it may. `clock` is where a session is, None outside;
     `free` where no lesson is chosen, to just play; `exam` while a piece is looked at or played for marks, or its result
-    is shown. `student` sent the result that is shown, empty for one's own. `lag_ms` is a lag of all strokes that the
-    result leaves out until somebody says whose it is, None where there is none to be answered. `judged` is the level by
+    is shown; `battle` while one is chosen, runs, or its result is shown. `student` sent the result that is shown, empty
+    for one's own. `lag_ms` is a lag of all strokes that the result leaves out until somebody says whose it is, None
+    where there is none to be answered. `judged` is the level by
     which the lesson is judged, in words.
     """
 
@@ -124,6 +125,7 @@ class RoomState:
     can_pause: bool = False
     paused: bool = False
     exam: bool = False
+    battle: bool = False
     student: str = ""
     judged: str = ""
     lag_ms: float | None = None

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
 from station.app.actions.action import Show
+from station.app.battle.battle_page import BattlePage, BattleSurroundings
 from station.app.child_programs import ChildPrograms
 from station.app.chooser import Chooser
 from station.app.editor.draft_files import DraftFiles
@@ -77,6 +78,10 @@ class StationParts:
         self.today = TodayPage(store, notify, ThreadPoolExecutor(1, "book"))
         around = ExamSurroundings(lambda: self.chooser.lesson_name, self.make_ready, self.chooser.show_anew)
         self.exam = ExamPage(store, self.sessions, around)
+        beside = BattleSurroundings(
+            lambda: self.engine.devices, self.make_ready, self.chooser.show_anew, self.chooser.open
+        )
+        self.battle = BattlePage(store, self.sessions, beside)
         self.teacher = TeacherPage(
             store, self.sessions.look_at, self.sessions.catalog.lesson, processes.work, ThreadPoolExecutor(1, "returns")
         )
@@ -99,7 +104,11 @@ class StationParts:
 
     def choice(self) -> ScreenChoice | None:
         """What is to be chosen on the screen now."""
-        return self.who.choice() or choice_beside(self.sessions.practice, self.store.now.kicks_start)
+        return (
+            self.who.choice()
+            or self.battle.choice()
+            or choice_beside(self.sessions.practice, self.store.now.kicks_start)
+        )
 
     def _rest(self) -> Callable[[], bool]:
         """Let the engine's devices go; returns what says whether it has. Raises `DeviceError` while somebody plays."""

@@ -28,7 +28,7 @@ def state_of(parts: StationParts, now_ns: int) -> State:
     choice = None if choice is None else parts.pads.heard(choice, now_ns)
     return State(
         choice=None if parts.who.is_open else choice,
-        room=replace(sessions.room(), exam=parts.exam.is_on),
+        room=replace(sessions.room(), exam=parts.exam.is_on, battle=parts.battle.is_open),
         selection=parts.chooser.selection,
         player=sessions.player.view(),
         settings=parts.store.now,
@@ -42,7 +42,7 @@ def state_of(parts: StationParts, now_ns: int) -> State:
         calibration=parts.calibration.view() if shown.devices else _NO_CALIBRATION,
         sticks=parts.sticks.view() if shown.sticks else SticksView(),
         snapshot=snapshot if snapshot is None else parts.exam.named(snapshot),
-        report=sessions.practice.last_result.report,
+        report=None if parts.battle.is_open else sessions.practice.last_result.report,
         curves=sessions.curves() if shown.curves else None,
         phase=parts.phase.view() if shown.phase else PhaseView(),
         learns_pause=parts.preferences.learns,
@@ -55,6 +55,7 @@ def state_of(parts: StationParts, now_ns: int) -> State:
         today=parts.today.view() if shown.today else TodayView(),
         song=parts.song.view(),
         exam=parts.exam.view() if shown.exam or parts.exam.is_on else ExamView(),
+        battle=parts.battle.view(),
         teacher=parts.teacher.view() if shown.teacher else TeacherView(),
         assigned=parts.assigned.view() if shown.assigned else AssignedView(),
         sound=parts.sound.view() if shown.sound else SoundView(),

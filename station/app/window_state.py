@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from station.app.battle.battle_shown import BattleShown
 from station.app.editor.draft_journal import LeftDraft
 from station.app.editor.editor_view import EditorView
 from station.app.equipment.calibration import CalibrationView
@@ -43,9 +44,10 @@ class State:
     leads. `phase` is the motion whose phase sounds, empty while its panel is closed. `export_bars` (from 0) are what
     files are made of, `export` what was made, `played` the capture of the last take or session, `imports` what comes
     in, `editor` the lesson that is edited, None for none, `drafts` those that were left unsaved, `today` the day's
-    plan and the lesson book, `song` the one that is pinned to its sound, `exam` how far an exam is, `teacher` what
-    students sent, `assigned` what a teacher gave, `sound` what sounds, each empty while nobody looks. `choice` is to be
-    chosen from on the screen now; `students` says who plays and who else may; `flash` is the click as light; `toast` is
+    plan and the lesson book, `song` the one that is pinned to its sound, `exam` how far an exam is, `battle` the page
+    of battles, `teacher` what students sent, `assigned` what a teacher gave, `sound` what sounds, each empty while
+    nobody looks. `choice` is to be chosen from on the screen now; `students` says who plays and who else may; `flash`
+    is the click as light; `toast` is
     shown in passing; `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
     """
 
@@ -75,6 +77,7 @@ class State:
     today: TodayView = field(default_factory=TodayView)
     song: SongView = field(default_factory=SongView)
     exam: ExamView = field(default_factory=ExamView)
+    battle: BattleShown = field(default_factory=BattleShown)
     teacher: TeacherView = field(default_factory=TeacherView)
     assigned: AssignedView = field(default_factory=AssignedView)
     sound: SoundView = field(default_factory=SoundView)

@@ -223,4 +223,4 @@ class Pages:
 
 def _chooses(state: State) -> bool:
     """Whether lessons are chosen from."""
-    return state.room.stage is Stage.IDLE and state.editor is None and not state.room.exam
+    return state.room.stage is Stage.IDLE and state.editor is None and not state.room.exam and not state.room.battle

@@ -139,14 +139,15 @@ class Viewport:
         self._follow_stage(stage_of(snapshot))
         began = perf_counter()
         target = self._target_for(painter, ctx, whole)
-        is_rough = self.camera != self._seen_from
+        camera = self._camera_for(snapshot)
+        is_rough = camera != self._seen_from and snapshot.camera is None  # a stage's cameras are few, and prepared
         look, letters = self.view_settings, _letters()
         arrangement = Arrangement(self._inset, look.score, is_rough, look.double, look.legend, letters)
         form = form_of(snapshot, look.score) if with_score else None
         self._words = corners(snapshot.hud), halves(area[2:], form).scene[2:], letters
-        self._seen_from = self.camera
+        self._seen_from = camera
         with self._watched():
-            rest = painter.begin(snapshot, target.framebuffer, area, self.camera, with_score, arrangement)
+            rest = painter.begin(snapshot, target.framebuffer, area, camera, with_score, arrangement)
             if painter.quality.is_layered:
                 ctx.finish()  # else what is drawn would still be to do when the engine is asked what it has heard
 
@@ -166,6 +167,11 @@ class Viewport:
             return None
         hud, size, letters = self._words
         return free_line(hud, self._painter.atlas, size, letters)
+
+    def _camera_for(self, snapshot: Snapshot) -> Camera:
+        """The user's own camera; where they have turned nothing, the one that the snapshot asks for."""
+        is_turned = self.camera != self._named(self._stage)
+        return self.camera if is_turned or snapshot.camera is None else snapshot.camera
 
     def _follow_stage(self, stage: Stage) -> None:
         """Frame another kit or player; where the user has turned the picture only another side turns it back."""

@@ -13,7 +13,7 @@ from imgui_bundle import hello_imgui, imgui, implot
 from station.app.actions.action import Notify, Show
 from station.app.actions.file_actions import Import
 from station.app.actions.practice_actions import Begin, Leave, Pause, StrikeKey
-from station.app.actions.settings_actions import AskWhoPlays, FinishFirstStart
+from station.app.actions.settings_actions import AskWhoPlays
 from station.app.actions.sound_actions import BringTrack
 from station.app.controller import Controller
 from station.app.help_topics import topic_of
@@ -31,6 +31,7 @@ from station.gui.file_drop import FileDrop, file_drop
 from station.gui.keyboard_kit import pressed
 from station.gui.panel_layout import Pages
 from station.gui.panel_size import Size, panel_factor, shares
+from station.gui.panels.battle.battle_layer import BattleLayer, band_of_board
 from station.gui.panels.choice_panel import band_height, choice_keys, draw_choice
 from station.gui.panels.editor.editor_keys import editor_keys
 from station.gui.panels.help_window import HelpWindow
@@ -60,6 +61,7 @@ class Window:
         """What this frame shows."""
         self.viewport = Viewport(options.quality, self.state.view_settings)
         self.pages = Pages(controller.dispatch, self.viewport)
+        self.battle = BattleLayer(controller.dispatch)
         settings = self.state.settings
         self.welcome = None if settings.welcomed else WelcomePage(FirstAnswers.of(settings))
         look, size = self.state.view_settings, (float(options.size[0]), float(options.size[1]))
@@ -199,9 +201,10 @@ class Window:
     def _draw(self, state: State) -> None:
         """Draw a result or the room, and in this what was struck while all that moves was drawn, the longest part."""
         left, low, width, height = central_area(self.params.docking_params)
-        band = band_height(state.choice, (left, low, width, height))
+        whole = left, low, width, height
+        band = band_height(state.choice, whole) or band_of_board(state.battle, whole)
         low, height = low + band, height - band
-        if state.snapshot is None or self.frames % self.picture_every:
+        if state.battle.covers_picture or state.snapshot is None or self.frames % self.picture_every:
             self.viewport.clear()
         elif state.report is not None and state.shows_result and not state.room.listening:
             height -= round(theme.points(ABOVE_RESULT) * imgui.get_io().display_framebuffer_scale.y)
@@ -230,6 +233,8 @@ class Window:
         if moved:
             self._controller.dispatch(Notify(moved))
         self._keys()
+        free = central_area(self.params.docking_params)
+        self.battle.gui(self.state.battle, free, band_height(self.state.choice, free))
         if self.state.choice is not None:
             draw_choice(self.state.choice, central_area(self.params.docking_params), self._controller.dispatch)
         if not io.want_capture_mouse:
@@ -244,9 +249,9 @@ class Window:
     def _ask(self, page: WelcomePage) -> None:
         """The questions of the first start, until they are answered or put aside."""
         plays_at_once = self.state.selection.card is not None and self.state.selection.card.name == FIRST_GROOVE
-        begun = page.gui(self.state.room, plays_at_once)
-        if begun is not None:
-            self._controller.dispatch(FinishFirstStart(page.answers if begun else None))
+        finished = page.gui(self.state.room, plays_at_once)
+        if finished is not None:
+            self._controller.dispatch(finished)
             self.welcome = None
 
     def _keys(self) -> None:

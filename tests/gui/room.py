@@ -99,6 +99,10 @@ class DirectEngine:
         """The kit sends bytes (hex) now."""
         self._engine.feed(KIT, bytes.fromhex(text), self._clock.now_ns())
 
+    def will_play(self, strokes: Sequence[tuple[int, bytes]]) -> None:
+        """The kit sends these bytes too, at these session times."""
+        self._waiting = sorted([*self._waiting, *strokes])
+
     def plug_stick(self, device: str) -> None:
         """A sensor is here."""
         self._engine.sensor_found(device, self._clock.now_ns())

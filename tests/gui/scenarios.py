@@ -14,6 +14,7 @@ import numpy as np
 from imgui_bundle import hello_imgui
 
 from station.render.files.png_file import write_png
+from tests.gui.battle_scenario import battle
 from tests.gui.choice_scenarios import choices
 from tests.gui.device_scenarios import calibration, devices, habits, sticks
 from tests.gui.drive import NEWCOMER, PICTURE_EVERY, SIZE, Drive, Scenario
@@ -75,6 +76,7 @@ SCENARIOS: dict[str, Scenario] = {
     "song": song,
     "sound": sound,
     "planned_day": planned_day,
+    "battle": battle,
     "exam": exam,
     "exam_in_a_small_window": exam,
     "there_and_back": there_and_back,
@@ -93,6 +95,7 @@ SIZES = {
     "planned_day": (1280, 900),
     "whose_in_a_large_window": (1280, 720),
     "exam": (1280, 720),
+    "battle": (1280, 720),
     "choices": (1280, 720),
     "player": (1280, 560),
     "phase": (1280, 720),

@@ -5,6 +5,7 @@
 
 from dataclasses import dataclass
 
+from station.app.actions.battle_actions import BattleAction
 from station.app.actions.editor_actions import EditorAction
 from station.app.actions.equipment_actions import EquipmentAction
 from station.app.actions.exam_actions import ExamAction
@@ -65,6 +66,7 @@ Action = (
     | SongAction
     | SoundAction
     | ExamAction
+    | BattleAction
     | TeacherAction
     | AssignedAction
 )

@@ -11,9 +11,10 @@ from station.render.camera import Camera
 
 @dataclass(frozen=True, slots=True)
 class FinishFirstStart:
-    """What a newcomer has answered, None where the questions were put aside."""
+    """What a newcomer has answered, None where the questions were put aside; `battles`: they battle first."""
 
     answers: FirstAnswers | None
+    battles: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ from functools import partial
 from typing import Any, get_args
 
 from station.app.actions.action import Notify, Show
+from station.app.actions.battle_actions import BattleAction
 from station.app.actions.editor_actions import EditorAction
 from station.app.actions.equipment_actions import CalibrationAction, MappingAction, StickAction
 from station.app.actions.exam_actions import ExamAction
@@ -20,7 +21,7 @@ from station.app.actions.teacher_actions import SendReturn, TakeUp, TeacherActio
 from station.app.actions.today_actions import BookAction, StartBlock
 from station.app.handlers.device_handler import measure, show
 from station.app.handlers.file_handler import bring_in, keep_song, write_file
-from station.app.handlers.practice_handler import begin_block, choose, edit, practise, sit_exam
+from station.app.handlers.practice_handler import battle, begin_block, choose, edit, practise, sit_exam
 from station.app.handlers.settings_handler import embody, keep_setting, restyle
 from station.app.handlers.student_handler import ask_who_plays, play_as
 from station.app.station_parts import StationParts
@@ -36,6 +37,7 @@ def handlers_of(parts: StationParts) -> dict[type, Handler]:
         (PracticeAction, partial(practise, parts)),
         (EditorAction, partial(edit, parts)),
         (ExamAction, partial(sit_exam, parts)),
+        (BattleAction, partial(battle, parts)),
         (StartBlock, partial(begin_block, parts)),
         (BookAction, parts.today.act),
         (PlayerAction, parts.sessions.player.act),

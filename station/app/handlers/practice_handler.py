@@ -2,12 +2,14 @@
 
 from contextlib import suppress
 
+from station.app.actions.battle_actions import BattleAction, BeginBattle, CloseBattle, OpenBattle
 from station.app.actions.editor_actions import CloseEditor, EditorAction
-from station.app.actions.exam_actions import ExamAction, LeaveExam, ReadyForExam
+from station.app.actions.exam_actions import BeginExam, ExamAction, LeaveExam, ReadyForExam
 from station.app.actions.practice_actions import (
     Begin,
     ChoiceAction,
     ChooseBars,
+    Dismiss,
     Drill,
     EndSession,
     Leave,
@@ -36,6 +38,8 @@ def practise(parts: StationParts, action: PracticeAction) -> None:
     match action:
         case Begin() if parts.exam.looks:
             parts.exam.act(ReadyForExam())
+        case Begin() if parts.battle.is_open:
+            parts.battle.act(BeginBattle())
         case Begin() | Drill() if parts.exam.is_on:
             raise DeviceError("an exam is one take: go back to the lessons to practise")
         case Begin():
@@ -49,6 +53,8 @@ def practise(parts: StationParts, action: PracticeAction) -> None:
             parts.sessions.practice.turn(strokes)
         case Leave():
             _leave(parts)
+        case Dismiss() if parts.battle.is_open:
+            parts.battle.leave()
         case StrikeKey(hit):
             with suppress(DeviceError):  # a dead engine hears none, and has said so
                 parts.engine.send(hit)
@@ -67,10 +73,22 @@ def begin_block(parts: StationParts, action: StartBlock) -> None:
         parts.sessions.practice.next_block = step
 
 
+def battle(parts: StationParts, action: BattleAction) -> str | None:
+    """What a battle is asked, whose place is the editor's or an exam's while one of them is open."""
+    if isinstance(action, OpenBattle):
+        if parts.editor.is_open:
+            raise DeviceError("close the editor first: a battle takes its place")
+        parts.who.ask(on=False)
+        _leave_look(parts)
+    return parts.battle.act(action)
+
+
 def sit_exam(parts: StationParts, action: ExamAction) -> None:
     """What an exam is asked, whose place is the editor's while that is open."""
     if parts.editor.is_open:
         raise DeviceError("close the editor first: an exam takes its place")
+    if isinstance(action, BeginExam) and not parts.sessions.practice.is_playing:
+        parts.battle.leave()
     parts.exam.act(action)
 
 
@@ -82,6 +100,7 @@ def edit(parts: StationParts, action: EditorAction) -> None:
     if not was_open:
         parts.who.ask(on=False)
         _leave_look(parts)
+        parts.battle.leave()
     parts.editor.act(action)
     if was_open and not parts.editor.is_open:
         _turn_back(parts)
@@ -133,6 +152,8 @@ def _leave(parts: StationParts) -> None:
         parts.sticks.give_up()
     elif stage is Stage.PLAYING:
         parts.sessions.practice.end()
+    elif parts.battle.is_open:
+        parts.battle.act(CloseBattle())
     elif stage is Stage.RESULT and parts.sessions.practice.last_result.is_asking:
         parts.sessions.practice.last_result.leave()
     elif stage is Stage.RESULT:

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import assert_never
 
+from station.app.actions.battle_actions import OpenBattle
 from station.app.actions.settings_actions import (
     Embody,
     FinishFirstStart,
@@ -26,12 +27,12 @@ def keep_setting(parts: StationParts, action: KeptSetting) -> str | None:
     """Put it into the settings; returns a line for the user."""
     store = parts.store
     match action:
-        case FinishFirstStart(answers):
+        case FinishFirstStart(answers, battles):
             store.update(lambda settings: answered(settings, answers))
             if answers is not None:
                 parts.toasts.attempt(lambda: parts.engine.stand(student_level(store.now)))
                 parts.chooser.show_anew()
-                return _begin_first(parts)
+                return parts.battle.act(OpenBattle()) if battles else _begin_first(parts)
         case SetView(view_settings):
             _set_view(parts, replace(view_settings, viewpoints=parts.view_settings.viewpoints))
         case KeepViewpoint(slot, camera):

@@ -30,6 +30,7 @@ def play_as(parts: StationParts, action: PlayAs) -> str | None:
         return None
     if parts.exam.is_on:
         parts.exam.act(LeaveExam())
+    parts.battle.leave()
     parts.sessions.put_away()
     parts.chooser.change_student()
     parts.today.begin_anew()

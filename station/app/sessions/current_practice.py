@@ -1,4 +1,4 @@
-"""What is practised now: nothing, a session, a free take, or a result, and how one follows the other.
+"""What is practised now: nothing, a session, a free take, a battle, or a result, and how one follows the other.
 
 It owns what is played and what was; who demonstrates, what sounds between sessions and what the pads ask for are the
 controller's.
@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from station.app.engine_client import EngineClient
 from station.app.room_state import FreeRequest, RoomState, Stage
+from station.app.sessions.battle_session import BattleSession
 from station.app.sessions.free_session import FreeSession
 from station.app.sessions.last_result import LastResult
 from station.app.sessions.lesson_session import LessonSession
@@ -41,6 +42,8 @@ class CurrentPractice:
         self.is_free = False
         """Whether no lesson is shown: the kit alone, to just play."""
         self._was_free = False  # before a student's result was looked at
+        self.battle: BattleSession | None = None
+        """The battle that runs, or whose result is shown; no lesson is shown then."""
         self.next_block: NextStep | None = None
         """The block behind the one of the day's plan that is played; None where there is none, or no plan."""
         self.fault: StationError | None = None
@@ -62,21 +65,31 @@ class CurrentPractice:
         return self.stage is not Stage.IDLE and not self.is_free and self.session.sitting is not None
 
     @property
+    def is_battle(self) -> bool:
+        """Whether a battle runs, or its result is shown."""
+        return self.stage is not Stage.IDLE and self.battle is not None
+
+    @property
+    def shows_result(self) -> bool:
+        """Whether the result of a session is shown."""
+        return self.stage is Stage.RESULT and self.battle is None
+
+    @property
     def _sender(self) -> str:
         """Who sent the result that is shown, empty where it is one's own, or none is."""
         report = self.last_result.report
-        return report.student if report is not None and self.stage is Stage.RESULT else ""
+        return report.student if report is not None and self.shows_result else ""
 
     @property
     def lag_ms(self) -> float | None:
         """The lag that the shown result leaves out until its student has said whose it is."""
-        return self.last_result.lag_ms if self.stage is Stage.RESULT and not self._sender else None
+        return self.last_result.lag_ms if self.shows_result and not self._sender else None
 
     # --- one after the other -----------------------------------------------------------------------------------------
 
     def show(self, session: LessonSession | None) -> None:
         """Show what would be played, None the kit alone."""
-        self.is_free = session is None
+        self.is_free, self.battle = session is None, None
         self.session = session or self.session
 
     def begin(self, session: LessonSession, track: PreparedTrack | None) -> None:
@@ -84,15 +97,25 @@ class CurrentPractice:
         session.begin(self._store.now, track)
         self.last_result.leave()
         self.session, self.stage, self.is_free, self._was_free = session, Stage.PLAYING, False, False
+        self.battle = None
 
     def begin_free(self, request: FreeRequest) -> None:
         """Begin a free take; raises `StationError`, and goes on as before then."""
         self.free.begin(self._engine, request)
         self.last_result.leave()
-        self.stage, self.is_free = Stage.PLAYING, True
+        self.stage, self.is_free, self.battle = Stage.PLAYING, True, None
+
+    def begin_battle(self, battle: BattleSession) -> None:
+        """Begin a battle; raises `StationError`, and goes on as before then."""
+        battle.begin(self._store.now)
+        self.last_result.leave()
+        self.stage, self.is_free, self.battle = Stage.PLAYING, True, battle
 
     def handle(self, event: EngineEvent, now_ns: int) -> None:
         """Handle one event of the engine."""
+        if self.battle is not None and self.is_battle:
+            self.battle.handle(event)
+            return
         if not self.is_free:
             self.session.handle(event, now_ns)
             return
@@ -103,7 +126,9 @@ class CurrentPractice:
 
     def advance(self, now_ns: int) -> None:
         """Move on; what is over ends."""
-        if self.is_free:
+        if self.battle is not None:
+            is_over = self.battle.advance(now_ns) and self.is_playing
+        elif self.is_free:
             self.free.advance(now_ns)
             is_over = self.free.runs and self.free.over
         else:
@@ -112,9 +137,13 @@ class CurrentPractice:
             self.end()
 
     def end(self) -> None:
-        """End the session or the take that runs, if one does: it is judged and kept."""
+        """End the session, the battle or the take that runs, if one does: it is judged and kept."""
         if self.is_session:
             self._finish()
+        elif self.is_playing and self.battle is not None:
+            self.fault = self.battle.finish()
+            self._notify("" if self.fault is None else str(self.fault))
+            self.stage = Stage.RESULT
         elif self.is_playing:
             self.fault = self.free.finish(self._engine)
             self._notify(f"{self.fault}" if self.fault is not None else f"kept in {self.free.folder}")
@@ -138,8 +167,10 @@ class CurrentPractice:
             self._finish()
 
     def turn(self, strokes: Sequence[Hit] = ()) -> None:
-        """Pause the session, as these `strokes` asked for, or let it go on; nothing where there is none."""
-        if self.is_session:
+        """Pause what runs, as these `strokes` asked for, or let it go on; nothing where there is none."""
+        if self.is_playing and self.battle is not None:
+            self.battle.turn()
+        elif self.is_session:
             self.session.go_on() if self.session.paused else self.session.hold(strokes)
 
     def answer(self, guess: SelfEstimate) -> None:
@@ -159,8 +190,12 @@ class CurrentPractice:
     def leave(self, session: LessonSession) -> None:
         """The result was read: `session` is shown again."""
         self.last_result.leave()
-        self.session, self.stage = session, Stage.IDLE
+        self.session, self.stage, self.battle = session, Stage.IDLE, None
         self.is_free, self._was_free = self._was_free, False
+
+    def leave_battle(self) -> None:
+        """Its result was read: the kit alone is shown."""
+        self.stage, self.battle = Stage.IDLE, None
 
     def put_away(self, free: FreeSession) -> None:
         """Forget the last result and the last take; nobody plays, and takes are `free`'s from now on."""
@@ -180,10 +215,14 @@ class CurrentPractice:
             student=self._sender,
             lag_ms=self.lag_ms,
         )
+        if self.battle is not None:
+            return self.battle.state_in(state)
         return state if self.is_free else self.session.state_in(state)
 
     def snapshot(self, now_ns: int, heard_ns: int | None, hears: bool) -> Snapshot:
         """The picture at `now_ns`; `heard_ns` is the place in what sounds, where the ear `hears` something."""
+        if self.battle is not None:
+            return self.battle.snapshot(heard_ns if hears else None)
         if self.is_free:
             return self.free.snapshot(self.session.plan.kit, now_ns, heard_ns)
         compared = self.last_result.compared(heard_ns) if self.stage is Stage.RESULT and hears else None

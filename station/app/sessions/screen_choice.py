@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from station.app.actions.action import Action
 from station.app.actions.equipment_actions import AnswerLag
 from station.app.actions.practice_actions import Answer, TakeStep
-from station.app.room_state import Stage
 from station.app.sessions.current_practice import CurrentPractice
 from station.core.pieces import Piece
 from station.practice.control.pad_choice import pads_for
@@ -51,7 +50,7 @@ _QUESTION = ScreenChoice(_ANSWERS, QUESTION)
 
 def choice_beside(practice: CurrentPractice, kit_starts: bool) -> ScreenChoice | None:
     """What is to be chosen beside what is practised, None where nothing is; `kit_starts` where strokes may begin it."""
-    if practice.stage is not Stage.RESULT:
+    if not practice.shows_result:
         return None
     if practice.last_result.is_asking:
         return _QUESTION

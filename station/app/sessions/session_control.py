@@ -14,6 +14,7 @@ from station.app.actions.practice_actions import Answer, Dismiss, EndSession, He
 from station.app.catalog import Catalog
 from station.app.engine_client import EngineClient
 from station.app.room_state import FreeRequest, RoomState, SessionRequest, Stage
+from station.app.sessions.battle_session import BattleSession
 from station.app.sessions.current_practice import CurrentPractice
 from station.app.sessions.demo_player import DemoPlayer
 from station.app.sessions.free_session import FreeSession
@@ -31,6 +32,7 @@ from station.drills.exam.exam_piece import ExamPiece
 from station.drills.lesson import Lesson
 from station.engine.messages import Command, EngineEvent, Started
 from station.motion.sticking.hand_notes import Hands
+from station.practice.battle.rules import BattleRules
 from station.practice.exam.exam_sitting import Sitting
 from station.practice.exam.exam_take import exam_plan
 from station.practice.records.session_files import CAPTURE_NAME
@@ -39,6 +41,7 @@ from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency, latency_of
 from station.practice.session.leading_hand import hands_of
 from station.render.snapshot import Snapshot
+from station.scenes.battle.motion_chain import Body
 from station.scenes.curves import ScoreCurves
 from station.scenes.demonstrator import Demonstrator
 
@@ -105,7 +108,7 @@ class SessionControl:
     def played(self) -> Path | None:
         """The capture of the result that is shown, else of the last free take; None where there is none."""
         report = self.practice.last_result.report
-        if self.practice.stage is Stage.RESULT and report is not None and report.folder:
+        if self.practice.shows_result and report is not None and report.folder:
             capture = Path(report.folder) / CAPTURE_NAME
             return capture if capture.is_file() else None
         return self.practice.free.take
@@ -285,6 +288,18 @@ class SessionControl:
         self._make_room()
         self._playback.without_track()
         self.practice.begin_free(request)
+
+    def battle(self, rules: BattleRules) -> None:
+        """Begin a battle by these rules, ending what runs; raises `StationError`."""
+        self._make_room()
+        self._playback.without_track()
+        player = Body(self._prepared.own_kit(), self._demonstrator.figure, self._demonstrator.style)
+        self.practice.begin_battle(BattleSession(self._engine, rules, self._latency, player, self._notify))
+
+    def leave_battle(self) -> None:
+        """The result of a battle was read: the kit alone is shown."""
+        self._playback.quiet()
+        self.practice.leave_battle()
 
     def _listen(self) -> None:
         """Hear the last free take from its capture, or end what is heard; raises `StationError`."""

@@ -13,7 +13,8 @@ from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput
 from station.core.settings import setting_source
 from station.drills.lesson import Lesson
-from station.motion.kit.kit import Kit
+from station.motion.kit.kit import DEFAULT_KIT, Kit, load_kit
+from station.motion.sticking.hand_notes import Hands
 from station.practice.exam.exam_sitting import Sitting
 from station.practice.records.lesson_order import followed_course
 from station.practice.records.memory import Memory, Remembered
@@ -105,6 +106,11 @@ class SessionPreparation:
         """The same of a lesson that is being written, on the kit that the settings ask for; raises `BadInput`."""
         settings = self._store.now
         return self.watched(lesson, drummers_kit(lesson, hands_of(settings), settings.stands))
+
+    def own_kit(self) -> Kit:
+        """The kit that stands where no lesson says which: the settings', for the hand that leads; raises `BadInput`."""
+        hands, kit = hands_of(self._store.now), load_kit(self._store.now.stands or DEFAULT_KIT)
+        return kit if hands is None or kit.left_handed == (hands is Hands.LEFT) else kit.mirrored
 
     def needs_track(self, plan: Plan) -> bool:
         """Whether it is played along to a track."""

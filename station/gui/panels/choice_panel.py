@@ -16,6 +16,8 @@ from station.core.labels import piece_name
 from station.core.pieces import CYMBALS, Piece
 from station.gui import theme
 from station.gui.keyboard_kit import SLOT_KEYS
+from station.gui.widgets.large_letters import MOST_LINES, broken, cut, draw_text, fitted, grown, width_of
+from station.gui.widgets.picture_box import Box, bare_window, on_screen
 from station.render import palette
 from station.render.painter import Area
 
@@ -29,23 +31,12 @@ _BAND = 0.27
 _QUESTION_WIDE, _QUESTION_HIGH, _QUESTION_TOP = 0.92, 0.84, 0.13
 """The shares of the picture that a question takes, and that lie above it: it covers the marks in the score, which would
 answer it (our choice)."""
-_MOST_LINES = 2
 _ASKED = 1.6
 """A question's letters against those of what comes next: nothing else is on the screen to be read (our choice)."""
 _HOW = 0.42
 """The letters of the line that says how one chooses, in heights of a label (our choice)."""
 _PAD, _ANSWERED = 0.62, 0.30
 """A pad's drawn radius in heights of its name; the opacity of an option whose pad was just struck."""
-
-
-@dataclass(frozen=True, slots=True)
-class _Box:
-    """A place on the screen in imgui's pixels."""
-
-    left: float
-    top: float
-    width: float
-    height: float
 
 
 def label_of(place: int) -> str:
@@ -79,35 +70,17 @@ def _pressed(key: imgui.Key) -> bool:
 
 def draw_choice(choice: ScreenChoice, picture: Area, dispatch: Callable[[Action], None]) -> None:
     """Draw it over `picture`, the window's free middle, and dispatch what is clicked."""
-    area = _on_screen(picture)
+    area = on_screen(picture)
     box = _question_box(area) if choice.question else _band_box(area, band_height(choice, picture))
-    imgui.set_next_window_pos(imgui.ImVec2(box.left, box.top))
-    imgui.set_next_window_size(imgui.ImVec2(box.width, box.height))
-    imgui.set_next_window_bg_alpha(1.0)
-    flags = imgui.WindowFlags_.no_decoration | imgui.WindowFlags_.no_move | imgui.WindowFlags_.no_docking
-    flags |= imgui.WindowFlags_.no_saved_settings | imgui.WindowFlags_.no_focus_on_appearing
-    flags |= imgui.WindowFlags_.no_nav | imgui.WindowFlags_.no_bring_to_front_on_focus
-    if not choice.question:
-        imgui.push_style_var(imgui.StyleVar_.window_rounding, 0.0)
-    imgui.begin(CHOICE, None, flags)
     large = max(_LARGE * area.height, theme.points(_LEAST))
-    _draw(choice, large * _ASKED if choice.question else large, dispatch)
-    imgui.end()
-    if not choice.question:
-        imgui.pop_style_var()
+    with bare_window(CHOICE, box, is_square=not choice.question):
+        _draw(choice, large * _ASKED if choice.question else large, dispatch)
 
 
-def _on_screen(picture: Area) -> _Box:
-    """The picture's place in imgui's pixels, from the window's top."""
-    io = imgui.get_io()
-    sx, sy = io.display_framebuffer_scale
-    return _Box(picture[0] / sx, io.display_size.y - (picture[1] + picture[3]) / sy, picture[2] / sx, picture[3] / sy)
-
-
-def _question_box(area: _Box) -> _Box:
+def _question_box(area: Box) -> Box:
     width, height = _QUESTION_WIDE * area.width, max(_QUESTION_HIGH * area.height, theme.points(190))
     height = min(height, area.height)
-    return _Box(
+    return Box(
         area.left + (area.width - width) / 2,
         area.top + min(_QUESTION_TOP, 1.0 - height / area.height) * area.height,
         width,
@@ -115,15 +88,15 @@ def _question_box(area: _Box) -> _Box:
     )
 
 
-def _band_box(area: _Box, pixels: int) -> _Box:
+def _band_box(area: Box, pixels: int) -> Box:
     height = pixels / imgui.get_io().display_framebuffer_scale.y
-    return _Box(area.left, area.top + area.height - height, area.width, height)
+    return Box(area.left, area.top + area.height - height, area.width, height)
 
 
 def _draw(choice: ScreenChoice, large: float, dispatch: Callable[[Action], None]) -> None:
     """The question, the options side by side, and a line that says how they are chosen."""
     if choice.question:
-        imgui.push_font(None, large / _grown())
+        imgui.push_font(None, large / grown())
         width = imgui.get_content_region_avail().x
         imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + max(width - imgui.calc_text_size(choice.question).x, 0.0) / 2)
         imgui.text_wrapped(choice.question)
@@ -144,7 +117,7 @@ def _draw(choice: ScreenChoice, large: float, dispatch: Callable[[Action], None]
         low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
         look = _look(choice, place, imgui.is_item_hovered())
         theme.tooltip(_tip(option, place))
-        _draw_option(option, place, _Box(low.x, low.y, high.x - low.x, high.y - low.y), look, large)
+        _draw_option(option, place, Box(low.x, low.y, high.x - low.x, high.y - low.y), look, large)
     _how(choice, large, dispatch)
 
 
@@ -172,7 +145,7 @@ def _look(choice: ScreenChoice, place: int, is_hovered: bool) -> _Look:
     return _Look(theme.packed(ground), edge, theme.packed(palette.INK), theme.packed(palette.INK_SOFT), choice.hears)
 
 
-def _draw_option(option: Option, place: int, box: _Box, look: _Look, large: float) -> None:
+def _draw_option(option: Option, place: int, box: Box, look: _Look, large: float) -> None:
     brush, rounding = imgui.get_window_draw_list(), theme.points(10)
     low, high = imgui.ImVec2(box.left, box.top), imgui.ImVec2(box.left + box.width, box.top + box.height)
     brush.add_rect_filled(low, high, look.ground, rounding)
@@ -183,14 +156,14 @@ def _draw_option(option: Option, place: int, box: _Box, look: _Look, large: floa
     small = max(0.55 * large, theme.points(15))
     pad_top = box.top + box.height - inner - small
     _draw_pad(option, place, imgui.ImVec2(left, pad_top), width, small, look)
-    lines, size = _fitted(option.label, width, large, pad_top - box.top - 1.3 * inner)
+    lines, size = fitted(option.label, width, large, pad_top - box.top - 1.3 * inner)
     top = box.top + 0.8 * inner
     for text in lines:
-        _text(text, imgui.ImVec2(left, top), size, look.ink)
+        draw_text(text, imgui.ImVec2(left, top), size, look.ink)
         top += 1.12 * size
     room = int((pad_top - 0.4 * inner - top) / (1.15 * small))
-    for text in _broken(option.why, width, small)[: min(room, _MOST_LINES)] if option.why and room > 0 else ():
-        _text(text, imgui.ImVec2(left, top + 0.1 * small), small, look.quiet)
+    for text in broken(option.why, width, small)[: min(room, MOST_LINES)] if option.why and room > 0 else ():
+        draw_text(text, imgui.ImVec2(left, top + 0.1 * small), small, look.quiet)
         top += 1.15 * small
 
 
@@ -201,7 +174,7 @@ def _draw_pad(option: Option, place: int, at: imgui.ImVec2, width: float, size: 
     number = f"{place + 1}"
     key_wide = 1.15 * size
     brush.add_rect(at, imgui.ImVec2(at.x + key_wide, at.y + 1.1 * size), look.quiet, 0.2 * size)
-    _text(number, imgui.ImVec2(at.x + (key_wide - _width(number, size)) / 2, at.y), size, look.quiet)
+    draw_text(number, imgui.ImVec2(at.x + (key_wide - width_of(number, size)) / 2, at.y), size, look.quiet)
     if not option.pads:
         return
     x, radius = at.x + key_wide + size, _PAD * size
@@ -215,7 +188,7 @@ def _draw_pad(option: Option, place: int, at: imgui.ImVec2, width: float, size: 
     x += 2.4 * radius
     names = " or ".join(piece_name(each) for each in sorted(option.pads))
     left = at.x + width - x
-    _text(_cut(names, left, size), imgui.ImVec2(x, at.y), size, ink)
+    draw_text(cut(names, left, size), imgui.ImVec2(x, at.y), size, ink)
 
 
 def _how(choice: ScreenChoice, large: float, dispatch: Callable[[Action], None]) -> None:
@@ -231,7 +204,7 @@ def _how(choice: ScreenChoice, large: float, dispatch: Callable[[Action], None])
     text = ", ".join(parts) if choice.question else " · ".join(parts)
     skip = imgui.calc_text_size(SKIP_LABEL, True).x + 2 * imgui.get_style().frame_padding.x
     room = imgui.get_content_region_avail().x
-    imgui.push_font(None, max(_HOW * large / _grown(), theme.FONT_SIZE))
+    imgui.push_font(None, max(_HOW * large / grown(), theme.FONT_SIZE))
     imgui.text_disabled(theme.one_line(text, room - skip - theme.points(20) if choice.question else room))
     imgui.pop_font()
     if choice.question:
@@ -244,53 +217,3 @@ def _how(choice: ScreenChoice, large: float, dispatch: Callable[[Action], None])
 def _tip(option: Option, place: int) -> str:
     pads = " or ".join(piece_name(piece) for piece in sorted(option.pads))
     return f"{option.label}: key {place + 1}{f', or the {pads}' if pads else ''}. {option.why}".strip()
-
-
-# --- letters of any size ----------------------------------------------------------------------------------------------
-
-
-def _width(text: str, size: float) -> float:
-    imgui.push_font(None, size / _grown())
-    width = float(imgui.calc_text_size(text).x)
-    imgui.pop_font()
-    return width
-
-
-def _grown() -> float:
-    """By how much imgui grows the sizes that fonts are asked for in."""
-    style = imgui.get_style()
-    return float(style.font_scale_main * style.font_scale_dpi)
-
-
-def _text(text: str, at: imgui.ImVec2, size: float, colour: int) -> None:
-    imgui.get_window_draw_list().add_text(imgui.get_font(), size, at, colour, text)
-
-
-def _cut(text: str, width: float, size: float) -> str:
-    while text and _width(text, size) > width:
-        text = text[:-2].rstrip() + "…" if len(text) > 2 else ""
-    return text
-
-
-def _broken(text: str, width: float, size: float) -> list[str]:
-    """The text in lines no wider than `width`."""
-    lines: list[str] = []
-    for word in text.split():
-        longer = f"{lines[-1]} {word}" if lines else word
-        if lines and _width(longer, size) <= width:
-            lines[-1] = longer
-        else:
-            lines.append(_cut(word, width, size))
-    return lines
-
-
-def _fitted(text: str, width: float, large: float, height: float) -> tuple[list[str], float]:
-    """The label in at most two lines and the largest letters in which it fits, cut where it never does."""
-    size, least = large, 0.6 * large
-    while True:
-        lines = _broken(text, width, size)
-        if len(lines) <= _MOST_LINES and 1.12 * size * len(lines) <= height:
-            return lines, size
-        if size <= least:
-            return [*lines[: _MOST_LINES - 1], _cut(" ".join(lines[_MOST_LINES - 1 :]), width, size)], size
-        size = max(0.9 * size, least)

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
+from station.app.actions.settings_actions import FinishFirstStart
 from station.app.room_state import RoomState
 from station.app.settings.first_start import LONGEST_NAME, FirstAnswers, found_lines
 from station.gui import theme
@@ -16,6 +17,7 @@ from station.motion.sticking.hand_notes import Hands
 
 WELCOME = "Welcome"
 BEGIN_LABEL, FIRST_LABEL = "Begin###begin", "Hear the first groove, then play it###begin"
+BATTLE_LABEL = "I play already: battle a drummer##battle"
 _WIDE = 620
 """Design pixels of the column of questions; our choice: a line that is read at a glance."""
 _SOUNDS = (
@@ -41,8 +43,8 @@ class WelcomePage:
         self._go_on = False
         self._high = 0.0  # pixels that the questions took in the last frame
 
-    def gui(self, room: RoomState, plays_at_once: bool) -> bool | None:
-        """Draw the page over the whole window; returns True for begin, False for put aside, None while it is open."""
+    def gui(self, room: RoomState, plays_at_once: bool) -> FinishFirstStart | None:
+        """Draw the page over the whole window; returns how it was left, None while it is open."""
         viewport = imgui.get_main_viewport()
         imgui.set_next_window_pos(viewport.pos)
         imgui.set_next_window_size(viewport.size)
@@ -66,9 +68,9 @@ class WelcomePage:
         self._high = imgui.get_item_rect_size().y
         imgui.end()
         self._is_new = False
-        return False if imgui.is_key_pressed(imgui.Key.escape, repeat=False) else done
+        return FinishFirstStart(None) if imgui.is_key_pressed(imgui.Key.escape, repeat=False) else done
 
-    def _questions(self, wide: float, room: RoomState, plays_at_once: bool) -> bool | None:
+    def _questions(self, wide: float, room: RoomState, plays_at_once: bool) -> FinishFirstStart | None:
         theme.heading("Welcome to the drum station", 30)
         theme.soft("Three questions, then you hear a groove and play it. All of it can be changed later.")
         imgui.spacing()
@@ -104,4 +106,6 @@ class WelcomePage:
         imgui.spacing()
         begun = theme.main_button(FIRST_LABEL if plays_at_once else BEGIN_LABEL, (wide, theme.points(52)))
         theme.tooltip(_FIRST if plays_at_once else "To the lessons: the first one is chosen, Start plays it")
-        return True if begun else None
+        battles = imgui.button(BATTLE_LABEL, imgui.ImVec2(wide, 0))
+        theme.tooltip("The drummer plays a phrase and you play it back, or you trade bars; it meets you at your level")
+        return FinishFirstStart(self.answers, battles) if begun or battles else None

@@ -13,6 +13,7 @@ from pathlib import Path
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
+from station.app.actions.battle_actions import OpenBattle
 from station.app.actions.editor_actions import DropDraft, ResumeDraft
 from station.app.editor.draft_journal import LeftDraft
 from station.app.room_state import LessonCard
@@ -24,6 +25,7 @@ from station.gui.panels.lessons.course_list import mark, mark_width
 from station.render import palette
 
 FREE_LABEL = "Just play##free"
+BATTLE_LABEL = "Battle a drummer…##open-battle"
 RESUME_LABEL, DROP_LABEL = "Go on with it##draft", "Throw it away##draft"
 UNSAVED, _DRAFT_MENU = "Draft: ", "##draft-menu"
 LIST = "##list"
@@ -46,7 +48,7 @@ class _Heading:
 
 
 class LessonList:
-    """The list; what becomes of drafts goes to `dispatch`."""
+    """The list; what becomes of drafts, and a battle, go to `dispatch`."""
 
     def __init__(self, dispatch: Callable[[Action], None]) -> None:
         self._dispatch = dispatch
@@ -118,6 +120,9 @@ class LessonList:
     def _lines(self, selection: Selection) -> Selection:
         pressed, _ = imgui.selectable(FREE_LABEL, selection.free)
         theme.tooltip("A click if you like, everything recorded, nothing judged")
+        if imgui.selectable(BATTLE_LABEL, False)[0]:
+            self._dispatch(OpenBattle())
+        theme.tooltip("The drummer plays a phrase and you play it back, or you trade bars; or battle a friend")
         groups, picked = selection.groups(), None
         for number, group in enumerate(groups):
             if selection.course is not None:

@@ -1,0 +1,226 @@
+"""The battle's page in the window: what is chosen, the battle that runs, what came of it.
+
+Closed → chosen → played → over → once more, or chosen again. A battle takes a session's place: whoever begins something
+else ends it, and the battle that ran is kept.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import assert_never
+
+from station.app.actions.battle_actions import (
+    BattleAction,
+    BeginBattle,
+    ChooseBattle,
+    CloseBattle,
+    JudgeBattle,
+    OpenBattle,
+    PractiseFailed,
+    ReplayBest,
+    TurnLeaf,
+)
+from station.app.battle.battle_choice import battle_choice
+from station.app.battle.battle_shown import BattleResultShown, BattleShown, BattleStage
+from station.app.battle.best_moment import best_moment, heard_again, moment_words
+from station.app.battle.board_words import board_of, names_of
+from station.app.battle.failed_phrase import keep_phrase
+from station.app.battle.result_words import failed_turn, result_of, winner_words
+from station.app.sessions.battle_session import BattleSession
+from station.app.sessions.screen_choice import ScreenChoice
+from station.app.sessions.session_control import SessionControl
+from station.app.settings.chosen_battle import ChosenBattle, chosen_rules
+from station.app.settings.settings_store import SettingsStore
+from station.core.errors import BadInput, DeviceError
+from station.core.settings import setting_source
+from station.practice.battle.battle_result import BattleResult
+from station.practice.battle.rules import BattleRules
+from station.practice.session.cues.click_options import parse_click
+from station.practice.session.cues.listening import Listening
+from station.scoring.matching.hit_windows import Level
+
+
+@dataclass(frozen=True, slots=True)
+class BattleSurroundings:
+    """What the page asks of the station: the `kits` that are connected.
+
+    `make_ready` ends what else hears the kit, raising `StationError` where it cannot; `show_lessons` shows what is
+    chosen of them again, `open_lesson` chooses the one in a file.
+    """
+
+    kits: Callable[[], tuple[str, ...]]
+    make_ready: Callable[[], None]
+    show_lessons: Callable[[], None]
+    open_lesson: Callable[[Path], None]
+
+
+class BattlePage:
+    """The battles of the student of `store`, played in `sessions`."""
+
+    def __init__(self, store: SettingsStore, sessions: SessionControl, around: BattleSurroundings) -> None:
+        self._store, self._sessions, self._around = store, sessions, around
+        self._setup = ChosenBattle()
+        self._is_open = False
+        self._leaf = 0
+        self._told: tuple[BattleResult, BattleResultShown] | None = None
+        self._replay: Listening | None = None
+
+    # --- what is shown -----------------------------------------------------------------------------------------------
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a battle is chosen, runs, or its result is shown."""
+        return self.stage is not BattleStage.CLOSED
+
+    @property
+    def stage(self) -> BattleStage:
+        """How far it is."""
+        practice = self._sessions.practice
+        if practice.is_battle:
+            return BattleStage.PLAYING if practice.is_playing else BattleStage.OVER
+        return BattleStage.CHOOSING if self._is_open else BattleStage.CLOSED
+
+    def view(self) -> BattleShown:
+        """What is shown; nothing where no battle is."""
+        stage, battle = self.stage, self._sessions.practice.battle
+        if stage is BattleStage.CLOSED:
+            return BattleShown()
+        shown = BattleShown(stage, self._setup, self._store.now.student)
+        if stage is BattleStage.CHOOSING:
+            return replace(shown, fault=self._fault())
+        assert battle is not None, "it runs or is over"
+        if stage is BattleStage.PLAYING:
+            return replace(shown, board=board_of(battle.view()))
+        replays = self._replay is not None and self._sessions.is_listening_to(self._replay)
+        return replace(shown, result=self._result(battle), replays=replays)
+
+    def choice(self) -> ScreenChoice | None:
+        """What is to be chosen now by pads, keys or the mouse."""
+        if not self.is_open:
+            return None
+        there = frozenset(self._sessions.practice.session.plan.kit.pieces)
+        return battle_choice(self.view(), self._leaf, there, self._store.now.kicks_start)
+
+    def _result(self, battle: BattleSession) -> BattleResultShown:
+        """What came of the battle that is over; put into words once."""
+        assert battle.outcome is not None, "it is over"
+        if self._told is None or self._told[0] is not battle.outcome:
+            folder = "" if battle.folder is None else str(battle.folder)
+            best = best_moment(battle.outcome)
+            names = names_of(battle.outcome.rules)
+            words = "" if best is None else moment_words(best, names[best.turn.planned.side])
+            self._told = battle.outcome, replace(result_of(battle.outcome, folder), best=words)
+        return self._told[1]
+
+    def _fault(self) -> str:
+        """Why what is chosen cannot begin; empty where it can."""
+        try:
+            self._rules()
+        except BadInput as fault:
+            return fault.fault
+        return ""
+
+    def _rules(self) -> BattleRules:
+        """What was chosen; raises `BadInput`."""
+        click = parse_click(self._store.now.click_pattern, setting_source("click_pattern"))
+        return chosen_rules(self._setup, self._store.now.student, self._around.kits(), click)
+
+    # --- as time goes by ---------------------------------------------------------------------------------------------
+
+    def advance(self, now_ns: int) -> None:
+        """What else is begun takes the page's place."""
+        practice = self._sessions.practice
+        if practice.is_playing and not practice.is_battle:
+            self._is_open = False
+
+    # --- what the user does ------------------------------------------------------------------------------------------
+
+    def act(self, action: BattleAction) -> str:
+        """Do what the user asks; returns a line for them, empty for none. Raises `StationError`."""
+        match action:
+            case OpenBattle():
+                self._open()
+            case ChooseBattle(setup):
+                self._setup = setup
+            case TurnLeaf():
+                self._leaf += 1
+            case BeginBattle():
+                self._begin()
+            case CloseBattle():
+                self._back()
+            case PractiseFailed():
+                return self._practise_failed()
+            case JudgeBattle(level):
+                return self._judge(level)
+            case ReplayBest():
+                self._see_best()
+            case _:
+                assert_never(action)
+        return ""
+
+    def _open(self) -> None:
+        if self._sessions.practice.is_playing:
+            raise DeviceError("end the session first: a battle takes its place")
+        self._sessions.dismiss()
+        self._sessions.look()
+        self._is_open, self._leaf = True, 0
+
+    def _begin(self) -> None:
+        rules = self._rules()
+        self._around.make_ready()
+        self._sessions.battle(rules)
+        self._is_open, self._leaf = True, 0
+
+    def _practise_failed(self) -> str:
+        """Make a lesson of the phrase that went worst, and choose it; returns what it is called."""
+        outcome = self._outcome()
+        turn = None if outcome is None else failed_turn(outcome)
+        if turn is None or turn.planned.phrase is None:
+            return ""
+        title = f"{self._setup.drummer.title}: a phrase of round {turn.planned.round}"
+        self._around.open_lesson(keep_phrase(turn.planned.phrase, title, self._store.now.own_lessons_dir))
+        self.leave()
+        return f"{title} is among your lessons"
+
+    def _see_best(self) -> None:
+        """See and hear the best moment again, or end that; raises `DeviceError`."""
+        outcome = self._outcome()
+        best = None if outcome is None else best_moment(outcome)
+        if self._replay is not None and self._sessions.is_listening_to(self._replay):
+            self._sessions.quiet()
+        elif outcome is not None and best is not None:
+            self._replay = heard_again(outcome, best)
+            self._sessions.listen_to(self._replay)
+
+    def _outcome(self) -> BattleResult | None:
+        """The battle that is over, as it is judged now."""
+        return self._told[0] if self.stage is BattleStage.OVER and self._told is not None else None
+
+    def _judge(self, level: Level) -> str:
+        """Judge the battle that is over by other windows; what is kept stays. Raises `BadInput`."""
+        battle = self._sessions.practice.battle
+        if self.stage is not BattleStage.OVER or battle is None or battle.outcome is None:
+            return ""
+        was, judged = winner_words(battle.outcome), battle.judged_as(level)
+        now = winner_words(judged)
+        told = f"Judged as {level.words}: {'the same side wins' if now == was else f'{now}; it was: {was}'}"
+        best = self._result(battle).best
+        self._told = battle.outcome, replace(result_of(judged, str(battle.folder)), told=told, best=best)
+        return ""
+
+    def _back(self) -> None:
+        """From a result to what is chosen, from there to the lessons."""
+        if self.stage is BattleStage.OVER:
+            self._sessions.leave_battle()
+            self._leaf = 0
+        elif self.stage is BattleStage.CHOOSING:
+            self.leave()
+
+    def leave(self) -> None:
+        """Back to the lessons, wherever it is; one that runs is ended and kept."""
+        if not self.is_open:
+            return
+        self._sessions.practice.end()
+        self._sessions.leave_battle()
+        self._is_open = False
+        self._around.show_lessons()

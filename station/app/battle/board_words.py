@@ -1,0 +1,107 @@
+"""A battle in words for the board: who is on, and what the turns before were worth; the end is in `result_words`."""
+
+from station.app.battle.battle_shown import BoardShown, Evidence, Verdict
+from station.practice.battle.battle_view import BattleView, Doing, TurnView
+from station.practice.battle.judging.improvisation_marks import ImprovisationMarks
+from station.practice.battle.opponents.opponent import find_opponent
+from station.practice.battle.repeating.answer_marks import AnswerMarks
+from station.practice.battle.rules import BattleMode, BattleRules
+from station.practice.battle.turn_marks import TurnMarks
+
+EVEN_MS = 3.0
+"""A mean within this is on the click (our choice: half of what anybody hears)."""
+
+
+def board_of(view: BattleView) -> BoardShown:
+    """The board as of `view`."""
+    turn = running_turn(view)
+    return BoardShown(headline(view), _share(view, turn), _last_verdicts(view))
+
+
+def names_of(rules: BattleRules) -> tuple[str, ...]:
+    """What each side is called on the screen."""
+    return (find_opponent(rules.opponent).title, *(player.name for player in rules.players))
+
+
+def running_turn(view: BattleView) -> TurnView | None:
+    """The turn that runs."""
+    return None if view.turn is None else next((turn for turn in view.turns if turn.index == view.turn), None)
+
+
+def headline(view: BattleView) -> str:
+    """Who does what now."""
+    turn = running_turn(view)
+    name = "" if turn is None else names_of(view.rules)[turn.side]
+    repeats, whose = view.rules.mode is BattleMode.REPEAT, "Your turn" if view.rules.is_solo else name
+    return {
+        Doing.WAITING: "It begins at once",
+        Doing.COUNT_IN: "Count-in",
+        Doing.CALL: f"Listen to {in_a_sentence(name)}" if repeats else f"{name} plays",
+        Doing.ANSWER: f"{whose}: play it back" if repeats else f"{whose}: the bars are yours",
+        Doing.CHANGEOVER: f"Change seats: {name} is next",
+        Doing.PAUSED: "Paused",
+        Doing.OVER: "Over",
+    }[view.doing]
+
+
+def in_a_sentence(title: str) -> str:
+    """A drummer's title as it stands within a sentence."""
+    return title.replace("The ", "the ", 1) if title.startswith("The ") else title
+
+
+def _share(view: BattleView, turn: TurnView | None) -> float | None:
+    if turn is None or view.at_ns is None:
+        return None
+    whole = view.rules.ground.ns_of_bars(turn.bars)
+    return min(max((view.at_ns - turn.start_ns) / whole, 0.0), 1.0)
+
+
+def _last_verdicts(view: BattleView) -> tuple[Verdict, ...]:
+    """What each side's last turn was worth, in the order of the sides."""
+    last = {turn.side: turn for turn in view.turns if turn.marks is not None}
+    return tuple(verdict_of(view.rules, side, last[side].marks) for side in sorted(last))
+
+
+def verdict_of(rules: BattleRules, side: int, marks: TurnMarks | None) -> Verdict:
+    """What a turn of a side was worth that has marks."""
+    assert marks is not None, "it has marks"
+    return Verdict(names_of(rules)[side], points_words(marks, rules.target), evidence_of(marks))
+
+
+def points_words(marks: TurnMarks, target: float) -> str:
+    """What a turn was given; of a repeated phrase whether that was enough."""
+    if isinstance(marks, ImprovisationMarks):
+        return f"{marks.points:.1f} points"
+    if marks.accuracy is None:
+        return "not heard"
+    return f"{_percent(marks.accuracy)} % right, {'won' if marks.is_won(target) else 'not enough'}"
+
+
+def _percent(accuracy: float) -> int:
+    """Rounded down, so that a round that is lost never reads as the target."""
+    return int(100 * accuracy + 1e-9)
+
+
+def evidence_of(marks: TurnMarks) -> tuple[Evidence, ...]:
+    """What the points of a turn are made of."""
+    if isinstance(marks, AnswerMarks):
+        return _answered(marks)
+    return tuple(Evidence(each.component.value.capitalize(), each.points, each.words) for each in marks.components)
+
+
+def _answered(marks: AnswerMarks) -> tuple[Evidence, ...]:
+    """What was right of a phrase, what was not, and how it lay about the click."""
+    lines = [f"{marks.right} of {marks.known} notes right"]
+    missed = marks.known - marks.answered - marks.wrong_pieces
+    for count, words in ((missed, "missed"), (marks.wrong_pieces, "on a wrong pad"), (marks.extras, "too many")):
+        lines += [f"{count} {words}"] if count > 0 else []
+    parts = [Evidence("Notes", None, ", ".join(lines))]
+    if marks.mean_ms is not None:
+        parts.append(Evidence("Time", None, _lean(marks.mean_ms)))
+    return tuple(parts)
+
+
+def _lean(mean_ms: float) -> str:
+    if abs(mean_ms) < EVEN_MS:
+        return "on the click"
+    return f"{abs(mean_ms):.0f} ms {'late' if mean_ms > 0 else 'early'} on the whole"

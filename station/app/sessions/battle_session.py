@@ -1,0 +1,169 @@
+"""A battle in the window: its folder, its pictures, what is kept of it; `practice.battle.battle` moves it on."""
+
+from collections import deque
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+
+from station.app.engine_client import EngineClient
+from station.app.room_state import PlaceNow, RoomState, Stage
+from station.core.errors import DeviceError, StationError
+from station.core.events import Hit
+from station.core.settings import Settings
+from station.core.units import NS_PER_S
+from station.engine.messages import Command, EngineEvent
+from station.practice.battle.battle import Battle
+from station.practice.battle.battle_result import BattleResult
+from station.practice.battle.battle_view import BattleView, Doing
+from station.practice.battle.drummed import drummed
+from station.practice.battle.records.battle_folder import BattleFolder, kept_battle
+from station.practice.battle.rules import DRUMMER, BattleRules
+from station.practice.battle.turn_plan import TurnKind
+from station.practice.headless.live import begin, end
+from station.practice.session.device_latency import Latency
+from station.practice.session.engine_state import EngineState
+from station.render.snapshot import Snapshot
+from station.scenes.battle.battle_scene import BattleScene
+from station.scenes.battle.cast import cast_of
+from station.scenes.battle.motion_chain import Body
+from station.scoring.matching.hit_windows import Level
+
+_IN_SIGHT = 64
+"""The last strokes that the stage is shown: some seconds of what anybody plays (our choice)."""
+
+
+class BattleSession:
+    """A battle by `rules`, on devices that are so late; `player` is who sits at the kit on the stage.
+
+    `notify` hears what a user should read.
+    """
+
+    def __init__(
+        self, engine: EngineClient, rules: BattleRules, latency: Latency, player: Body, notify: Callable[[str], None]
+    ) -> None:
+        self._engine, self._notify = engine, notify
+        self._battle = Battle(rules, drummed, latency)
+        self._folder: BattleFolder | None = None
+        self._view: BattleView | None = None
+        self._player = player
+        self._scene: BattleScene | None = None  # where nobody looks nobody moves
+        self._struck: deque[Hit] = deque(maxlen=_IN_SIGHT)
+        self.outcome: BattleResult | None = None
+        """All that was played, once it is over."""
+
+    @property
+    def rules(self) -> BattleRules:
+        """What it is played by."""
+        return self._battle.rules
+
+    @property
+    def heard(self) -> EngineState:
+        """What the engine has said."""
+        return self._battle.heard
+
+    # --- while it runs -----------------------------------------------------------------------------------------------
+
+    def begin(self, settings: Settings) -> None:
+        """Start the transport and the capture; raises `StationError`, and leaves nothing behind then."""
+        with BattleFolder.make(None, settings, self.rules.opponent) as folder:
+            begin(self._engine, self._battle, folder.capture)
+            self._folder = folder
+
+    def handle(self, event: EngineEvent) -> None:
+        """Handle one event of the engine."""
+        notices = self._battle.heard.notices
+        known, self._view = len(notices), None
+        self._send(self._battle.handle(event))
+        if isinstance(event, Hit) and (stroke := self._in_battle_time(event)) is not None:
+            self._struck.append(stroke)
+        for notice in notices[known:]:
+            self._notify(notice)
+
+    def _in_battle_time(self, stroke: Hit) -> Hit | None:
+        """The stroke as the stage wants it; None while the transport stands."""
+        played_ns = self.heard.played_ns(stroke)
+        return None if played_ns is None else replace(stroke, at_ns=played_ns - self.begins_ns)
+
+    @property
+    def begins_ns(self) -> int:
+        """The time from the transport's zero at which battle time is 0: after the count-in, however often it came."""
+        return self.rules.ground.ns_of_bars(self.rules.count_in_bars) - self._battle.ear.from_ns
+
+    def advance(self, now_ns: int) -> bool:
+        """Move on; returns whether it is over."""
+        if self.outcome is None:
+            self._view = None
+            self._send(self._battle.advance(now_ns))
+        return self._battle.over
+
+    def turn(self) -> None:
+        """Pause, or go on."""
+        self._view = None
+        self._send(self._battle.resume() if self._battle.paused else self._battle.pause())
+
+    def _send(self, commands: Sequence[Command]) -> None:
+        with suppress(DeviceError):  # a dead engine says so itself
+            for command in commands:
+                self._engine.send(command)
+
+    # --- what is seen ------------------------------------------------------------------------------------------------
+
+    def view(self) -> BattleView:
+        """How it stands; after its end all is judged once more, once."""
+        if self._view is None:
+            self._view = self._battle.view()
+        return self._view
+
+    def state_in(self, room: RoomState) -> RoomState:
+        """The room, and how far the battle is."""
+        view, is_playing = self.view(), room.stage is Stage.PLAYING
+        if not is_playing:
+            return room
+        done = max(view.round - 1, 0) / view.rounds
+        clock = None if view.at_ns is None else PlaceNow(max(view.at_ns, 0) / NS_PER_S, None, None)
+        paused = self._battle.paused
+        return replace(room, progress=done, can_pause=paused or view.at_ns is not None, paused=paused, clock=clock)
+
+    def snapshot(self, heard_ns: int | None) -> Snapshot:
+        """Both drummers on the stage, now, or where a moment of the battle is heard again at `heard_ns` of it."""
+        if self._scene is None:
+            self._scene = BattleScene(self.rules, cast_of(self.rules, self._player))
+        if heard_ns is not None and self.outcome is not None:
+            return self._again(self._scene, self.outcome, heard_ns)
+        snapshot = self._scene.snapshot(self.view(), self._struck)
+        return replace(snapshot, hud=replace(snapshot.hud, message=""))  # the board below says more
+
+    def _again(self, scene: BattleScene, outcome: BattleResult, at_ns: int) -> Snapshot:
+        """The stage at a time of a battle that is over: as it was, with what was struck then."""
+        ground, view = self.rules.ground, self.view()
+        begun = [turn for turn in outcome.turns if ground.ns_of_bars(turn.planned.first_bar) <= at_ns]
+        turn = (begun or list(outcome.turns))[-1]
+        start_ns, played = ground.ns_of_bars(turn.planned.first_bar), turn.played
+        strokes = [] if played is None or turn.planned.side == DRUMMER else list(played.played.shifted(start_ns))
+        doing = Doing.CALL if turn.planned.kind is TurnKind.CALL else Doing.ANSWER
+        seen = scene.snapshot(replace(view, doing=doing, turn=turn.planned.index, at_ns=at_ns), strokes)
+        return replace(seen, hud=replace(seen.hud, message="", title="Replay"), is_replay=True)
+
+    # --- the end -----------------------------------------------------------------------------------------------------
+
+    @property
+    def folder(self) -> Path | None:
+        """Where it is kept, None before it began."""
+        return None if self._folder is None else self._folder.path
+
+    def judged_as(self, level: Level) -> BattleResult:
+        """The battle that is over, judged by other windows from what was kept of it; raises `BadInput`."""
+        assert self._folder is not None, "it was begun"
+        return kept_battle(self._folder.path, level)
+
+    def finish(self) -> StationError | None:
+        """End it, judge all once more and keep it; returns what went wrong."""
+        assert self._folder is not None, "it was begun"
+        fault = end(self._engine, self._battle) if self._engine.alive else None
+        self.outcome, self._view = self._battle.result(), None
+        try:
+            self._folder.write(self.outcome)
+        except StationError as refused:
+            return refused
+        return fault
