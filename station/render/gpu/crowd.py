@@ -29,11 +29,12 @@ const float TAU = 6.2831853;
 void main() {
     vec2 corner = vec2(float(gl_VertexID & 1) * 2.0 - 1.0, float(gl_VertexID >> 1));
     float height = build.x;
-    vec2 size = vec2(0.48, height + 0.08);
+    bool is_board = build.y < 0.0;              // a board stands along the wall, whoever looks
+    vec2 size = vec2(is_board ? BOARD_M : 0.48, height + 0.08);
     v_at = corner * size;
     v_build = build.xy;
     v_far = foot.z;
-    vec2 to_eye = normalize(eye.xy - foot.xy);
+    vec2 to_eye = normalize((is_board ? vec2(0.0, CENTRE_M) : eye.xy) - foot.xy);
     vec3 aside = vec3(-to_eye.y, to_eye.x, 0.0);
     float nod = 0.5 - 0.5 * cos(TAU * (beat + build.w));         // down on the beat
     float sway = sin(0.5 * TAU * (beat + 2.0 * build.w));        // to and fro over two beats
@@ -43,7 +44,7 @@ void main() {
 }
 """
 
-_VERTEX = _VERTEX.replace("LOWER_M", "-0.30")
+_VERTEX = _VERTEX.replace("LOWER_M", "-0.30").replace("CENTRE_M", str(CENTRE_Y)).replace("BOARD_M", "0.095")
 """The crowd stands so much lower than the stage, as crowds do: in the picture heads stay below those who play."""
 
 _FRAGMENT = """
@@ -65,7 +66,7 @@ float limb(vec2 p, vec2 a, vec2 b, float thick) {
 
 vec4 barrier() {                             // before the crowd: a dark board with a rail
     float rail = smoothstep(0.05, 0.02, v_build.x - v_at.y);
-    return v_at.y > v_build.x ? vec4(0.0) : vec4(mix(vec3(0.016, 0.018, 0.026), vec3(0.075, 0.085, 0.105), rail), 1.0);
+    return v_at.y > v_build.x ? vec4(0.0) : vec4(mix(vec3(0.024, 0.027, 0.038), vec3(0.085, 0.095, 0.115), rail), 1.0);
 }
 
 void main() {
@@ -99,7 +100,7 @@ _ROWS = ((0.45, 21, 1.0), (0.95, 19, 0.0))
 """How far from the wall a row stands in metres, how many are in it, and whether it stands a step up, behind (our
 choice: enough to fill the wall, and nobody alone)."""
 _BARRIER_M, _BARRIER_HIGH_M, _BOARDS = 1.35, 1.05, 61
-"""How far from the wall the barrier before them is, how high over where they stand, of how many overlapping boards."""
+"""How far from the wall the barrier before them is, how high over where they stand, of how many boards."""
 _SEED = 14
 
 

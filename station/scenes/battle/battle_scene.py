@@ -206,7 +206,8 @@ class _Player:
         self._rules, self.figure = rules, body.figure
         self._rest = MotionChain(rules.ground, body)
         self.kit: Kit = self._rest.kit
-        self._coming: Future[Vocabulary] = AHEAD.submit(lambda: Vocabulary.of(body))
+        self._body = body
+        self._coming: Future[Vocabulary] | None = None
         self._figure: LiveFigure | None = None
         self._heard: set[Hit] = set()
         self._told_ns = -(2**62)
@@ -215,6 +216,8 @@ class _Player:
     def take(self, side: int, view: BattleView, hits: Sequence[Hit], at_ns: int) -> None:
         """Take in what was struck, and what is expected."""
         if self._figure is None:
+            if self._coming is None:  # after the drummer's first phrase was asked for
+                self._coming = AHEAD.submit(lambda: Vocabulary.of(self._body))
             if not self._coming.done():
                 return
             self._figure = LiveFigure(self._coming.result())

@@ -99,6 +99,7 @@ def test_the_camera_changes_on_downbeats_alone_and_can_stand_still() -> None:
 
 def test_a_live_player_sits_until_planned_and_answers_what_is_heard() -> None:
     scene = BattleScene(RULES, CAST)
+    scene.snapshot(view_at(-BAR_NS, ()), [], -BAR_NS)
     player = scene._movers[1]
     player._coming.result(timeout=60)  # type: ignore[union-attr]
     hits = all_hits(KNOWN)
@@ -119,6 +120,7 @@ def test_a_live_player_sits_until_planned_and_answers_what_is_heard() -> None:
 def test_strokes_at_one_time_and_late_news_move_all_limbs() -> None:
     """Kick and hi-hat together, and a snare stroke that is told after a later one."""
     scene = BattleScene(RULES, CAST)
+    scene.snapshot(view_at(-BAR_NS, ()), [], -BAR_NS)
     player = scene._movers[1]
     player._coming.result(timeout=60)  # type: ignore[union-attr]
     start = KNOWN[1].start_ns
