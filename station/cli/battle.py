@@ -134,7 +134,7 @@ def _is_kit_there(wanted: str) -> bool:
 
 
 def _say_what_was_cut_off(settings: Settings) -> None:
-    for folder in battles_cut_off(settings.sessions_dir, settings.student)[1:2]:
+    for folder in battles_cut_off(settings.sessions_dir, settings.student)[:1]:
         say(f"a battle was cut off before it was judged: {folder.name}; station battle --recover {folder} judges it")
 
 
