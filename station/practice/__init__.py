@@ -3,6 +3,7 @@
 In: a lesson and what the student asks of it, events of the engine, time. Out: judgements, a report, a capture.
 `session` is the practice session as a state machine and the loop that moves it on, `now` what tempo it is and where one
 is, `control` what pads and pedals may command, `demonstration` the player of a lesson, `records` what is kept of a
-session, `book` what is kept of a day, `exchange` what goes between teacher and student, `exam` one take that is marked.
+session, `book` what is kept of a day, `exchange` what goes between teacher and student, `exam` one take that is marked,
+`battle` the game.
 Read `session.plan`, then `session.session`.
 """

@@ -60,7 +60,7 @@ class PlayedBattle:
 
     battle: Battle
     plays: Callable[[PlannedTurn], Iterable[Stroke]] = as_written
-    frames_per_s: float = 60.0
+    frames_per_s: float = 40.0
     device: Callable[[PlannedTurn], str] = lambda turn: "kit"
     events: list[tuple[int, EngineEvent]] = field(default_factory=list)
 

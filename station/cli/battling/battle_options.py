@@ -25,6 +25,7 @@ from station.core.settings import Settings, setting_source
 from station.practice.battle.ground import Feel, Ground
 from station.practice.battle.opponents.opponent import OPPONENTS, USUAL_OPPONENT, find_opponent
 from station.practice.battle.people.player import Player
+from station.practice.battle.records.earlier_rounds import expected_of
 from station.practice.battle.repeating.demands import MOST_STEP
 from station.practice.battle.rules import TURN_BARS, BattleMode, BattleRules
 from station.practice.session.cues.click_options import parse_click
@@ -88,6 +89,7 @@ class BattleOptions:
         _players,
         (),
     )
+    handicap: bool = flag("players are measured against what they did in earlier battles")
     device: tuple[str, ...] = devices_option()
     virtual_student: tuple[str, ...] = repeated(
         "SPEC", "who plays instead of a person, such as pro,seed=3; once for each player"
@@ -108,6 +110,8 @@ class BattleOptions:
 def battle_rules(options: BattleOptions, settings: Settings) -> BattleRules:
     """What is agreed; raises `BadInput` for what nobody can play."""
     keeps_time = options.mode is BattleMode.IMPROVISE if options.keep_time is None else options.keep_time
+    if options.handicap and len(options.players) < 2:
+        raise BadInput("--handicap", "", "it is for two players or more; name them with --players")
     if options.first_step is not None and not 0 <= options.first_step <= MOST_STEP:
         raise BadInput("--first-step", f"{options.first_step}", f"expected 0 to {MOST_STEP}")
     return BattleRules(
@@ -125,6 +129,9 @@ def battle_rules(options: BattleOptions, settings: Settings) -> BattleRules:
         seed=options.seed,
         click=parse_click(settings.click_pattern, setting_source("click_pattern")),
         keeps_time=keeps_time,
+        expectations=tuple(expected_of(settings.sessions_dir, player.name) for player in options.players)
+        if options.handicap
+        else (),
     )
 
 

@@ -4,7 +4,8 @@ In repeat mode an answer earns 100 times its accuracy, an answer below the targe
 
 * against the drummer whoever has no life left has lost; whoever is left at the end wins by winning the final, or where
   there is none by being left;
-* among players whoever alone has lives left has won, else whoever has most points.
+* among players whoever alone has lives left has won, else whoever has most points. With a handicap nobody loses a life,
+  and points against what is expected of each decide, in either mode.
 
 In improvise mode a turn earns the points of its marks, the drummer's too, and most points win. The final counts
 `FINAL_WEIGHT` times. Equal points are a draw. A battle that was stopped has no winner unless all but one were out.
@@ -16,10 +17,15 @@ from itertools import groupby
 
 from station.practice.battle.phrase import Turn
 from station.practice.battle.repeating.answer_marks import AnswerMarks
+from station.practice.battle.repeating.demands import MOST_STEP
+from station.practice.battle.repeating.staircase import USUAL_FIRST_STEP, Staircase
 from station.practice.battle.rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.turn_marks import TurnMarks
 from station.practice.battle.turn_plan import PlannedTurn
 from station.practice.session.device_latency import Latency
+
+STAIRCASE = Staircase(MOST_STEP, USUAL_FIRST_STEP)
+"""What is expected of a player goes by it, whatever step a battle begins with."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,11 +39,15 @@ class JudgedTurn:
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """One side: its `points`, the `lives` that are left (None where there are none to lose), rounds that it has won."""
+    """One side: its `points`, the `lives` that are left (None where there are none to lose), rounds that it has won.
+
+    `handicapped`, 0–100, decides where players are measured against themselves, and is None else.
+    """
 
     points: float
     lives: int | None
     rounds_won: int
+    handicapped: float | None = None
 
     @property
     def is_in(self) -> bool:
@@ -47,15 +57,15 @@ class Standing:
 
 def standings(rules: BattleRules, turns: Sequence[JudgedTurn]) -> tuple[Standing, ...]:
     """Every side's standing, the drummer's first."""
-    is_repeat = rules.mode is BattleMode.REPEAT
     sides = (DRUMMER, *rules.player_sides)
     won = _rounds_won(rules, turns)
     lost = {side: sum(is_lost(rules, turn) for turn in turns if turn.planned.side == side) for side in sides}
     return tuple(
         Standing(
             sum(_points(rules, turn) or 0.0 for turn in turns if turn.planned.side == side),
-            max(rules.lives - lost[side], 0) if is_repeat and side != DRUMMER else None,
+            max(rules.lives - lost[side], 0) if rules.has_lives and side != DRUMMER else None,
             won.count(side),
+            handicapped_points(rules, turns, side) if rules.has_handicap and side != DRUMMER else None,
         )
         for side in sides
     )
@@ -68,7 +78,7 @@ def is_lost(rules: BattleRules, turn: JudgedTurn) -> bool:
 
 def is_decided(rules: BattleRules, turns: Sequence[JudgedTurn]) -> bool:
     """Whether nothing that is still to come can count: too few are left to play on."""
-    if rules.mode is not BattleMode.REPEAT:
+    if not rules.has_lives:
         return False
     left = sum(side.is_in for side in standings(rules, turns)[1:])
     return left == 0 or (left == 1 and not rules.is_solo)
@@ -91,9 +101,32 @@ def winner_of(rules: BattleRules, turns: Sequence[JudgedTurn], is_complete: bool
 
 def _most_points(rules: BattleRules, sides: Sequence[Standing]) -> int | None:
     competing = [DRUMMER, *rules.player_sides] if rules.drummer_competes else list(rules.player_sides)
-    best = max(sides[side].points for side in competing)
-    first = [side for side in competing if sides[side].points == best]
+    points = {
+        side: sides[side].points if sides[side].handicapped is None else sides[side].handicapped for side in competing
+    }
+    best = max(one or 0.0 for one in points.values())
+    first = [side for side in competing if points[side] == best]
     return first[0] if len(first) == 1 else None
+
+
+def handicapped_points(rules: BattleRules, turns: Sequence[JudgedTurn], side: int) -> float:
+    """The mean worth of a player's turns against what is expected of them, 0–100; 50 where none counts.
+
+    Of the calls that were to be repeated those count that were as hard as this player needs them.
+    """
+    counted: list[tuple[int, float]] = []
+    expected = rules.expectations[side - 1]
+    for turn in turns:
+        planned, marks = turn.planned, turn.marks
+        if planned.side != side or marks is None or marks.points is None:
+            continue
+        if not isinstance(marks, AnswerMarks):
+            counted.append((rules.weight(planned.round), expected.of_improvisation(marks.points)))
+        elif planned.step is not None and rules.owner(planned.round) == side:
+            worth = expected.of_answer(planned.step, not is_lost(rules, turn), STAIRCASE)
+            counted.append((rules.weight(planned.round), worth))
+    weight = sum(weight for weight, _ in counted)
+    return sum(weight * worth for weight, worth in counted) / weight if weight else 50.0
 
 
 def _points(rules: BattleRules, turn: JudgedTurn) -> float | None:

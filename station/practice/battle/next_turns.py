@@ -156,4 +156,7 @@ def step_of_round(before: SoFar, number: int, staircase: Staircase) -> int:
     rules = before.rules
     owner = before.sides_in[(number - 1) % len(before.sides_in)]
     won = [answer.step for side in rules.player_sides for answer in before.answers(side) if answer.is_won]
-    return max(won) if rules.is_final(number) and won else staircase.next_step(before.answers(owner))
+    if rules.is_final(number) and won and not rules.has_handicap:
+        return max(won)
+    earlier = rules.expectations[owner - 1].answered if rules.has_handicap else ()
+    return staircase.next_step([*earlier, *before.answers(owner)])

@@ -12,6 +12,7 @@ from station.core.errors import BadInput
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.score import MAX_LATE_MS
 from station.practice.battle.ground import Ground
+from station.practice.battle.people.handicap import Expectation
 from station.practice.battle.people.player import Player, check_players, is_hot_seat
 from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
 from station.scoring.matching.hit_windows import Level
@@ -47,7 +48,9 @@ class BattleRules:
     `opponent` is a name of `opponents`; `rounds` come before the final (`has_final`); `bars` are those of an improvised
     turn, a phrase to repeat has its own. In repeat mode a round is won by `target` accuracy at the windows of `level`,
     a lost one costs one of the `lives`, and `first_step` is how hard the first phrase is, None for the usual one.
-    `keeps_time`: the drummer keeps time under the players' turns. Raises `BadInput` for what nobody can play.
+    `keeps_time`: the drummer keeps time under the players' turns. With `expectations`, one for each of several players,
+    they are measured against themselves (`people.handicap`): then no lives are lost. Raises `BadInput` for what nobody
+    can play.
     """
 
     ground: Ground
@@ -64,9 +67,12 @@ class BattleRules:
     seed: int = 1
     click: ClickPattern = field(default=PLAIN)
     keeps_time: bool = False
+    expectations: tuple[Expectation, ...] = ()
 
     def __post_init__(self) -> None:
         check_players(self.players)
+        if self.expectations and (self.is_solo or len(self.expectations) != len(self.players)):
+            raise BadInput("handicap", "", "it is for two players or more")
         _within("rounds", self.rounds, 1, MOST_ROUNDS)
         _within("lives", self.lives, 1, MOST_LIVES)
         if not 0 < self.target <= 1:  # also refuses NaN
@@ -89,6 +95,16 @@ class BattleRules:
         return is_hot_seat(self.players)
 
     @property
+    def has_handicap(self) -> bool:
+        """Whether players are measured against themselves."""
+        return bool(self.expectations)
+
+    @property
+    def has_lives(self) -> bool:
+        """Whether a lost round costs a life."""
+        return self.mode is BattleMode.REPEAT and not self.has_handicap
+
+    @property
     def drummer_competes(self) -> bool:
         """Whether the drummer can win."""
         return self.is_solo
@@ -103,6 +119,10 @@ class BattleRules:
         return tuple(range(1, len(self.players) + 1))
 
     # --- rounds -----------------------------------------------------------------------------------------------------
+
+    def owner(self, number: int) -> int:
+        """The player for whom the call of round `number` is as hard as they need it, while all are in."""
+        return self.player_sides[(number - 1) % len(self.players)]
 
     @property
     def rounds_in_all(self) -> int:

@@ -80,7 +80,14 @@ def side_views(rules: BattleRules, judged: Sequence[JudgedTurn]) -> tuple[SideVi
         rules.opponent, True, sides[DRUMMER].points if has_points else None, None, sides[DRUMMER].rounds_won
     )
     players = (
-        SideView(rules.player_of(side).name, False, sides[side].points, sides[side].lives, sides[side].rounds_won)
+        SideView(
+            rules.player_of(side).name,
+            False,
+            sides[side].points,
+            sides[side].lives,
+            sides[side].rounds_won,
+            sides[side].handicapped,
+        )
         for side in rules.player_sides
     )
     return (drummer, *players)

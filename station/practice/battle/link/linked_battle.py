@@ -11,7 +11,6 @@ from enum import Enum
 from typing import Literal
 
 from station.core.errors import BadInput
-from station.core.events import Hit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.engine.messages import AddCues, Annotate, Command, EngineEvent, Play, Stop, Unheard
 from station.practice.battle.battle_cues import count_in_cues, turn_cues
@@ -30,6 +29,7 @@ from station.practice.battle.link.link_messages import (
 )
 from station.practice.battle.link.linked_rounds import LinkedRounds
 from station.practice.battle.link.linked_rules import Agreed
+from station.practice.battle.link.own_turns import OwnTurns
 from station.practice.battle.phrase_request import Drum
 from station.practice.battle.records.battle_log import (
     BattleBegan,
@@ -40,8 +40,7 @@ from station.practice.battle.records.battle_log import (
     TurnChosen,
     battle_text,
 )
-from station.practice.battle.repeating.live_answer import LiveAnswer
-from station.practice.battle.turn_judging import ARRIVES_NS, judged_at_ns
+from station.practice.battle.turn_judging import judged_at_ns
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.session.cues.stroke_cues import in_order, moved_by
 from station.practice.session.device_latency import Latency
@@ -94,12 +93,10 @@ class LinkedBattle:
         """The sides that asked for a pause."""
         self.plan: list[PlannedTurn] = []
         """What was and will be played here, bar after bar."""
-        self.live: dict[int, LiveAnswer] = {}
-        """Our answers by the indices of their turns, as they are shown while they are played."""
+        self.own = OwnTurns(agreed, self.ear, self.rounds)
+        """What is played here."""
         self._line = line
         self._is_last_chosen = self._said_outcome = self._stands_next = False
-        self._own = 0  # the first of the plan that may be a turn of ours that is not over
-        self._own_bars = 0  # its bars that were sent
 
     # --- commands ---------------------------------------------------------------------------------------------------
 
@@ -184,17 +181,10 @@ class LinkedBattle:
         """Take one event."""
         stroke = self.ear.handle(event)
         if stroke is not None:
-            self._show(stroke)
+            self.own.show(stroke, self.plan)
         if isinstance(event, Unheard):
             return (_kept(BattleUnheard(event.from_ns, event.until_ns)),)
         return ()
-
-    def _show(self, stroke: Hit) -> None:
-        """Judge a stroke for the view, as soon as it comes."""
-        for turn in self.plan[self._own :]:
-            if turn.phrase is not None and self.ear.strokes.is_of(turn, stroke):
-                live = self.live.setdefault(turn.index, LiveAnswer(turn.phrase, self._ns(turn.first_bar)))
-                live.hit(stroke)
 
     def advance(self, now_ns: int) -> tuple[Command, ...]:
         """Tell the session time: what was played is sent, what was said is taken, what comes next sounds."""
@@ -224,7 +214,7 @@ class LinkedBattle:
         at_ns = self.ear.at_ns
         if self.standing:
             return None if self._is_held or self._is_last_chosen else self._play()
-        if at_ns is not None and self._send_own(at_ns):
+        if at_ns is not None and self.own.send(self.plan, at_ns):
             return ()
         chooses_ns = self._ns(self.end_bar) - self.rules.chosen_ahead_ns
         return None if at_ns is None or self._is_last_chosen or at_ns < chooses_ns else self._go_on(at_ns)
@@ -239,36 +229,6 @@ class LinkedBattle:
         if turn is None:
             return ()
         return (_kept(TurnChosen(turn)), AddCues(moved_by(turn_cues(self.rules, turn), self._zero_ns)))
-
-    @property
-    def _own_turn(self) -> PlannedTurn | None:
-        """Our turn that runs or comes next, or whose last stroke may still come."""
-        return next((one for one in self.plan[self._own :] if self._is_own(one)), None)
-
-    def _bar_whole_ns(self, turn: PlannedTurn) -> int | None:
-        """When the next bar of our turn has come whole; None where all were sent."""
-        if self._own_bars == turn.bars:
-            return None
-        return self._ns(turn.first_bar + self._own_bars + 1) - self.rules.early_ns + ARRIVES_NS
-
-    def _send_own(self, at_ns: int) -> bool:
-        """Send what of a turn of ours is whole; whether there was something."""
-        turn = self._own_turn
-        if turn is None:
-            return False
-        whole_ns = self._bar_whole_ns(turn)
-        if whole_ns is not None and at_ns >= whole_ns:
-            self.rounds.bar_played(turn.round, self._own_bars, self.ear.turn(turn))
-            self._own_bars += 1
-            return True
-        if at_ns < judged_at_ns(self.rules, turn):
-            return False
-        self.rounds.turn_played(turn.round, self.ear.turn(turn), self.ear.unheard(turn))
-        self._own, self._own_bars = self.plan.index(turn) + 1, 0
-        return True
-
-    def _is_own(self, turn: PlannedTurn) -> bool:
-        return turn.kind is TurnKind.ANSWER and turn.side == self.agreed.our_side
 
     # --- standing ---------------------------------------------------------------------------------------------------
 

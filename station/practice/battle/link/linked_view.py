@@ -70,7 +70,7 @@ def _message(battle: LinkedBattle, running: int | None) -> str:
 
 def _turn_view(battle: LinkedBattle, turn: PlannedTurn) -> TurnView:
     shared = battle.rounds.shared.turns.get((turn.round, turn.side))
-    live = battle.live.get(turn.index)
+    live = battle.own.live.get(turn.index)
     return TurnView(
         index=turn.index,
         round=turn.round,

@@ -54,6 +54,7 @@ def _score(result: BattleResult, side: int, standing: Standing) -> dict[str, Jso
         "points": round(standing.points, _PLACES) if has_points else None,
         "lives": standing.lives,
         "rounds_won": standing.rounds_won,
+        "handicapped": None if standing.handicapped is None else round(standing.handicapped, _PLACES),
         "device": result.devices[side],
     }
 

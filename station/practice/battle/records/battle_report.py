@@ -57,6 +57,8 @@ def _score(result: BattleResult, side: int) -> str:
     parts = [f"{standing.rounds_won} rounds won"]
     if side != DRUMMER or rules.mode is BattleMode.IMPROVISE:
         parts.insert(0, f"{standing.points:.0f} points")
+    if standing.handicapped is not None:
+        parts.append(f"{standing.handicapped:.0f} against what was expected (50: as ever)")
     if standing.lives is not None:
         parts.append(f"{standing.lives} of {rules.lives} lives left")
     return f"{side_name(rules, side)}: {', '.join(parts)}"

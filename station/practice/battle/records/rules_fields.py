@@ -1,7 +1,10 @@
 """The rules of a battle as plain JSON, in its capture and in its document, and read again with suspicion."""
 
 from station.practice.battle.ground import Feel, Ground
+from station.practice.battle.people.handicap import MEMORY, Expectation
 from station.practice.battle.people.player import Player
+from station.practice.battle.repeating.demands import MOST_STEP
+from station.practice.battle.repeating.staircase import Answered
 from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.session.cues.click_options import click_text, parse_click
 from station.practice.session.log_values import rows_in, table_in, whole
@@ -32,6 +35,16 @@ def rules_fields(rules: BattleRules) -> dict[str, Json]:
         "seed": rules.seed,
         "click": click_text(rules.click),
         "keeps_time": rules.keeps_time,
+        "expectations": [_expectation_fields(one) for one in rules.expectations],
+    }
+
+
+def _expectation_fields(expected: Expectation) -> dict[str, Json]:
+    return {
+        "answered": [[answer.step, answer.is_won] for answer in expected.answered],
+        "eased": expected.eased,
+        "points": float(expected.points),
+        "spread": float(expected.spread),
     }
 
 
@@ -57,4 +70,21 @@ def rules_of(fields: dict[str, object]) -> BattleRules:
         seed=whole(fields["seed"]),
         click=parse_click(str(fields["click"])),
         keeps_time=fields["keeps_time"] is True,
+        expectations=tuple(_expectation(table_in(one)) for one in rows_in(fields["expectations"])),
     )
+
+
+def _expectation(fields: dict[str, object]) -> Expectation:
+    answered = [rows_in(answer) for answer in rows_in(fields["answered"])]
+    points, spread = float(str(fields["points"])), float(str(fields["spread"]))
+    if len(answered) > MEMORY or not (0 <= points <= 100 and 0 < spread <= 100):
+        raise ValueError
+    steps = tuple(Answered(_step(step), is_won is True) for step, is_won in answered)
+    return Expectation(steps, _step(fields["eased"]), points, spread)
+
+
+def _step(value: object) -> int:
+    step = whole(value)
+    if not 0 <= step <= MOST_STEP:
+        raise ValueError
+    return step

@@ -27,11 +27,11 @@ LAPSE = 0.03
 """So often is an answer lost, or won, whatever the step (our choice)."""
 SLOPES = (0.5, 1.0, 2.0, 3.0)
 """Steps over which the odds change e-fold (our choice: from who has a sharp limit to who has hardly one)."""
-PRIOR_SD = 9.0
-"""How far from the first step thresholds lie before one is known (our choice: children play, and professionals)."""
-MOST_UP, MOST_DOWN = 4, 4
-"""A phrase is at most so much harder or easier than the one before (our choice: a leap is no staircase)."""
+PRIOR_SD = 5.0
+"""How far from the first step thresholds lie before one is known (our choice: a fifth of the steps)."""
 _BETWEEN = 4
+_BEYOND = 12
+"""So many steps below the first and above the last a player's threshold may lie (our choice: half of the steps)."""
 """Grid points a step."""
 
 
@@ -54,9 +54,7 @@ class Staircase:
         answered = list(answered)
         if not answered:
             return self.first_step
-        last = answered[-1].step
-        wanted = round(self.threshold(answered))
-        return min(max(wanted, last - MOST_DOWN, 0), last + MOST_UP, self.most_step)
+        return min(max(round(self.threshold(answered)), 0), self.most_step)
 
     def threshold(self, answered: Iterable[Answered]) -> float:
         """The step that the player wins with `TARGET`, as far as their answers show."""
@@ -82,7 +80,7 @@ def _won(off: NDArray[np.float64]) -> NDArray[np.float64]:
 @lru_cache(maxsize=8)
 def _grid(most_step: int) -> NDArray[np.float64]:
     """The thresholds (n,) that are weighed."""
-    return np.linspace(0, most_step, most_step * _BETWEEN + 1)
+    return np.arange(-_BEYOND * _BETWEEN, (most_step + _BEYOND) * _BETWEEN + 1) / _BETWEEN
 
 
 def _prior(most_step: int, first_step: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -97,7 +97,7 @@ def clumsy(turn: PlannedTurn) -> list[Stroke]:
     strokes = [(ms + 31 * (-1) ** beat - 9, piece) for beat, (ms, piece) in enumerate(as_written(turn))]
     if turn.index % 5 == 0:
         strokes.pop()
-    return [*strokes, (1111.0, Piece.TOM_1)] if turn.index % 3 == 0 else strokes
+    return [*strokes, (700.0, Piece.TOM_1)] if turn.index % 3 == 0 else strokes
 
 
 def by_step(request: PhraseRequest) -> Phrase:
@@ -109,7 +109,7 @@ def by_step(request: PhraseRequest) -> Phrase:
 
 @pytest.mark.parametrize("frames_per_s", [1.0, 7.0, 60.0, 240.0])
 def test_a_battle_is_the_same_at_every_frame_rate(frames_per_s: float) -> None:
-    rules = BattleRules(Ground(100.0), rounds=4, lives=9)
+    rules = BattleRules(Ground(160.0), rounds=4, lives=9)
     often = PlayedBattle(Battle(rules, by_step), clumsy, 250.0).until().battle
     played = PlayedBattle(Battle(rules, by_step), clumsy, frames_per_s).until().battle
     assert battle_document(played.result()) == battle_document(often.result())

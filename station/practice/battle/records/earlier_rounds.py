@@ -1,0 +1,50 @@
+"""What players have done in earlier battles, by the documents that these have left: what is expected of them."""
+
+from collections.abc import Iterator
+from contextlib import suppress
+from pathlib import Path
+
+from station.core.errors import BadInput
+from station.practice.battle.battle_result import STAIRCASE
+from station.practice.battle.people.handicap import Expectation, expectation
+from station.practice.battle.records.battle_folder import DOCUMENT_NAME
+from station.practice.battle.repeating.demands import MOST_STEP
+from station.practice.battle.repeating.staircase import Answered
+from station.practice.records.kept_json import kept_document
+from station.practice.session.log_values import rows_in, table_in, whole
+
+MOST_READ = 60
+"""So many of a player's newest battles are read (our choice: five hundred turns, and a fraction of a second)."""
+
+
+def expected_of(sessions: Path, name: str) -> Expectation:
+    """What is expected of the player called `name`; `sessions` is the folder of all students' sessions.
+
+    A document that cannot be read tells nothing.
+    """
+    answered: list[Answered] = []
+    points: list[float] = []
+    documents = sorted(sessions.glob(f"*/*/{DOCUMENT_NAME}"), key=lambda path: path.parent.name)
+    for path in documents[-MOST_READ:]:
+        with suppress(BadInput, ValueError, TypeError, KeyError, AttributeError):
+            turns = list(_turns(kept_document(path), name))
+            answered += [Answered(step, is_won) for step, is_won, _ in turns if step is not None and is_won is not None]
+            points += [one for step, _, one in turns if step is None]
+    return expectation(answered, points, STAIRCASE)
+
+
+def _turns(document: object, name: str) -> Iterator[tuple[int | None, bool | None, float]]:
+    """Of each turn of a player its step, whether it was won (both None of an improvised one), and its points."""
+    for kept in rows_in(table_in(document)["rounds"]):
+        each = table_in(kept)
+        for turn in map(table_in, rows_in(each["turns"])):
+            marks = turn["marks"]
+            if turn["kind"] != "answer" or turn["name"] != name or marks is None:
+                continue
+            points, step, won = table_in(marks)["points"], each["step"], turn["won"]
+            if points is not None:
+                yield (
+                    None if step is None else min(whole(step), MOST_STEP),
+                    won if isinstance(won, bool) else None,
+                    float(str(points)),
+                )
