@@ -138,5 +138,7 @@ def battle_rules(options: BattleOptions, settings: Settings) -> BattleRules:
 def _ground(options: BattleOptions) -> Ground:
     ground = find_opponent(options.opponent).ground
     beats, unit = options.meter or (ground.beats, ground.unit)
-    ground = replace(ground, tempo_bpm=options.tempo or ground.tempo_bpm, beats=beats, unit=unit)
+    ground = replace(
+        ground, tempo_bpm=ground.tempo_bpm if options.tempo is None else options.tempo, beats=beats, unit=unit
+    )
     return replace(ground, feel=options.feel or ground.feel, style=options.style or ground.style)

@@ -13,6 +13,9 @@ from station.core.units import PPQ
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from station.practice.session.plan import MAX_TEMPO_BPM, MIN_TEMPO_BPM
 
+MOST_LETTERS = 40
+"""Of a style (our choice: one word, as in a message to another station)."""
+
 
 class Feel(Enum):
     """How a beat is mostly divided; single beats of a phrase may be divided otherwise."""
@@ -25,7 +28,7 @@ class Feel(Enum):
 class Ground:
     """`tempo_bpm` counts quarter notes; bars have `beats` of 1/`unit`; `style` is a word such as "rock" or "jazz".
 
-    Raises `BadInput` for a tempo at which nobody plays.
+    Raises `BadInput` for a tempo at which nobody plays, and for a style that cannot be shown.
     """
 
     tempo_bpm: float = 100.0
@@ -38,6 +41,8 @@ class Ground:
         if not MIN_TEMPO_BPM <= self.tempo_bpm <= MAX_TEMPO_BPM:  # also refuses NaN
             limits = f"expected {MIN_TEMPO_BPM:g} to {MAX_TEMPO_BPM:g} beats a minute"
             raise BadInput("tempo", f"{self.tempo_bpm:g}", limits)
+        if len(self.style) > MOST_LETTERS or not self.style.isprintable():
+            raise BadInput("style", self.style, f"expected a word of at most {MOST_LETTERS} letters that can be seen")
 
     @cached_property
     def tempo_map(self) -> TempoMap:

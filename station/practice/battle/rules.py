@@ -23,6 +23,8 @@ TURN_BARS = (1, 2, 4, 8)
 """Bars of an improvised turn: ones, twos, fours and eights are traded."""
 MOST_ROUNDS, MOST_LIVES = 32, 9
 """Our choice: longer than anybody plays without a rest."""
+MOST_SEED = (1 << 62) - 1
+"""The largest whole number that is read again from a capture (`log_values.whole`), and a message can carry it."""
 FINAL_WEIGHT = 2
 """The final counts so many times (our choice: it can turn a battle, and not by itself win one)."""
 CHANGEOVER_S = 8.0
@@ -79,8 +81,8 @@ class BattleRules:
             raise BadInput("target", f"{self.target:g}", "expected above 0 and up to 1")
         if self.bars not in TURN_BARS:
             raise BadInput("bars", f"{self.bars}", f"expected one of {', '.join(map(str, TURN_BARS))}")
-        if self.seed < 0:
-            raise BadInput("seed", f"{self.seed}", "expected 0 or more")
+        if not 0 <= self.seed <= MOST_SEED:
+            raise BadInput("seed", f"{self.seed}", f"expected 0 to {MOST_SEED}")
 
     # --- who --------------------------------------------------------------------------------------------------------
 

@@ -14,6 +14,7 @@ from msgspec import Meta, Struct
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.practice.battle.ground import Feel
+from station.practice.battle.rules import MOST_SEED
 from station.scoring.matching.hit_windows import Level
 
 MOST_NAME = 40
@@ -169,7 +170,7 @@ class Offer(_Checked, frozen=True, tag="offer"):
     lives: Annotated[int, Meta(ge=1, le=MOST_ROUNDS)]
     target: Fraction
     first_step: Step | None
-    seed: Annotated[int, Meta(ge=0, le=(1 << 63) - 1)]
+    seed: Annotated[int, Meta(ge=0, le=MOST_SEED)]
     keeps_time: bool
     host_begins: bool
 

@@ -14,18 +14,18 @@ from station.practice.battle.link.link_handshake import Address
 
 MOST_AT_ONCE = 256
 """Datagrams read in one go: a flood costs a step a few milliseconds, and the rest is the system's to drop."""
-_LEAST_PORT, _MOST_PORT = 1, 65_535
+_LEAST_PORT, MOST_PORT = 1, 65_535
 
 
 def address_of(written: str, port: int = DEFAULT_PORT) -> Address:
     """The address that a user typed, `192.168.1.20`, `station.local` or either with `:port`; raises `BadInput`."""
     host, colon, digits = written.strip().partition(":")
-    if colon:
-        if not (digits.isascii() and digits.isdigit() and _LEAST_PORT <= int(digits) <= _MOST_PORT):
-            raise BadInput("address", written, f"expected a port from {_LEAST_PORT} to {_MOST_PORT} after the colon")
-        port = int(digits)
+    typed = digits if colon else str(port)
+    is_number = typed.isascii() and typed.isdigit() and len(typed) <= len(str(MOST_PORT))
+    if not (is_number and _LEAST_PORT <= int(typed) <= MOST_PORT):
+        raise BadInput("address", written, f"expected a port from {_LEAST_PORT} to {MOST_PORT} after the colon")
     try:
-        found = socket.getaddrinfo(host, port, socket.AF_INET, socket.SOCK_DGRAM)
+        found = socket.getaddrinfo(host, int(typed), socket.AF_INET, socket.SOCK_DGRAM)
     except (OSError, UnicodeError):
         raise BadInput("address", written, "no such address; expected one such as 192.168.1.20") from None
     name, number = found[0][4][:2]
@@ -46,7 +46,10 @@ def own_address() -> str | None:
 
 
 class LinkSocket:
-    """A socket bound to `host` and `port`, 0 for any; raises `DeviceError` where it cannot be had."""
+    """A socket bound to `host` and `port`, 0 for any; raises `DeviceError` where it cannot be had.
+
+    Raises `BadInput` for what is no address.
+    """
 
     def __init__(self, host: str = "", port: int = 0, may_broadcast: bool = False) -> None:
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -60,6 +63,9 @@ class LinkSocket:
             raise DeviceError(
                 f"port {port} of UDP cannot be opened: {fault.strerror}; choose another with --port"
             ) from None
+        except (OverflowError, TypeError):  # no port, or a host that no name's encoding takes
+            self._socket.close()
+            raise BadInput("address", f"{host}:{port}", f"expected an address, and a port up to {MOST_PORT}") from None
 
     @property
     def address(self) -> Address:

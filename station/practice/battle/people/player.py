@@ -35,6 +35,8 @@ def check_players(players: Sequence[Player]) -> None:
     for player in players:
         if not player.name.strip() or len(player.name) > MOST_LETTERS:
             raise BadInput("players", player.name, f"a name has 1 to {MOST_LETTERS} letters")
+        if not (player.name + player.device).isprintable():
+            raise BadInput("players", player.name, "has a letter that nobody sees")
     if len(set(names)) < len(names):
         raise BadInput("players", ", ".join(player.name for player in players), "two players bear one name")
     devices = [player.device.lower() for player in players]
