@@ -16,9 +16,7 @@ from tests.gui.drive import Drive
 KEPT = {
     "chosen": "chosen",
     "repeat board": "repeat",
-    "repeated": "repeated",
     "replay": "replay",
-    "improvise board": "improvise",
     "improvised": "improvised",
 }
 """What of a battle is kept, and what it is called; in other sizes than the usual one the page of the choice alone."""

@@ -35,6 +35,7 @@ FOLDER = "take-along"
 _PAPER = "a4"
 FILM, LOOP, LESSON, SHEET, _TAKE = ".mp4", ".gif", ".toml", ".pdf", ".mid"
 ANIMATE = (sys.executable, "-m", "station.cli.command_line", "animate")
+JUDGE_AGAIN = (sys.executable, "-m", "station.cli.command_line", "battle", "--judge-again")
 _BACKGROUND = 10
 """How nice the film is to a drummer who plays meanwhile (our choice: it gets what is left)."""
 _SAID = "said"
@@ -64,11 +65,13 @@ class ExportView:
 class Exporter:
     """Writes the files; one video at a time, which `animate` (the first words of a command line) films.
 
-    `start` begins the writing of music and sheets, one at a time too.
+    `battle` is that of a battle's film; `start` begins the writing of music and sheets, one at a time too.
     """
 
-    def __init__(self, animate: Sequence[str] = ANIMATE, start: StartWork = WorkerProcess) -> None:
-        self._animate, self._start = animate, start
+    def __init__(
+        self, animate: Sequence[str] = ANIMATE, start: StartWork = WorkerProcess, battle: Sequence[str] = JUDGE_AGAIN
+    ) -> None:
+        self._animate, self._battle, self._start = animate, battle, start
         self._work: Work[ExportedFile] | None = None
         self._written: ExportedFile | None = None
         self._scratch: tempfile.TemporaryDirectory[str] | None = None
@@ -146,6 +149,11 @@ class Exporter:
         self._scratch_folder()
         self._begin(capture, capture.with_suffix(FILM), words)
 
+    def film_battle(self, folder: Path) -> None:
+        """Begin a video, in a battle's folder, of all that was played in it; raises `DeviceError`."""
+        self._scratch_folder()
+        self._begin(folder, folder / f"battle{FILM}", (), (self._battle, "--film"))
+
     def _scratch_folder(self) -> Path:
         """A folder that goes with the film; raises `DeviceError` while there is one."""
         if self.process is not None:
@@ -153,17 +161,21 @@ class Exporter:
         self._scratch = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)  # who helps to draw may end later
         return Path(self._scratch.name)
 
-    def _begin(self, source: Path, path: Path, words: Sequence[str]) -> None:
+    def _begin(
+        self, source: Path, path: Path, words: Sequence[str], films: tuple[Sequence[str], str] | None = None
+    ) -> None:
         """Let another process film `source`; the film takes its place at `path` when it is whole.
 
+        `films` is the command that does, and its option for the file, where it is not the usual one.
         It says what went wrong to a file: a pipe would fill, and last as long as anyone whom it has let draw.
         """
         assert self._scratch is not None, "it has a folder to film into"
         self._made = Path(self._scratch.name) / f"film{path.suffix}"
+        command, out = films or (self._animate, "--out")
         try:
             with self._made.with_name(_SAID).open("wb") as said:
                 self.process = subprocess.Popen(
-                    [*self._animate, str(source), "--out", str(self._made), *words],
+                    [*command, str(source), out, str(self._made), *words],
                     stdout=subprocess.DEVNULL,
                     stderr=said,
                 )

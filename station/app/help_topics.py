@@ -119,7 +119,7 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("Pause", "or Backspace; two kicks begin a battle, but never end or pause one"),
                 ("Stop", "or Esc: it ends here and is kept"),
                 ("The result", "press a round to see what it was made of; the windows may be others, the strokes stay"),
-                ("See the best bar", "once more, on the stage; of phrases the hardest that you played back"),
+                ("See the best bar", "once more, on the stage, at half its tempo; Keep a video has the whole battle"),
                 ("Practise it", "the phrase that went worst becomes a lesson of your own"),
             ),
         ),

@@ -79,7 +79,11 @@ class StationParts:
         around = ExamSurroundings(lambda: self.chooser.lesson_name, self.make_ready, self.chooser.show_anew)
         self.exam = ExamPage(store, self.sessions, around)
         beside = BattleSurroundings(
-            lambda: self.engine.devices, self.make_ready, self.chooser.show_anew, self.chooser.open
+            lambda: self.engine.devices,
+            self.make_ready,
+            self.chooser.show_anew,
+            self.chooser.open,
+            self.export.film_battle,
         )
         self.battle = BattlePage(store, self.sessions, beside)
         self.teacher = TeacherPage(

@@ -42,7 +42,7 @@ def battle(drive: Drive, ctx: imgui.test_engine.TestContext, look: Look = lambda
     ctx.item_click(f"//{CHOICE}/{label_of(1)}")  # the best of it
     drive.wait_until(ctx, lambda state: state.battle.replays)
     ctx.yield_(10)
-    seen["replay"] = drive.picture.hud.title
+    seen["replay"] = drive.picture.is_replay
     look("replay")
     drive.wait_until(ctx, lambda state: not state.battle.replays)
     ctx.yield_(3)

@@ -24,8 +24,8 @@ def test_both_modes_are_chosen_played_and_told(environment: dict[str, str], tmp_
     headline, given, _ = seen["repeat"]
     assert headline == "You win against the steady one", "who strays by a few milliseconds repeats it well"
     assert [row[1] for row in given[1:]] == ["100 % right, won"] * ROUNDS
-    assert seen["ways on"] == ["Again", "See the best bar", "Another battle", "Judge it as advanced"]
-    assert seen["replay"] == "Replay", "the stage shows it once more, then the result comes back"
+    assert seen["ways on"] == ["Again", "See the best bar", "Keep a video", "More"]
+    assert seen["replay"], "the stage shows it once more, then the result comes back"
     assert seen["said of improvise"][0] == "Count-in"
     assert {"The steady one plays", "Your turn: the bars are yours"} < set(seen["said of improvise"])
     assert seen["evidence"] == ["Time", "Dynamics", "Vocabulary", "Development", "Kit", "Space"]

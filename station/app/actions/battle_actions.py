@@ -46,10 +46,23 @@ class JudgeBattle:
 
 
 @dataclass(frozen=True, slots=True)
+class FilmBattle:
+    """Keep a video of the battle that is over."""
+
+
+@dataclass(frozen=True, slots=True)
 class PractiseFailed:
     """Make a lesson of the phrase that went worst, and choose it."""
 
 
 BattleAction = (
-    OpenBattle | CloseBattle | ChooseBattle | TurnLeaf | BeginBattle | ReplayBest | JudgeBattle | PractiseFailed
+    OpenBattle
+    | CloseBattle
+    | ChooseBattle
+    | TurnLeaf
+    | BeginBattle
+    | ReplayBest
+    | JudgeBattle
+    | FilmBattle
+    | PractiseFailed
 )

@@ -7,6 +7,7 @@ from station.app.actions.battle_actions import (
     BeginBattle,
     ChooseBattle,
     CloseBattle,
+    FilmBattle,
     JudgeBattle,
     PractiseFailed,
     ReplayBest,
@@ -75,6 +76,8 @@ def _ways_on(result: BattleResultShown, replays: bool) -> list[_Made]:
         made.append(("Back to the result" if replays else "See the best bar", ReplayBest(), result.best))
     if result.failed:
         made.append(("Practise it", PractiseFailed(), result.failed))
+    if result.folder:
+        made.append(("Keep a video", FilmBattle(), "Both drummers on the stage, filmed while you go on"))
     made.append(("Another battle", CloseBattle(), "Choose who, what and how"))
     if result.judged_as is not None:
         level = stepped(tuple(Level), result.judged_as, 1)

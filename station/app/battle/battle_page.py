@@ -14,6 +14,7 @@ from station.app.actions.battle_actions import (
     BeginBattle,
     ChooseBattle,
     CloseBattle,
+    FilmBattle,
     JudgeBattle,
     OpenBattle,
     PractiseFailed,
@@ -22,7 +23,7 @@ from station.app.actions.battle_actions import (
 )
 from station.app.battle.battle_choice import battle_choice
 from station.app.battle.battle_shown import BattleResultShown, BattleShown, BattleStage
-from station.app.battle.best_moment import best_moment, heard_again, moment_words
+from station.app.battle.best_moment import best_moment, moment_words
 from station.app.battle.board_words import board_of, names_of
 from station.app.battle.failed_phrase import keep_phrase
 from station.app.battle.result_words import failed_turn, result_of, winner_words
@@ -45,13 +46,15 @@ class BattleSurroundings:
     """What the page asks of the station: the `kits` that are connected.
 
     `make_ready` ends what else hears the kit, raising `StationError` where it cannot; `show_lessons` shows what is
-    chosen of them again, `open_lesson` chooses the one in a file.
+    chosen of them again, `open_lesson` chooses the one in a file; `film` makes the
+    video of the battle in a folder, raising `DeviceError` while another is made.
     """
 
     kits: Callable[[], tuple[str, ...]]
     make_ready: Callable[[], None]
     show_lessons: Callable[[], None]
     open_lesson: Callable[[Path], None]
+    film: Callable[[Path], None]
 
 
 class BattlePage:
@@ -154,6 +157,8 @@ class BattlePage:
                 return self._judge(level)
             case ReplayBest():
                 self._see_best()
+            case FilmBattle():
+                return self._film()
             case _:
                 assert_never(action)
         return ""
@@ -184,13 +189,20 @@ class BattlePage:
 
     def _see_best(self) -> None:
         """See and hear the best moment again, or end that; raises `DeviceError`."""
-        outcome = self._outcome()
-        best = None if outcome is None else best_moment(outcome)
+        battle = self._sessions.practice.battle
         if self._replay is not None and self._sessions.is_listening_to(self._replay):
             self._sessions.quiet()
-        elif outcome is not None and best is not None:
-            self._replay = heard_again(outcome, best)
+        elif battle is not None and battle.outcome is not None and (best := best_moment(battle.outcome)) is not None:
+            self._replay = battle.replay(best.turn, best.bar)
             self._sessions.listen_to(self._replay)
+
+    def _film(self) -> str:
+        """Have the battle that is over filmed; returns a line for the user. Raises `DeviceError`."""
+        battle = self._sessions.practice.battle
+        if self.stage is not BattleStage.OVER or battle is None or battle.folder is None:
+            return ""
+        self._around.film(battle.folder)
+        return "the video is being filmed; you may go on (Export cancels it)"
 
     def _outcome(self) -> BattleResult | None:
         """The battle that is over, as it is judged now."""

@@ -14,18 +14,20 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
 from station.practice.battle.battle import Battle
-from station.practice.battle.battle_result import BattleResult
-from station.practice.battle.battle_view import BattleView, Doing
+from station.practice.battle.battle_result import BattleResult, JudgedTurn
+from station.practice.battle.battle_view import BattleView
 from station.practice.battle.drummed import drummed
 from station.practice.battle.records.battle_folder import BattleFolder, kept_battle
-from station.practice.battle.rules import DRUMMER, BattleRules
-from station.practice.battle.turn_plan import TurnKind
+from station.practice.battle.rules import BattleRules
 from station.practice.headless.live import begin, end
+from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency
 from station.practice.session.engine_state import EngineState
 from station.render.snapshot import Snapshot
+from station.scenes.battle.bar_replay import BarReplay, ReplayedBar
 from station.scenes.battle.battle_scene import BattleScene
 from station.scenes.battle.cast import cast_of
+from station.scenes.battle.kept_views import KeptViews
 from station.scenes.battle.motion_chain import Body
 from station.scoring.matching.hit_windows import Level
 
@@ -48,6 +50,7 @@ class BattleSession:
         self._view: BattleView | None = None
         self._player = player
         self._scene: BattleScene | None = None  # where nobody looks nobody moves
+        self._replay: BarReplay | None = None
         self._struck: deque[Hit] = deque(maxlen=_IN_SIGHT)
         self.outcome: BattleResult | None = None
         """All that was played, once it is over."""
@@ -126,24 +129,22 @@ class BattleSession:
         return replace(room, progress=done, can_pause=paused or view.at_ns is not None, paused=paused, clock=clock)
 
     def snapshot(self, heard_ns: int | None) -> Snapshot:
-        """Both drummers on the stage, now, or where a moment of the battle is heard again at `heard_ns` of it."""
+        """Both drummers on the stage, now, or where a bar is heard again at `heard_ns` of its replay."""
+        if heard_ns is not None and self._replay is not None:
+            return self._replay.snapshot(heard_ns / NS_PER_S)
         if self._scene is None:
             self._scene = BattleScene(self.rules, cast_of(self.rules, self._player))
-        if heard_ns is not None and self.outcome is not None:
-            return self._again(self._scene, self.outcome, heard_ns)
         snapshot = self._scene.snapshot(self.view(), self._struck)
         return replace(snapshot, hud=replace(snapshot.hud, message=""))  # the board below says more
 
-    def _again(self, scene: BattleScene, outcome: BattleResult, at_ns: int) -> Snapshot:
-        """The stage at a time of a battle that is over: as it was, with what was struck then."""
-        ground, view = self.rules.ground, self.view()
-        begun = [turn for turn in outcome.turns if ground.ns_of_bars(turn.planned.first_bar) <= at_ns]
-        turn = (begun or list(outcome.turns))[-1]
-        start_ns, played = ground.ns_of_bars(turn.planned.first_bar), turn.played
-        strokes = [] if played is None or turn.planned.side == DRUMMER else list(played.played.shifted(start_ns))
-        doing = Doing.CALL if turn.planned.kind is TurnKind.CALL else Doing.ANSWER
-        seen = scene.snapshot(replace(view, doing=doing, turn=turn.planned.index, at_ns=at_ns), strokes)
-        return replace(seen, hud=replace(seen.hud, message="", title="Replay"), is_replay=True)
+    def replay(self, turn: JudgedTurn, bar: int) -> Listening:
+        """One bar (from 0) of a turn of the battle that is over, slowed down, to be heard and seen on the stage."""
+        assert self.outcome is not None, "it is over"
+        shown = KeptViews(self.outcome).whole_turns()[turn.planned.index]
+        strokes = () if turn.played is None else tuple(turn.played.played)
+        cast = cast_of(self.rules, self._player)
+        self._replay = BarReplay(self.view(), cast, ReplayedBar(replace(shown, played=strokes), bar))
+        return Listening(self._replay.cues(), round(self._replay.length_s * NS_PER_S))
 
     # --- the end -----------------------------------------------------------------------------------------------------
 

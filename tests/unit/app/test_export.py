@@ -224,3 +224,13 @@ def test_a_film_leaves_to_the_lesson_what_its_cues_ask_for() -> None:
     assert "--style" in film_words(look, Settings(), cues)
     assert "--view" in film_words(look, Settings(), cues[:1])
     assert "--style" not in film_words(look, Settings(), (BarCue(0, style="funk"),))
+
+
+def test_a_battle_is_filmed_into_its_own_folder(tmp_path: Path) -> None:
+    films = "import sys; words = sys.argv; open(words[words.index('--film') + 1], 'w').write(words[1])"
+    files = Exporter(battle=(sys.executable, "-c", films))
+    files.film_battle(tmp_path)
+    assert files.process is not None
+    files.process.wait(20)
+    assert files.news() == f"kept in {tmp_path / 'battle.mp4'}"
+    assert (tmp_path / "battle.mp4").read_text() == str(tmp_path)
