@@ -30,7 +30,7 @@ from station.app.battle.result_words import failed_turn, result_of, winner_words
 from station.app.sessions.battle_session import BattleSession
 from station.app.sessions.screen_choice import ScreenChoice
 from station.app.sessions.session_control import SessionControl
-from station.app.settings.chosen_battle import ChosenBattle, chosen_rules
+from station.app.settings.chosen_battle import ChosenBattle, chosen_rules, with_handicap
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput, DeviceError
 from station.core.settings import setting_source
@@ -171,7 +171,7 @@ class BattlePage:
         self._is_open, self._leaf = True, 0
 
     def _begin(self) -> None:
-        rules = self._rules()
+        rules = with_handicap(self._setup, self._rules(), self._store.now.sessions_dir)
         self._around.make_ready()
         self._sessions.battle(rules)
         self._is_open, self._leaf = True, 0

@@ -67,6 +67,8 @@ def _whole(result: BattleResult, shown: Sequence[int]) -> RoundRow:
 def _total(result: BattleResult, side: int) -> str:
     rules, stand = result.rules, standings(result.rules, result.turns)[side]
     won = f"{stand.rounds_won} won"
+    if stand.handicapped is not None:
+        return f"{stand.handicapped:.0f} of 100 by their own measure, {won}"
     is_caller = side == DRUMMER and rules.mode is BattleMode.REPEAT
     return won if is_caller else f"{stand.points:.1f} points, {won}"
 

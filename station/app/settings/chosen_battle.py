@@ -3,11 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
+from pathlib import Path
 
 from station.core.errors import BadInput
 from station.practice.battle.ground import Ground
 from station.practice.battle.opponents.opponent import OPPONENTS, USUAL_OPPONENT, Opponent, find_opponent
 from station.practice.battle.people.player import Player
+from station.practice.battle.records.earlier_rounds import expected_of
 from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.exam.exam_sitting import drawn_seed
 from station.practice.session.cues.click_pattern import SILENT, ClickPattern
@@ -37,8 +39,8 @@ class People(Enum):
 class ChosenBattle:
     """What is chosen: `bars` a turn, `target` percent of a phrase that wins a round of repeating, at `level`.
 
-    `friend` is what the other person is called, empty for a name of no matter. `seed` draws the
-    phrases, None for others each time.
+    `friend` is what the other person is called, empty for a name of no matter. `is_fair`:
+    players are measured against what they did in earlier battles. `seed` draws the phrases, None for others each time.
     """
 
     mode: BattleMode = BattleMode.REPEAT
@@ -53,6 +55,7 @@ class ChosenBattle:
     level: Level = Level.INTERMEDIATE
     is_clicked: bool = True
     keeps_time: bool = True
+    is_fair: bool = False
     seed: int | None = None
 
     @property
@@ -67,6 +70,13 @@ class ChosenBattle:
 
 FRIEND = "Friend"
 """What the other person is called who gave no name."""
+
+
+def with_handicap(setup: ChosenBattle, rules: BattleRules, sessions: Path) -> BattleRules:
+    """The rules with what is expected of each player by earlier battles in `sessions`, where that was chosen."""
+    if not setup.is_fair or rules.is_solo:
+        return rules
+    return replace(rules, expectations=tuple(expected_of(sessions, player.name) for player in rules.players))
 
 
 def chosen_rules(setup: ChosenBattle, student: str, kits: Sequence[str], click: ClickPattern) -> BattleRules:

@@ -167,6 +167,13 @@ LINES: tuple[SetupLine, ...] = (
         lambda setup: "the drummer keeps time" if setup.keeps_time else "nobody plays",
         lambda setup, _: replace(setup, keeps_time=not setup.keeps_time),
     ),
+    SetupLine(
+        "Handicap",
+        "Each is measured against their own earlier battles, so that a child can beat a parent fairly",
+        lambda setup: "fair play" if setup.is_fair else "none",
+        lambda setup, _: replace(setup, is_fair=not setup.is_fair),
+        lambda setup: setup.people.needs_friend,
+    ),
 )
 """In the order in which they are read; pads reach them in the same."""
 

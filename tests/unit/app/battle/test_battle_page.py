@@ -134,6 +134,19 @@ def test_two_kits_need_two(line: Line, station: Controller) -> None:
     assert [player.device for player in battle.rules.players] == ["one kit", "another kit"]
 
 
+def test_fair_play_measures_two_against_themselves(line: Line, station: Controller) -> None:
+    begun(line, station, replace(SHORT, people=People.HOT_SEAT, friend="Bo", is_fair=True))
+    battle = station.parts.sessions.practice.battle
+    assert battle is not None
+    assert battle.rules.has_handicap
+    assert [side.lives for side in battle.view().sides] == [None, None, None], "nobody loses a life then"
+    over(line, station, plays=False)
+    result = shown(station).result
+    assert result is not None
+    assert result.names == ("student", "Bo")
+    assert "of 100 by their own measure" in result.rows[0].given[1]
+
+
 def test_whoever_plays_all_back_wins_and_it_is_kept(line: Line, station: Controller, tmp_path: Path) -> None:
     begun(line, station)
     over(line, station, plays=True)
