@@ -16,6 +16,9 @@ from station.practice.session.log_values import rows_in, table_in, whole
 MOST_READ = 60
 """So many of a player's newest battles are read (our choice: five hundred turns, and a fraction of a second)."""
 
+MOST_POINTS = 100.0
+"""Of a turn."""
+
 
 def expected_of(sessions: Path, name: str) -> Expectation:
     """What is expected of the player called `name`; `sessions` is the folder of all students' sessions.
@@ -44,7 +47,14 @@ def _turns(document: object, name: str) -> Iterator[tuple[int | None, bool | Non
             points, step, won = table_in(marks)["points"], each["step"], turn["won"]
             if points is not None:
                 yield (
-                    None if step is None else min(whole(step), MOST_STEP),
+                    None if step is None else min(max(whole(step), 0), MOST_STEP),
                     won if isinstance(won, bool) else None,
-                    float(str(points)),
+                    _points(points),
                 )
+
+
+def _points(value: object) -> float:
+    points = float(str(value))
+    if not 0 <= points <= MOST_POINTS:  # also refuses NaN
+        raise ValueError
+    return points

@@ -1,0 +1,27 @@
+"""Documents of earlier battles that somebody has edited or damaged say nothing of what to expect."""
+
+from pathlib import Path
+
+import pytest
+
+from station.practice.battle.records.battle_folder import DOCUMENT_NAME
+from station.practice.battle.records.earlier_rounds import expected_of
+
+TURN = '{"kind": "answer", "name": "Ann", "won": null, "marks": {"points": %s}}'
+
+
+def leave(sessions: Path, points: str) -> None:
+    folder = sessions / "Ann" / "2026-01-01T10-00-00_battle-steady"
+    folder.mkdir(parents=True)
+    (folder / DOCUMENT_NAME).write_text('{"rounds": [{"step": null, "turns": [' + TURN % points + "]}]}")
+
+
+@pytest.mark.parametrize("points", ["1e999", "-1e999", "NaN", "101", "-1", '"inf"', '"x"'])
+def test_points_that_no_turn_has_say_nothing(points: str, tmp_path: Path) -> None:
+    leave(tmp_path, points)
+    assert expected_of(tmp_path, "Ann") == expected_of(tmp_path, "nobody")
+
+
+def test_points_of_a_turn_are_read(tmp_path: Path) -> None:
+    leave(tmp_path, "95")
+    assert expected_of(tmp_path, "Ann").points == pytest.approx((7 * 55 + 95) / 8)  # by hand: filled up to 8 turns
