@@ -12,10 +12,10 @@ from statistics import median
 import numpy as np
 
 from station.motion.drummer import Drummer
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.ground import Ground
 from station.practice.battle.opponents.opponent import OPPONENTS
 from station.practice.battle.repeating.phrase_to_repeat import phrase_to_repeat
-from station.practice.battle.rules import BattleRules
 from station.render.framing import Stage, both
 from station.render.picture import PictureMaker
 from station.render.place import TWO

@@ -27,7 +27,7 @@ from station.app.room_state import Stage  # noqa: E402
 from station.app.settings.chosen_battle import ChosenBattle  # noqa: E402
 from station.bench.rigs.devices.jack_server import JackServer  # noqa: E402
 from station.gui.panels.lessons.lesson_list import BATTLE_LABEL  # noqa: E402
-from station.practice.battle.rules import BattleMode  # noqa: E402
+from station.practice.battle.battle_rules import BattleMode  # noqa: E402
 from station.render.snapshot import Snapshot  # noqa: E402
 from tests.gui.battle_student import BattleStudent, answer_of_the_call  # noqa: E402
 from tests.gui.drive import to_list  # noqa: E402

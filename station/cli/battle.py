@@ -12,10 +12,10 @@ from station.cli.options.option_fields import Command
 from station.core.errors import BadInput, StationError
 from station.core.settings import Settings
 from station.practice.battle.battle_result import BattleResult
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.records.battle_document import battle_document
 from station.practice.battle.records.battle_folder import BattleFolder, battles_cut_off, kept_battle, recovered_battle
 from station.practice.battle.records.battle_report import battle_report
-from station.practice.battle.rules import BattleRules
 
 STAND_IN = "intermediate,seed=1"
 """Who plays where there is no kit, or where nobody is to be waited for."""

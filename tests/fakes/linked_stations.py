@@ -15,6 +15,7 @@ from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.engine.messages import Command, EngineEvent, Play, Started, Stop
 from station.music.score import Note, Score
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.link.link_handshake import Address, Door, Knock
 from station.practice.battle.link.link_line import LinkLine
 from station.practice.battle.link.link_messages import Card, Hello, encoded
@@ -22,7 +23,6 @@ from station.practice.battle.link.linked_battle import LinkedBattle
 from station.practice.battle.link.linked_lobby import GuestLobby, HostLobby
 from station.practice.battle.phrase import Phrase
 from station.practice.battle.phrase_request import Asked, PhraseRequest
-from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.session.session import LEAD_IN_NS
 from station.scoring.matching.hit_windows import Level

@@ -14,7 +14,7 @@ from station.gui.display import Rectangle
 from station.gui.panels.battle.battle_board import BOARD
 from station.gui.panels.choice_panel import CHOICE, label_of
 from station.gui.panels.lessons.lesson_list import BATTLE_LABEL
-from station.practice.battle.rules import BattleMode
+from station.practice.battle.battle_rules import BattleMode
 from tests.gui.battle_student import BattleStudent, answer_of_the_call
 from tests.gui.drive import MOST_FRAMES, Drive, to_list
 

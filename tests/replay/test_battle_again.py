@@ -9,12 +9,12 @@ from station.devices.capture.capture import read_capture
 from station.devices.capture.replay import replay_all
 from station.practice.battle.battle import Battle
 from station.practice.battle.battle_result import BattleResult
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.drummed import drummed
 from station.practice.battle.ground import Ground
 from station.practice.battle.people.player import Player
 from station.practice.battle.records.battle_document import battle_document
 from station.practice.battle.records.judge_battle_again import RejudgedBattle, judge_battle_again
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.headless.virtual_battle import battle_virtually
 from station.practice.headless.virtual_performers import virtual_performers
 from station.scoring.matching.hit_windows import Level

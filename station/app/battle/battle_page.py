@@ -35,7 +35,7 @@ from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput, DeviceError
 from station.core.settings import setting_source
 from station.practice.battle.battle_result import BattleResult
-from station.practice.battle.rules import BattleRules
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.session.cues.click_options import parse_click
 from station.practice.session.cues.listening import Listening
 from station.scoring.matching.hit_windows import Level

@@ -1,11 +1,11 @@
 """A battle in words for the board: who is on, and what the turns before were worth; the end is in `result_words`."""
 
 from station.app.battle.battle_shown import BoardShown, Evidence, Verdict
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.battle_view import BattleView, Doing, TurnView
 from station.practice.battle.judging.improvisation_marks import ImprovisationMarks
 from station.practice.battle.opponents.opponent import find_opponent
 from station.practice.battle.repeating.answer_marks import AnswerMarks
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.battle.turn_marks import TurnMarks
 
 EVEN_MS = 3.0

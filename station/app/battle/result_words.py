@@ -5,9 +5,9 @@ from collections.abc import Iterable, Sequence
 from station.app.battle.battle_shown import BattleResultShown, Evidence, RoundRow, Verdict
 from station.app.battle.board_words import in_a_sentence, names_of, verdict_of
 from station.practice.battle.battle_result import BattleResult, JudgedTurn, is_lost, standings
+from station.practice.battle.battle_rules import DRUMMER, FINAL_WEIGHT, BattleMode, BattleRules
 from station.practice.battle.judging.improvisation_marks import Component, ImprovisationMarks
 from station.practice.battle.repeating.answer_marks import AnswerMarks
-from station.practice.battle.rules import DRUMMER, FINAL_WEIGHT, BattleMode, BattleRules
 
 _NOBODY = "—"
 

@@ -15,10 +15,10 @@ from station.core.units import NS_PER_S
 from station.engine.messages import Command, EngineEvent
 from station.practice.battle.battle import Battle
 from station.practice.battle.battle_result import BattleResult, JudgedTurn
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.battle_view import BattleView
 from station.practice.battle.drummed import drummed
 from station.practice.battle.records.battle_folder import BattleFolder, kept_battle
-from station.practice.battle.rules import BattleRules
 from station.practice.headless.live import begin, end
 from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency

@@ -32,7 +32,7 @@ from station.drills.exam.exam_piece import ExamPiece
 from station.drills.lesson import Lesson
 from station.engine.messages import Command, EngineEvent, Started
 from station.motion.sticking.hand_notes import Hands
-from station.practice.battle.rules import BattleRules
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.exam.exam_sitting import Sitting
 from station.practice.exam.exam_take import exam_plan
 from station.practice.records.session_files import CAPTURE_NAME

@@ -6,11 +6,11 @@ from enum import Enum
 from pathlib import Path
 
 from station.core.errors import BadInput
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.ground import Ground
 from station.practice.battle.opponents.opponent import OPPONENTS, USUAL_OPPONENT, Opponent, find_opponent
 from station.practice.battle.people.player import Player
 from station.practice.battle.records.earlier_rounds import expected_of
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.exam.exam_sitting import drawn_seed
 from station.practice.session.cues.click_pattern import SILENT, ClickPattern
 from station.scoring.matching.hit_windows import Level

@@ -9,9 +9,9 @@ from typing import TypeVar
 
 from station.app.settings.chosen_battle import ChosenBattle, People
 from station.core.counts import counted
+from station.practice.battle.battle_rules import TURN_BARS, BattleMode
 from station.practice.battle.ground import Feel
 from station.practice.battle.opponents.opponent import OPPONENTS
-from station.practice.battle.rules import TURN_BARS, BattleMode
 from station.practice.session.plan import MAX_TEMPO_BPM, MIN_TEMPO_BPM
 from station.scoring.matching.hit_windows import Level
 

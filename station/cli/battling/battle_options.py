@@ -22,12 +22,12 @@ from station.cli.options.option_fields import (
 from station.cli.options.sound_options import SoundOptions
 from station.core.errors import BadInput
 from station.core.settings import Settings, setting_source
+from station.practice.battle.battle_rules import TURN_BARS, BattleMode, BattleRules
 from station.practice.battle.ground import Feel, Ground
 from station.practice.battle.opponents.opponent import OPPONENTS, USUAL_OPPONENT, find_opponent
 from station.practice.battle.people.player import Player
 from station.practice.battle.records.earlier_rounds import expected_of
 from station.practice.battle.repeating.demands import MOST_STEP
-from station.practice.battle.rules import TURN_BARS, BattleMode, BattleRules
 from station.practice.session.cues.click_options import parse_click
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 

@@ -14,8 +14,8 @@ from station.devices.device_ports import no_device
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
 from station.practice.battle.battle import Battle
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.drummed import drummed
-from station.practice.battle.rules import BattleRules
 from station.practice.headless.battle_text import BattleText
 from station.practice.headless.end_signals import end_asked
 from station.practice.headless.guarded_output import GuardedOutput

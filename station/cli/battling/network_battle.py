@@ -15,6 +15,7 @@ from station.core.measured_latency import load_calibration
 from station.core.settings import Settings
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.drummed import drummed
 from station.practice.battle.link.link_socket import address_of, own_address
 from station.practice.battle.link.linked_battle import LinkedBattle
@@ -24,7 +25,6 @@ from station.practice.battle.link.linked_station import LinkedStation, hosts_her
 from station.practice.battle.records.battle_document import battle_document
 from station.practice.battle.records.battle_folder import DOCUMENT_NAME, BattleFolder
 from station.practice.battle.records.battle_report import battle_report
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.battle.vocabulary.lesson_bars import lesson_bars
 from station.practice.headless.end_signals import end_asked
 from station.practice.headless.linked_live import ROUND_S, LinkedSetup, meet, play_linked

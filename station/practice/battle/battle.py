@@ -16,6 +16,7 @@ from station.engine.messages import AddCues, Annotate, Command, EngineEvent, Pla
 from station.practice.battle.battle_cues import count_in_cues, turn_cues
 from station.practice.battle.battle_ear import BattleEar
 from station.practice.battle.battle_result import BattleResult, JudgedTurn, is_decided
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.battle_view import BattleView, TurnView
 from station.practice.battle.next_turns import next_turns, so_far
 from station.practice.battle.phrase_request import Drum
@@ -32,7 +33,6 @@ from station.practice.battle.records.battle_log import (
 from station.practice.battle.repeating.demands import MOST_STEP
 from station.practice.battle.repeating.live_answer import LiveAnswer
 from station.practice.battle.repeating.staircase import USUAL_FIRST_STEP, Staircase
-from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_judging import ARRIVES_NS, judged_at_ns, judged_turn, result_of
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.battle.view_building import Moment, view_of

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from station.practice.battle.rules import BattleRules
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.session.cues.click_pattern import click_cues, count_in, counting, leads_ns
 from station.practice.session.cues.stroke_cues import demonstration_cues, in_order, moved_by

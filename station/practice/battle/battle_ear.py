@@ -9,9 +9,9 @@ from dataclasses import replace
 
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.people.hearing import Hearing
 from station.practice.battle.phrase import Turn
-from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_plan import PlannedTurn
 from station.practice.battle.turn_strokes import TurnStrokes
 from station.practice.session.device_latency import Latency

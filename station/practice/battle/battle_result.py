@@ -15,11 +15,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
+from station.practice.battle.battle_rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.phrase import Turn
 from station.practice.battle.repeating.answer_marks import AnswerMarks
 from station.practice.battle.repeating.demands import MOST_STEP
 from station.practice.battle.repeating.staircase import USUAL_FIRST_STEP, Staircase
-from station.practice.battle.rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.turn_marks import TurnMarks
 from station.practice.battle.turn_plan import PlannedTurn
 from station.practice.session.device_latency import Latency

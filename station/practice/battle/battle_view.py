@@ -9,8 +9,8 @@ from enum import Enum
 
 from station.core.events import Hit
 from station.music.judgement import Judgement
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.phrase import Phrase
-from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_marks import TurnMarks
 from station.practice.battle.turn_plan import TurnKind
 

@@ -1,7 +1,7 @@
 """What is said of a battle while it is played, in a line."""
 
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.battle_view import Doing
-from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_plan import PlannedTurn
 
 

@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 
 from station.practice.battle.battle_ear import BattleEar
 from station.practice.battle.battle_result import JudgedTurn, is_decided, is_lost, standings
+from station.practice.battle.battle_rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.phrase import Phrase
 from station.practice.battle.phrase_as_turn import phrase_as_turn
 from station.practice.battle.phrase_request import Asked, Drum, PhraseRequest
 from station.practice.battle.repeating.answer_marks import answer_well_ended
 from station.practice.battle.repeating.staircase import Answered, Staircase
-from station.practice.battle.rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.turn_plan import Part, PlannedTurn, TurnKind, parts_of_round, with_changeovers
 
 

@@ -6,8 +6,8 @@ from enum import Enum
 
 import numpy as np
 
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.phrase import Phrase, Turn
-from station.practice.battle.rules import BattleRules
 
 
 class Asked(Enum):

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from station.core.units import NS_PER_MS
 from station.practice.battle.battle_ear import BattleEar
 from station.practice.battle.battle_result import BattleResult, JudgedTurn
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.judging.judged_improvisation import judged_improvisation
 from station.practice.battle.phrase import Turn
 from station.practice.battle.phrase_as_turn import phrase_as_turn
 from station.practice.battle.repeating.answer_marks import answer_marks
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.battle.turn_marks import TurnMarks
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.scoring.matching.unheard import Span

@@ -8,8 +8,8 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
+from station.practice.battle.battle_rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.phrase import Phrase
-from station.practice.battle.rules import DRUMMER, BattleMode, BattleRules
 
 
 class TurnKind(Enum):

@@ -12,9 +12,9 @@ from operator import attrgetter
 
 from station.core.events import Hit
 from station.music.performance import Performance
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.people.player import Player
 from station.practice.battle.phrase import Turn
-from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 
 _time_of = attrgetter("at_ns")

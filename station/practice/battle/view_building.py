@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from station.practice.battle.battle_result import BattleResult, JudgedTurn, standings
+from station.practice.battle.battle_rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.battle_view import BattleView, Doing, SideView, TurnView
 from station.practice.battle.battle_words import message_of
-from station.practice.battle.rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 
 _DOING = {TurnKind.CALL: Doing.CALL, TurnKind.ANSWER: Doing.ANSWER, TurnKind.CHANGEOVER: Doing.CHANGEOVER}

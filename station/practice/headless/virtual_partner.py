@@ -8,9 +8,9 @@ from time import sleep
 
 from station.core.clock import Clock
 from station.engine.messages import Command, EngineEvent
+from station.practice.battle.battle_rules import BattleMode
 from station.practice.battle.link.linked_battle import LinkedBattle
 from station.practice.battle.phrase import Turn
-from station.practice.battle.rules import BattleMode
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.battle.virtual_improviser import VirtualImproviser
 from station.practice.headless.engine_here import EngineHere

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from station.practice.battle.battle import Battle
-from station.practice.battle.rules import BattleMode, BattleRules
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.turn_judging import played_in
 from station.practice.battle.turn_plan import PlannedTurn
 from station.practice.battle.virtual_improviser import VirtualImproviser

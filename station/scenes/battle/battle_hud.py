@@ -1,9 +1,9 @@
 """What is written over a battle: how both sides stand, the round, the beat, the count before it, who has won."""
 
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.battle_view import BattleView, Doing, SideView
 from station.practice.battle.battle_words import round_words
 from station.practice.battle.opponents.opponent import find_opponent
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.render.snapshot import Hud, ScoreLine, SideLine
 from station.scenes.battle.cast import Sides
 

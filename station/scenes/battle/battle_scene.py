@@ -23,8 +23,8 @@ from station.motion.kit.kit import Kit
 from station.music.as_played import score_as_played
 from station.music.performance import Performance
 from station.music.score import NOTE_DTYPE
+from station.practice.battle.battle_rules import DRUMMER, BattleRules
 from station.practice.battle.battle_view import BattleView, Doing, TurnView
-from station.practice.battle.rules import DRUMMER, BattleRules
 from station.practice.battle.turn_plan import TurnKind
 from station.render.camera import Camera
 from station.render.framing import Stage, both, named, one_of_two

@@ -6,9 +6,9 @@ from dataclasses import replace
 from station.motion.kinematics.figure import figure_names, load_figure
 from station.motion.style.style import ANYBODY
 from station.motion.style.style_file import load_style
+from station.practice.battle.battle_rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.battle_view import TurnView
 from station.practice.battle.opponents.opponent import find_opponent
-from station.practice.battle.rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.turn_plan import TurnKind
 from station.scenes.battle.motion_chain import Body
 

@@ -12,10 +12,10 @@ from station.core.units import NS_PER_S
 from station.music.judgement import OF_LONE_HITS, Judgement
 from station.music.performance import Performance
 from station.music.score import Score
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.battle_view import TurnView
 from station.practice.battle.ground import Ground
 from station.practice.battle.phrase import Phrase
-from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_plan import TurnKind
 from station.render.snapshot import ExtraHit, Strip, mark, no_marks
 

@@ -14,8 +14,8 @@ from station.app.battle.battle_shown import BattleShown
 from station.app.settings.chosen_battle import MOST_NAME, ChosenBattle, People
 from station.app.settings.setup_lines import LINES, MODE_ABOUT, MODE_LINE, MODE_WORDS, OPPONENT_LINE, SetupLine
 from station.gui import theme
+from station.practice.battle.battle_rules import BattleMode
 from station.practice.battle.opponents.opponent import OPPONENTS, Opponent
-from station.practice.battle.rules import BattleMode
 
 CLOSE_LABEL = "Back to the lessons##close-battle"
 FRIEND_LABEL = "##battle-friend"

@@ -25,7 +25,7 @@ from station.practice.battle.improvising.played_beats import Beats, beats_of, st
 from station.practice.battle.opponents.opponent import Opponent
 from station.practice.battle.phrase import Phrase, Turn
 from station.practice.battle.vocabulary.limbed import limbed
-from station.practice.battle.vocabulary.ornaments import Touch, ornamented
+from station.practice.battle.vocabulary.ornament_places import Touch, ornamented
 
 _HEARD_BARS, _SAID_BARS = 8, 4
 """So many of the last bars of each are listened to: the longest turn, and half of it (our choice: about a millisecond a

@@ -13,8 +13,8 @@ from msgspec import Meta, Struct
 
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
+from station.practice.battle.battle_rules import MOST_SEED
 from station.practice.battle.ground import Feel
-from station.practice.battle.rules import MOST_SEED
 from station.scoring.matching.hit_windows import Level
 
 MOST_NAME = 40

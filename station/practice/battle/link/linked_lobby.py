@@ -6,11 +6,11 @@ and the door is open again.
 
 from station.core.errors import BadInput, DeviceError
 from station.core.units import NS_PER_S
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.link.link_handshake import Knock, Refusal
 from station.practice.battle.link.link_line import WHO, LinkLine
 from station.practice.battle.link.link_messages import Accept, Bye, Hello, Message, Offer
 from station.practice.battle.link.linked_rules import Agreed, agreed, offer_of
-from station.practice.battle.rules import BattleRules
 
 PATIENCE_NS = 10 * NS_PER_S
 """For an introduction or an acceptance, once the line is open (our choice: no person is asked meanwhile)."""

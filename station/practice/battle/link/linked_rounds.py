@@ -13,6 +13,7 @@ from typing import NamedTuple
 from station.core.errors import BadInput
 from station.music.performance import Performance
 from station.practice.battle.battle_result import is_decided
+from station.practice.battle.battle_rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.link.heard_bar import bar_of, heard_bar
 from station.practice.battle.link.link_line import WHO
 from station.practice.battle.link.link_messages import (
@@ -38,7 +39,6 @@ from station.practice.battle.phrase import Phrase, Turn
 from station.practice.battle.phrase_request import Asked, Drum, PhraseRequest
 from station.practice.battle.repeating.demands import MOST_STEP
 from station.practice.battle.repeating.staircase import USUAL_FIRST_STEP, Staircase
-from station.practice.battle.rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.turn_marks import TurnMarks
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.scoring.matching.unheard import Span

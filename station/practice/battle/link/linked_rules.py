@@ -7,12 +7,12 @@ a child and a parent may play by different windows; both ends know both levels.
 from dataclasses import dataclass, replace
 
 from station.core.errors import BadInput
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.ground import Ground
 from station.practice.battle.link.link_messages import MOST_NAME, Hello, Offer, encoded
 from station.practice.battle.opponents.opponent import find_opponent
 from station.practice.battle.people.player import Player
 from station.practice.battle.repeating.demands import MOST_STEP
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.scoring.matching.hit_windows import Level
 
 HOST_SIDE, JOINER_SIDE = 1, 2

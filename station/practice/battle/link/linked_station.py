@@ -11,6 +11,7 @@ from types import TracebackType
 
 from station.core.clock import Clock
 from station.core.units import NS_PER_MS, NS_PER_S
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.link.link_discovery import EVERYBODY, FoundStation, Lookout
 from station.practice.battle.link.link_handshake import Address, Door, Knock
 from station.practice.battle.link.link_line import LinkLine
@@ -18,7 +19,6 @@ from station.practice.battle.link.link_messages import Card, Hello, encoded, sho
 from station.practice.battle.link.link_socket import LinkSocket
 from station.practice.battle.link.linked_lobby import GuestLobby, HostLobby
 from station.practice.battle.link.linked_rules import Agreed
-from station.practice.battle.rules import BattleRules
 
 LAST_WORD_NS = 2 * NS_PER_S
 """How long a last word is repeated until it is acknowledged (our choice: twenty round trips of a bad network)."""

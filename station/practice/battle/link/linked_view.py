@@ -7,10 +7,10 @@ is a call of their side, whose phrase is what they played.
 from collections.abc import Sequence
 
 from station.practice.battle.battle_result import JudgedTurn, standings, winner_of
+from station.practice.battle.battle_rules import DRUMMER
 from station.practice.battle.battle_view import BattleView, Doing, SideView, TurnView
 from station.practice.battle.link.linked_battle import LinkedBattle, LinkEnd
 from station.practice.battle.opponents.opponent import find_opponent
-from station.practice.battle.rules import DRUMMER
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 
 _DOING = {TurnKind.CALL: Doing.CALL, TurnKind.ANSWER: Doing.ANSWER, TurnKind.CHANGEOVER: Doing.CHANGEOVER}

@@ -7,11 +7,11 @@ from itertools import groupby
 
 from station.core.units import NS_PER_S
 from station.practice.battle.battle_result import BattleResult, JudgedTurn, Standing, is_lost
+from station.practice.battle.battle_rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.opponents.opponent import OPPONENTS
 from station.practice.battle.records.battle_advice import practise_next
 from station.practice.battle.records.marks_fields import marks_fields
 from station.practice.battle.records.rules_fields import rules_fields
-from station.practice.battle.rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.turn_plan import TurnKind
 from station.scoring.report.assessment_document import Json
 

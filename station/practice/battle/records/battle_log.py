@@ -22,9 +22,9 @@ from typing import Any
 
 from station.core.errors import BadInput
 from station.devices.capture.replay import LoggedText
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.phrase import Phrase
 from station.practice.battle.records.rules_fields import rules_fields, rules_of
-from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.session.device_latency import Latency
 from station.practice.session.log_values import (

@@ -4,12 +4,12 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 
 from station.practice.battle.battle_result import BattleResult, JudgedTurn, is_lost
+from station.practice.battle.battle_rules import DRUMMER, BattleMode
 from station.practice.battle.battle_words import round_words
 from station.practice.battle.judging.improvisation_marks import ImprovisationMarks
 from station.practice.battle.records.battle_advice import practise_next
 from station.practice.battle.records.battle_document import side_name
 from station.practice.battle.repeating.answer_marks import AnswerMarks
-from station.practice.battle.rules import DRUMMER, BattleMode
 from station.practice.battle.turn_marks import TurnMarks
 
 _MODES = {BattleMode.REPEAT: "repeat what is played", BattleMode.IMPROVISE: "trade improvised phrases"}

@@ -15,6 +15,7 @@ from station.devices.capture.replay import Entry, LoggedText, OutputChanged, Tra
 from station.engine.messages import Sounding, Started, Unheard
 from station.practice.battle.battle_ear import BattleEar
 from station.practice.battle.battle_result import BattleResult
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.records.battle_log import (
     BattleBegan,
     BattleEnded,
@@ -25,7 +26,6 @@ from station.practice.battle.records.battle_log import (
     TurnsCut,
     battle_said_in,
 )
-from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_judging import result_of
 from station.practice.battle.turn_plan import PlannedTurn
 from station.scoring.matching.hit_windows import Level
@@ -64,7 +64,7 @@ class RejudgedBattle:
 
     @property
     def ear(self) -> BattleEar:
-        """What was heard; raises as `rules` does."""
+        """What was heard; raises as `battle_rules` does."""
         rules = self.rules
         assert self._ear is not None, f"a battle of {rules.rounds} rounds was heard"
         return self._ear

@@ -1,11 +1,11 @@
 """The rules of a battle as plain JSON, in its capture and in its document, and read again with suspicion."""
 
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.ground import Feel, Ground
 from station.practice.battle.people.handicap import MEMORY, Expectation
 from station.practice.battle.people.player import Player
 from station.practice.battle.repeating.demands import MOST_STEP
 from station.practice.battle.repeating.staircase import Answered
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.session.cues.click_options import click_text, parse_click
 from station.practice.session.log_values import rows_in, table_in, whole
 from station.scoring.matching.hit_windows import Level

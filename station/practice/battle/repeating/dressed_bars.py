@@ -13,7 +13,7 @@ from station.practice.battle.ground import Ground
 from station.practice.battle.opponents.idiom import Idiom
 from station.practice.battle.repeating.demands import Demand
 from station.practice.battle.vocabulary.asked_of_limbs import Dynamics
-from station.practice.battle.vocabulary.ornaments import Touch, ornamented
+from station.practice.battle.vocabulary.ornament_places import Touch, ornamented
 
 _ACCENTED = 0.3
 """Share of the strokes on drums that are accents where a step asks them: one in three or four (our choice)."""

@@ -30,7 +30,7 @@ from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import AddCues, Play, RecordCapture, Started
-from station.practice.battle.rules import BattleMode
+from station.practice.battle.battle_rules import BattleMode
 from station.practice.battle.turn_plan import TurnKind
 from station.practice.session.plan import PlanOptions, plan_practice
 from tests.fakes.stations import Line, station_on, store_with

@@ -10,6 +10,7 @@ from station.core.pieces import Piece
 from station.core.units import NS_PER_MS
 from station.engine.messages import AddCues, Annotate, Bus, EngineEvent, Play, Started, Stop
 from station.practice.battle.battle import Battle
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.battle_view import Doing
 from station.practice.battle.ground import Ground
 from station.practice.battle.people.player import Player
@@ -17,7 +18,6 @@ from station.practice.battle.phrase import Phrase
 from station.practice.battle.phrase_request import PhraseRequest
 from station.practice.battle.records.battle_document import battle_document
 from station.practice.battle.repeating.answer_marks import AnswerMarks
-from station.practice.battle.rules import BattleRules
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.scoring.matching.hit_windows import Level
 from tests.fakes.played_battle import ZERO_NS, PlayedBattle, Stroke, as_written, nothing, phrase, quarters

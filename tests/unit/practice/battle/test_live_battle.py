@@ -11,10 +11,10 @@ from station.core.units import NS_PER_S, ns_from_s
 from station.devices.capture.capture import read_capture
 from station.engine.messages import EngineEvent
 from station.practice.battle.battle import Battle
+from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.ground import Ground
 from station.practice.battle.records.battle_document import battle_document
 from station.practice.battle.records.judge_battle_again import judge_battle_again
-from station.practice.battle.rules import BattleRules
 from station.practice.headless.battle_text import BattleText
 from station.practice.headless.engine_here import EngineHere
 from station.practice.headless.live_battle import BattleSetup, battle_live

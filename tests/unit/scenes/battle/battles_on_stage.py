@@ -8,10 +8,10 @@ from station.core.events import Hit
 from station.core.pieces import Limb, Piece, Zone
 from station.core.units import PPQ
 from station.music.score import Note, Score
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.battle_view import BattleView, Doing, SideView, TurnView
 from station.practice.battle.ground import Ground
 from station.practice.battle.phrase import Phrase
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.battle.turn_plan import TurnKind
 
 GROUND = Ground(100.0)

@@ -8,6 +8,7 @@ import pytest
 from station.core.errors import BadInput, DeviceError
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS, NS_PER_S
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.ground import Ground
 from station.practice.battle.link.link_datagram import MOST_BYTES
 from station.practice.battle.link.link_discovery import DEFAULT_PORT, Lookout
@@ -17,7 +18,6 @@ from station.practice.battle.link.link_messages import Card, Hello, encoded
 from station.practice.battle.link.link_socket import MOST_AT_ONCE, LinkSocket, address_of
 from station.practice.battle.link.linked_battle import LinkEnd
 from station.practice.battle.link.linked_lobby import GuestLobby, HostLobby
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.scoring.matching.hit_windows import Level
 from tests.fakes.linked_stations import Network, Station, improvises
 from tests.fakes.udp_proxy import UdpProxy

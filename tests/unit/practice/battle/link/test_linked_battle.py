@@ -8,6 +8,7 @@ import pytest
 
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS, NS_PER_S
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.battle_view import Doing
 from station.practice.battle.ground import Ground
 from station.practice.battle.link.link_datagram import Kind, headed
@@ -15,7 +16,6 @@ from station.practice.battle.link.link_messages import Claim, Message, PlayedBar
 from station.practice.battle.link.linked_battle import LONGEST_CUT_NS, LinkedBattle, LinkEnd
 from station.practice.battle.link.linked_document import linked_result, network_fields, network_report
 from station.practice.battle.link.linked_view import linked_view
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.battle.turn_plan import TurnKind
 from station.scoring.matching.hit_windows import Level
 from tests.fakes.linked_stations import GUEST, HOST, Network, Player, TwoStations, improvises, repeats
@@ -111,7 +111,7 @@ def test_wherever_the_cut_falls_the_record_is_the_same(mode: BattleMode, cut_s: 
 
 @pytest.mark.parametrize("stalls_at_s", [5.0, 8.3, 12.1, 15.4])
 def test_a_station_that_stalls_for_seconds_begins_no_turn_in_the_past(mode: BattleMode, stalls_at_s: float) -> None:
-    """What would have begun meanwhile begins on a bar line that is still to come: nobody misses what they never heard."""
+    """What would have begun meanwhile begins on a bar line that comes: nobody misses what they never heard."""
     stations = two(mode)
     stations.run(stalls_at_s)
     host, guest = battles(stations)

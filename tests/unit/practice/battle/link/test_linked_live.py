@@ -10,13 +10,13 @@ import pytest
 from station.core.clock import MonotonicClock, monotonic_ns
 from station.core.errors import DeviceError, StationError
 from station.core.units import NS_PER_S
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.ground import Ground
 from station.practice.battle.link.link_handshake import Address
 from station.practice.battle.link.linked_battle import LinkedBattle, LinkEnd
 from station.practice.battle.link.linked_document import network_fields, network_report
 from station.practice.battle.link.linked_station import LinkedStation, hosts_here, introduction
 from station.practice.battle.people.player import Player
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.headless.end_signals import EndAsked
 from station.practice.headless.linked_live import LinkedSetup, meet, play_linked
 from station.practice.headless.linked_text import LinkedText

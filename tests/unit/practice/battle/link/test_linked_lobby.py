@@ -5,10 +5,10 @@ import pytest
 
 from station.core.errors import BadInput, DeviceError, StationError
 from station.core.pieces import Piece
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.ground import Feel, Ground
 from station.practice.battle.link.link_messages import Accept, Bye, Message, Offer, Pause
 from station.practice.battle.link.linked_rules import agreed, offer_of, two_players
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.scoring.matching.hit_windows import Level
 from tests.fakes.linked_stations import GUEST, Network, TwoStations, improvises
 

@@ -8,6 +8,7 @@ from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
 from station.music.performance import Performance
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.ground import Ground
 from station.practice.battle.link.link_messages import (
     Called,
@@ -24,7 +25,6 @@ from station.practice.battle.link.link_messages import (
 from station.practice.battle.link.linked_rounds import LinkedRounds
 from station.practice.battle.link.linked_rules import agreed, offer_of
 from station.practice.battle.phrase import Turn
-from station.practice.battle.rules import BattleMode, BattleRules
 from station.practice.battle.turn_plan import TurnKind
 from station.scoring.matching.hit_windows import Level
 from tests.fakes.linked_stations import drum
