@@ -16,21 +16,19 @@ from numpy.typing import NDArray
 from benchmarks.battle_experts.boosted_trees import BoostedTrees, auc, logistic_scores
 from benchmarks.battle_experts.phrase_features import phrase_features
 from benchmarks.battle_experts.phrase_pairs import (
-    PLAIN,
     Heard,
+    Knowledge,
     Player,
     by_the_drummer,
     by_the_model,
+    knowledge_of,
     places,
     shuffled,
-    table_of,
     with_knowledge,
 )
 from station.practice.battle.improvising.beat_model import BeatModel
-from station.practice.battle.improvising.human_playing import HumanPlaying
 from station.practice.battle.improvising.played_beats import Beats
-from station.practice.battle.opponents.opponent import OPPONENTS
-from tools import human_playing
+from station.practice.battle.opponents.opponent import ANY_DRUMMER, OPPONENTS
 from tools.battle_training.takes import GrooveTake
 
 Floats = NDArray[np.float64]
@@ -54,33 +52,34 @@ def experts_tables(takes: Sequence[GrooveTake], models: Mapping[str, BeatModel])
     """A line for each kind of phrase beside the humans' own."""
     heard = places(takes, tuple(models))
     with TemporaryDirectory() as folder:
-        tables = {d: table_of(human_playing.table([t for t in takes if t.drummer != d]), Path(folder)) for d in models}
+        known = {
+            drummer: knowledge_of([take for take in takes if take.drummer != drummer], model, Path(folder))
+            for drummer, model in models.items()
+        }
     human = [place.human for place in heard]
     rng = np.random.default_rng(SEED)
     mixed = [shuffled(beats, rng) for beats in human]
-    notes = _played(heard, models, tables, by_the_model)
+    notes = _played(heard, known, by_the_model)
     lines = [f"{len(heard)} human phrases of four bars, and as many of each other kind.", ""]
     lines += ["| human against | AUC trees | AUC logistic | right, trees | right, logistic |", "|---|---|---|---|---|"]
     lines += [f"| shuffled, notes alone | {told(heard, human, mixed, False)} |"]
     lines += [f"| shuffled, notes, velocity and timing | {told(heard, human, mixed, True)} |"]
     lines += [f"| the model's notes | {told(heard, human, notes, False)} |"]
-    for opponent in (PLAIN, *OPPONENTS.values()):
-        played = _played(heard, models, tables, by_the_drummer(opponent))
+    for opponent in (ANY_DRUMMER, *OPPONENTS.values()):
+        played = _played(heard, known, by_the_drummer(opponent))
         lines += [f"| {opponent.name}, notes alone | {told(heard, human, played, False)} |"]
         lines += [f"| {opponent.name}, notes, velocity and timing | {told(heard, human, played, True)} |"]
     return "\n".join(lines)
 
 
-def _played(
-    heard: Sequence[Heard], models: Mapping[str, BeatModel], tables: Mapping[str, HumanPlaying], player: Player
-) -> list[Beats]:
+def _played(heard: Sequence[Heard], known: Mapping[str, Knowledge], player: Player) -> list[Beats]:
     """What is played at each place."""
     rng = np.random.default_rng(SEED)
     found = []
     for place in heard:
-        drummer = place.take.drummer
-        with with_knowledge(models[drummer], tables[drummer]):
-            found.append(player(place, models[drummer], rng))
+        knowledge = known[place.take.drummer]
+        with with_knowledge(knowledge):
+            found.append(player(place, knowledge.model, rng))
     return found
 
 

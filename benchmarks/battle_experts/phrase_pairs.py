@@ -1,9 +1,9 @@
 """Human phrases of four bars, and beside each what the drummer improvised upon the same bars before it.
 
 For each take of a drummer who was left out: bars are heard, the four bars after them are the human's phrase, and the
-drummer plays four bars in their stead, at the same tempo and in the same style, with a model, and a table of how
-drummers time and weight their strokes, that have not heard that drummer either. Both are then read from their hits by
-the same function.
+drummer plays four bars in their stead, at the same tempo and in the same style, with a model, a table of how drummers
+weight their strokes, and phrases to borrow a touch from, that have not heard that drummer either. Both are then read
+from their hits by the same function.
 """
 
 import json
@@ -16,21 +16,21 @@ from unittest.mock import patch
 
 import numpy as np
 
-from station.practice.battle.improvising import human_playing, improvise
+from station.practice.battle.improvising import borrowed_touch, human_playing, improvise
 from station.practice.battle.improvising.beat_model import BeatModel
 from station.practice.battle.improvising.continuation import continued
+from station.practice.battle.improvising.human_phrases import HumanPhrases
 from station.practice.battle.improvising.human_playing import HumanPlaying
 from station.practice.battle.improvising.played_beats import Beats, beats_of
 from station.practice.battle.improvising.wanted import Wanted
-from station.practice.battle.opponents.opponent import OPPONENTS, Manner, Opponent
+from station.practice.battle.opponents.opponent import Opponent
 from station.practice.battle.phrase_as_turn import phrase_as_turn
 from tools.battle_training.takes import GrooveTake, turn_of
+from tools.human_playing import table as tools_table
 
 HEARD_BARS, PHRASE_BARS = 8, 4
 LEAST_STROKES = 12
 """A phrase with fewer is hardly one."""
-PLAIN = replace(OPPONENTS["steady"], name="plain", manner=Manner(), styles=())
-"""The drummer without a character of its own: all figures as they are for drummers in general."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,15 +79,30 @@ def by_the_drummer(opponent: Opponent) -> Player:
     return played
 
 
+@dataclass(frozen=True, eq=False)
+class Knowledge:
+    """What the drummer knows of playing: the model of notes, the table of how drummers play, whose touch it borrows."""
+
+    model: BeatModel
+    table: HumanPlaying
+    phrases: HumanPhrases
+
+
+def knowledge_of(takes: Sequence[GrooveTake], model: BeatModel, folder: Path) -> Knowledge:
+    """What can be known from these takes; `model` is trained on them."""
+    phrases = HumanPhrases.of([(take.ground.beats_a_minute, take.beats) for take in takes])
+    return Knowledge(model, table_of(tools_table(takes), folder), phrases)
+
+
 @contextmanager
-def with_knowledge(model: BeatModel, table: HumanPlaying) -> Iterator[None]:
-    """The drummer improvises with this model and this table instead of those that ship."""
-    shipped = human_playing.human_playing
-    asking = [m for m in list(sys.modules.values()) if getattr(m, "human_playing", None) is shipped]
+def with_knowledge(knowledge: Knowledge) -> Iterator[None]:
+    """The drummer improvises with this instead of what ships."""
     with ExitStack() as stack:
-        stack.enter_context(patch.object(BeatModel, "load", lambda: model))
-        for module in asking:
-            stack.enter_context(patch.object(module, "human_playing", lambda: table))
+        stack.enter_context(patch.object(BeatModel, "load", lambda: knowledge.model))
+        stack.enter_context(patch.object(borrowed_touch, "human_phrases", lambda: knowledge.phrases))
+        shipped = human_playing.human_playing
+        for module in [m for m in list(sys.modules.values()) if getattr(m, "human_playing", None) is shipped]:
+            stack.enter_context(patch.object(module, "human_playing", lambda: knowledge.table))
         yield
 
 

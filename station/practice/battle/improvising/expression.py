@@ -1,7 +1,7 @@
 """How notes are played: the lateness and the velocity of each stroke, as a human of that manner plays them.
 
-Over the human table (`human_playing`) an opponent has its own spread, lean, loudness and contrast; jazz swings by the
-tempo, and a build grows louder.
+Over the touch of a human phrase (`borrowed_touch`) an opponent has its own spread, lean, loudness and contrast; jazz
+swings by the tempo, and a build grows louder.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from station.music.score import MAX_LATE_MS
 from station.music.swing import MAX_RATIO, MIN_RATIO, TRIPLETS
 from station.practice.battle.ground import Ground
-from station.practice.battle.improvising.human_playing import human_late_ms, human_velocity
+from station.practice.battle.improvising.borrowed_touch import BorrowedTouch, borrowed_touch
 from station.practice.battle.improvising.phrase_plan import PlannedBar
 from station.practice.battle.improvising.played_beats import Beats
 from station.practice.battle.improvising.stroke_place import struck_cells
@@ -30,23 +30,26 @@ def expressed(beats: Beats, opponent: Opponent, plan: Sequence[PlannedBar], grou
     """`beats`, a bar for each of `plan`, with the velocities and the timing of `opponent`."""
     velocity, late_ms = np.zeros(beats.velocity.shape, np.uint8), np.zeros(beats.late_ms.shape, np.float32)
     at = tuple(struck_cells(beats).T)
-    velocity[at] = np.rint(_velocity(beats, opponent, plan, rng)).astype(np.uint8)
-    late_ms[at] = _late_ms(beats, opponent, ground, rng)
+    if not len(at[0]):
+        return replace(beats, velocity=velocity, late_ms=late_ms)
+    touch = borrowed_touch(beats, ground.beats_a_minute, rng)
+    velocity[at] = np.rint(_velocity(beats, touch, opponent, plan)).astype(np.uint8)
+    late_ms[at] = _late_ms(beats, touch, opponent, ground, rng)
     return replace(beats, velocity=velocity, late_ms=late_ms)
 
 
-def _velocity(beats: Beats, opponent: Opponent, plan: Sequence[PlannedBar], rng: Generator) -> Floats:
+def _velocity(beats: Beats, touch: BorrowedTouch, opponent: Opponent, plan: Sequence[PlannedBar]) -> Floats:
     manner = opponent.manner
     bar = struck_cells(beats)[:, 0] // beats.beats_a_bar
     louder = np.array([one.loudness for one in plan])[bar]
-    plain = _MIDDLE + (human_velocity(beats, manner.evenness, rng) - _MIDDLE) * manner.contrast
+    plain = _MIDDLE + (touch.velocity - manner.evenness * touch.louder - _MIDDLE) * manner.contrast
     return np.asarray(np.clip(plain * manner.loudness * louder, 5.0, 127.0))
 
 
-def _late_ms(beats: Beats, opponent: Opponent, ground: Ground, rng: Generator) -> Floats:
+def _late_ms(beats: Beats, touch: BorrowedTouch, opponent: Opponent, ground: Ground, rng: Generator) -> Floats:
     manner, mistakes = opponent.manner, opponent.mistakes
     struck = struck_cells(beats)
-    late = human_late_ms(beats, manner.clock, rng) + manner.lean_ms + manner.lean_spread_ms * rng.normal()
+    late = touch.late_ms * manner.clock + manner.lean_ms + manner.lean_spread_ms * rng.normal()
     late += rng.normal(0.0, 1.0, len(struck)) * mistakes.spread_ms
     if _SWINGING in opponent.styles:
         late += swing_ms(beats, ground)[struck[:, 0], struck[:, 1]]

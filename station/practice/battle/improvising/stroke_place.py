@@ -39,15 +39,15 @@ def places_of(beats: Beats, struck: Struck) -> NDArray[np.int64]:
 
 def moments_of(beats: Beats, struck: Struck) -> NDArray[np.int64]:
     """The number of the moment of each stroke (n,), from 0: what shares a place in a beat shares a moment."""
-    places = np.rint(_FINEST * (struck[:, 0] + struck[:, 1] / beats.division[struck[:, 0]])).astype(np.int64)
+    places = np.rint(FINEST * (struck[:, 0] + struck[:, 1] / beats.division[struck[:, 0]])).astype(np.int64)
     return np.asarray(np.unique(places, return_inverse=True)[1], np.int64)
 
 
 def spots_of(beats: Beats, struck: Struck) -> NDArray[np.int64]:
     """The spot of each stroke (n,): a number for its instrument and its place in the bar."""
     in_bar = struck[:, 0] % beats.beats_a_bar + struck[:, 1] / beats.division[struck[:, 0]]
-    return np.rint(_FINEST * in_bar).astype(np.int64) * 16 + struck[:, 2]
+    return np.rint(FINEST * in_bar).astype(np.int64) * 16 + struck[:, 2]
 
 
-_FINEST = 24
+FINEST = 24
 """The least common multiple of the divisions 3, 4, 6 and 8."""

@@ -1,12 +1,13 @@
 """What the drummer plays softly under the student's turn: the feet, or a light groove in its own idiom."""
 
+import numpy as np
 from numpy.random import Generator
+from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.core.units import PPQ
 from station.music.score import Note
 from station.practice.battle.ground import Feel, Ground
-from station.practice.battle.improvising.human_playing import ar1
 from station.practice.battle.opponents.opponent import Opponent
 from station.practice.battle.phrase import Phrase
 from station.practice.battle.vocabulary.limbed import limbed
@@ -26,6 +27,17 @@ def time_keeping(opponent: Opponent, ground: Ground, bars: int, rng: Generator, 
     late = [note.late_ms + float(clock[beat]) for note, beat in zip(notes, beats, strict=True)]
     timed = [_timed(note, ms) for note, ms in zip(notes, late, strict=True)]
     return Phrase(limbed(timed, ground, bars), words="time")
+
+
+def ar1(count: int, correlation: float, rng: Generator) -> NDArray[np.float64]:
+    """`count` numbers of mean 0 and variance 1, each correlated with the one before it."""
+    noise = rng.normal(size=count)
+    found = np.empty(count)
+    last = noise[0] if count else 0.0
+    for at in range(count):
+        last = noise[0] if at == 0 else correlation * last + (1 - correlation**2) ** 0.5 * noise[at]
+        found[at] = last
+    return found
 
 
 def _timed(note: Note, late_ms: float) -> Note:
