@@ -22,7 +22,7 @@ _TEMPO_WEIGHT = 0.5
 """What half or twice the tempo costs against the share of strokes that a phrase covers (our choice)."""
 _OTHER_METER = 2.0
 """More than any cover is worth: another meter only where there is none of this one."""
-_AMONG = 6
+_AMONG = 3
 """One of so many best is taken, so that two phrases on one groove differ (our choice)."""
 
 
@@ -58,13 +58,11 @@ def borrowed_touch(beats: Beats, beats_a_minute: float, rng: Generator) -> Borro
     rows = slice(int(phrases.first[lender]), int(phrases.first[lender + 1]))
     own = _where(phrases.at[rows].astype(np.int64), phrases.instrument[rows].astype(np.int64), beats.beats_a_bar)
     velocity, late = phrases.velocity[rows].astype(np.float64), phrases.late_ms[rows].astype(np.float64)
-    source = _nearest(own, new)
+    source = _nearest(own, new, rng)
     usual_own, usual_new = _usual(own), _usual(new)
     is_other = own.instrument[source] != new.instrument
     played = velocity[source] + is_other * (usual_new - usual_own[source])
-    moments, member = np.unique(own.at, return_inverse=True)
-    clock = np.bincount(member, late) / np.bincount(member)
-    lent = late[source] - clock[member[source]] + np.interp(new.at, moments, clock)
+    lent = late[source] - _clock(own.at, late, own.at[source]) + _clock(own.at, late, new.at)
     lean = float(np.median(late))
     return BorrowedTouch(np.clip(played, 1, 127), lent - lean, lean, float((velocity - usual_own).mean()))
 
@@ -86,14 +84,15 @@ def _lender(phrases: HumanPhrases, new: _Strokes, beats_a_bar: int, beats_a_minu
     return int(rng.choice(np.argsort(cost, kind="stable")[:_AMONG]))
 
 
-_OTHER_KIND, _OTHER_INSTRUMENT, _OTHER_PLACE, _OTHER_SPOT, _A_BEAT = 64.0, 32.0, 8.0, 4.0, 0.15
+_OTHER_KIND, _OTHER_INSTRUMENT, _OTHER_PLACE, _OTHER_SPOT, _OTHER_MOMENT = 64.0, 32.0, 8.0, 4.0, 1.5
 """What makes another stroke less near: an instrument of another kind, another instrument, another `StrokePlace`,
-another spot of the bar, each beat between: each outweighs those after it (our choice)."""
+another spot of the bar, another moment: each outweighs those after it (our choice). Among equals chance decides, or
+all bars would have the velocities of one."""
 _KINDS = np.array([0, 1, 2, 2, 3, 3, 3, 4, 2])
 """Kick, snare, what keeps time, toms, crash, by `Instrument`."""
 
 
-def _nearest(own: _Strokes, new: _Strokes) -> Ints:
+def _nearest(own: _Strokes, new: _Strokes, rng: Generator) -> Ints:
     """Of each new stroke (n,) the index of the lender's stroke that is nearest in kind."""
 
     def differ(a: Ints, b: Ints) -> NDArray[np.bool_]:
@@ -102,8 +101,20 @@ def _nearest(own: _Strokes, new: _Strokes) -> Ints:
     cost = _OTHER_KIND * differ(_KINDS[new.instrument], _KINDS[own.instrument])
     cost += _OTHER_INSTRUMENT * differ(new.instrument, own.instrument)
     cost += _OTHER_PLACE * differ(new.place, own.place) + _OTHER_SPOT * differ(new.in_bar, own.in_bar)
-    cost += _A_BEAT * np.abs(new.at[:, None] - own.at[None, :]) / FINEST
+    cost += _OTHER_MOMENT * differ(new.at, own.at) * (1 + rng.random(cost.shape))
     return np.asarray(np.argmin(cost, axis=1))
+
+
+_CLOCK_BEATS = 0.5
+"""Over so much on both sides the clock is a mean, weighted by a Gaussian: strokes of one moment differ less from it
+than the clock from itself two beats later (our choice)."""
+
+
+def _clock(at: Ints, late: Floats, asked: Ints) -> Floats:
+    """How late all limbs of the lender are about the moments `asked` (n,)."""
+    weight = np.exp(-(((asked[:, None] - at[None, :]) / (_CLOCK_BEATS * FINEST)) ** 2) / 2)
+    weight += 1e-9  # where nothing is near, the mean of all
+    return np.asarray(weight @ late / weight.sum(axis=1))
 
 
 def _usual(strokes: _Strokes) -> Floats:

@@ -184,7 +184,13 @@ def _main_strokes(turn: Turn) -> tuple[Note, ...]:
     inside = (hits["at_ns"] >= -half_ns) & (hits["at_ns"] < turn.length_ns + half_ns)
     played = Performance.from_array(hits[inside]).shifted(ground.ns_of_bars(1))
     mains = found_ornaments(score_as_played(played, ground.tempo_map)).mains
-    return tuple(sorted(mains, key=lambda main: main.tick))
+    first = ground.bar_ticks - ground.beat_ticks * _EARLIEST
+    return tuple(sorted((main for main in mains if main.tick >= first), key=lambda main: main.tick))
+
+
+_EARLIEST = 1 / 8
+"""So much of a beat before the turn a stroke is still its downbeat's: half a sixteenth. An earlier one is a place of
+the bar before, which somebody who plays on into their turn has struck."""
 
 
 def _filled(mains: Sequence[Note], cells: PlayedCells, beats_a_bar: int) -> Beats:

@@ -55,8 +55,8 @@ def test_a_stroke_without_a_fellow_has_the_clock_of_its_moment(monkeypatch: pyte
     beats = _rock()
     beats.struck[9, 1, _HAT] = True  # a sixteenth after beat 9, where the human plays nothing
     _, velocity, late = _lent(beats, monkeypatch)
-    assert late[9, 1, _HAT] == pytest.approx(18.0)  # both neighbours are 18 ms late
-    assert velocity[9, 1, _HAT] in {79.0, 40.0}  # as one of the neighbours
+    assert late[9, 1, _HAT] == pytest.approx(18.0, abs=1.0)  # its moment's, as one of its kind plays it
+    assert velocity[9, 1, _HAT] in {*range(70, 86), 40}  # as one of the human's hats
 
 
 def test_an_instrument_that_the_human_left_out_is_as_loud_as_usual_beside_its_lender(

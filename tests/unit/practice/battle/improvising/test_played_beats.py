@@ -176,3 +176,12 @@ def test_jazz_of_the_dataset_is_triplet_and_funk_straight() -> None:
     assert np.mean(np.isin(jazz.division, (3, 6))) > 0.9
     assert np.mean(np.isin(slow.division, (3, 6))) > 0.7
     assert np.mean(funk.division == 4) > 0.9
+
+
+def test_what_was_played_before_the_turn_is_none_of_its_downbeat() -> None:
+    """An eighth before the turn is the bar before's; a twentieth of a beat before it is an early one."""
+    beats = beats_of(turn_of([(-0.5, Piece.CRASH_1, 90), (-0.25, Piece.SNARE, 90), *BACKBEAT], GROUND))
+    assert np.argwhere(beats.struck[0]).tolist() == [[0, Instrument.KICK]]
+    early = beats_of(turn_of([(-0.05, Piece.KICK, 90), *BACKBEAT[1:]], GROUND))
+    assert early.struck[0, 0, Instrument.KICK]
+    assert early.late_ms[0, 0, Instrument.KICK] == pytest.approx(-30, abs=1)  # of 600 ms
