@@ -7,6 +7,9 @@ Writes them between their markers; what was measured stays as `benchmarks/battle
 
 from pathlib import Path
 
+import numpy as np
+
+from station.practice.battle.improvising.human_phrases import human_phrases
 from station.practice.battle.improvising.human_playing import human_playing
 from station.practice.battle.opponents.opponent import OPPONENTS
 from station.practice.battle.repeating.demands import MOST_STEP, demand_at
@@ -43,18 +46,17 @@ def opponents() -> list[str]:
 
 
 def touch() -> list[str]:
-    """The figures of the human table."""
-    table = human_playing()
+    """The figures of the phrases whose touch is borrowed."""
+    phrases = human_phrases()
+    late = np.split(phrases.late_ms.astype(np.float64), phrases.first[1:-1])
+    lean, spread = (np.array([figure(one) for one in late]) for figure in (np.median, np.std))
     return [
         "| figure | measured |",
         "|---|---|",
-        f"| lean of a phrase | {table.lean_ms[0]:g} ± {table.lean_ms[1]:g} ms |",
-        f"| spread of a phrase's strokes about it | {table.spread_ms:g} ms, times e^(±{table.spread_log_sd:g}) |",
-        f"| the clock's share of that variance | {table.of_clock:g} |",
-        f"| its correlation from a moment to the next | {table.from_last:g} |",
-        f"| a spot's share (the same instrument and place of the bar) | {table.late_of_spot:g} |",
-        f"| loudness: what all strokes of a phrase share | {table.of_phrase:g} |",
-        f"| strokes a beat | {table.strokes_a_beat:g} |",
+        f"| phrases, strokes | {len(phrases)}, {len(phrases.at)} |",
+        f"| lean of a phrase, mean and spread | {lean.mean():.0f} ± {lean.std():.0f} ms |",
+        f"| spread of a phrase's strokes, middle | {np.median(spread):.0f} ms |",
+        f"| strokes a beat | {human_playing().strokes_a_beat:g} |",
     ]
 
 
