@@ -55,7 +55,7 @@ def experts_tables(takes: Sequence[GrooveTake], models: Mapping[str, BeatModel])
     human = [place.human for place in heard]
     rng = np.random.default_rng(SEED)
     at_random = [shuffled(beats, rng) for beats in human]
-    mixed = {drummer: at_random for drummer in models}
+    mixed = dict.fromkeys(models, at_random)
     notes = _played(heard, known, by_the_model)
     lines = [f"{len(heard)} human phrases of four bars, and as many of each other kind.", ""]
     lines += ["| human against | AUC trees | AUC logistic | right, trees | right, logistic |", "|---|---|---|---|---|"]
