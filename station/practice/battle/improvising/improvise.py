@@ -17,11 +17,11 @@ from numpy.typing import NDArray
 from station.core.pieces import DRUMS, Dynamic, Limb, Piece
 from station.music.score import NOTE_DTYPE, Note, Score
 from station.practice.battle.ground import Ground
-from station.practice.battle.improvising.expression import expressed
 from station.practice.battle.improvising.human_playing import human_playing
 from station.practice.battle.improvising.phrase_notes import Scene, phrase_notes
 from station.practice.battle.improvising.phrase_plan import PlannedBar, phrase_plan
 from station.practice.battle.improvising.played_beats import Beats, beats_of, strokes_of
+from station.practice.battle.improvising.played_touch import expressed
 from station.practice.battle.opponents.opponent import Opponent
 from station.practice.battle.phrase import Phrase, Turn
 from station.practice.battle.vocabulary.limbed import limbed

@@ -4,8 +4,8 @@ import numpy as np
 
 from station.core.pieces import Piece
 from station.practice.battle.ground import Feel, Ground
-from station.practice.battle.improvising.expression import swing_ms, swing_ratio
 from station.practice.battle.improvising.played_beats import Beats
+from station.practice.battle.improvising.played_touch import swing_ms, swing_ratio
 from station.practice.battle.improvising.time_keeping import ar1, time_keeping
 from station.practice.battle.opponents.opponent import OPPONENTS
 
