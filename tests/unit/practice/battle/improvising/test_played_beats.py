@@ -99,6 +99,12 @@ def test_an_early_downbeat_and_the_landing_are_where_they_belong() -> None:
     assert len(landing) == 4
 
 
+@pytest.mark.parametrize("bpm", [60.0, 100.0, 215.0])
+def test_a_first_stroke_that_comes_early_is_the_turns(bpm: float) -> None:
+    beats = beats_of(turn_of([(-0.03 * bpm / 60, Piece.CRASH_1, 110), *every(1.0, 3, start=1.0)], Ground(bpm)))
+    assert beats.struck[0, 0, Instrument.CRASH]
+
+
 def test_a_flam_is_one_stroke_with_its_word() -> None:
     beats = beats_of(turn_of([*every(1 / 2, 4), (0.95, Piece.SNARE, 40), (1.0, Piece.SNARE, 100)], GROUND))
     assert np.argwhere(beats.struck[:, :, Instrument.SNARE]).tolist() == [[1, 0]]
