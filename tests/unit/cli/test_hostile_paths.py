@@ -83,6 +83,11 @@ NO_FILES = {
         "SPEC",
         "HZ",
         "CLICK",
+        "N/U",
+        "WORD",
+        "ADDRESS",
+        "ADDRESS|list",
+        "NAME[=PORT],…",
     ),
     *(
         "LEVELS",
