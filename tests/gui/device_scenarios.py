@@ -25,7 +25,7 @@ from station.gui.panels.export_panel import EXPORT, SHEET_LABEL, music_label
 from station.gui.panels.practice_panel import LEARN_LABEL, PRACTICE
 from station.music.formats.smf.midi_part import MIDI
 from tests.fakes.stick_physics import Sensor, Stroke, measured, strokes_by_angle
-from tests.gui.drive import MOST_FRAMES, Drive, open_panel
+from tests.gui.drive import MOST_FRAMES, Drive, open_panel, open_popup
 from tests.gui.room import KIT
 
 
@@ -62,11 +62,11 @@ def pads_are_learnt(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.engine.play_bytes("99 0e 40")
     ctx.yield_(2)
     drive.seen["unknown"] = desk.unknown
-    ctx.item_click("What is it?##10-14")
+    open_popup(ctx, "What is it?##10-14")
     ctx.item_click("//$FOCUSED/##pads/rim##tom_1\\/rim")
     ctx.yield_(2)
     drive.seen["named"] = desk.learnt
-    ctx.item_click(LEARN_PAD_LABEL)
+    open_popup(ctx, LEARN_PAD_LABEL)
     ctx.item_click("//$FOCUSED/##pads/bell##ride\\/bell")
     ctx.yield_(2)
     drive.seen["asks"] = desk.asks

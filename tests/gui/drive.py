@@ -44,6 +44,7 @@ STEP_NS = ns_from_ms(100)
 SIZE = (760, 480)
 LESSON = "rock-2"
 MOST_FRAMES = 1000
+MOST_CLICKS = 5
 PICTURE_EVERY = 25
 """Without a graphics card the picture takes nine tenths of a frame; a test of the panels sees it now and then."""
 NEWCOMER = "newcomer"
@@ -282,12 +283,21 @@ def to_list(ctx: imgui.test_engine.TestContext) -> None:
         ctx.yield_(2)
 
 
+def open_popup(ctx: imgui.test_engine.TestContext, label: str) -> None:
+    """Click until a popup is open: what is still being read may move the item away from under the mouse."""
+    for _ in range(MOST_CLICKS):
+        ctx.item_click(label)
+        ctx.yield_(2)
+        if imgui.is_popup_open("", imgui.PopupFlags_.any_popup):
+            return
+    raise AssertionError(f"{label} opens nothing")
+
+
 def press_view(ctx: imgui.test_engine.TestContext, label: str) -> None:
     """Press a button of the strip's right end, which large panels have behind another."""
     ctx.set_ref("//Transport")
     if ctx.item_exists(VIEW_LABEL):
-        ctx.item_click(VIEW_LABEL)
-        ctx.yield_(2)
+        open_popup(ctx, VIEW_LABEL)
         ctx.item_click(f"//$FOCUSED/{label}")
     else:
         ctx.item_click(f"**/{label}")

@@ -21,7 +21,7 @@ from station.gui.panels.editor.editor_toolbar import (
 )
 from station.gui.panels.lessons.lesson_list import RESUME_LABEL, UNSAVED
 from station.gui.panels.lessons_panel import ADD_LABEL, EDIT_LABEL, NEW_LABEL
-from tests.gui.drive import Drive, to_edit
+from tests.gui.drive import Drive, open_popup, to_edit
 from tests.gui.key_chord import chord
 
 Test = imgui.test_engine.TestContext
@@ -65,13 +65,12 @@ def choose_step(ctx: Test, step: GridStep) -> None:
 def two_empty_bars(drive: Drive, ctx: Test) -> None:
     """A new lesson from the list, with a second bar, written in sixteenths."""
     ctx.set_ref("//Lessons")
-    ctx.item_click(ADD_LABEL)
+    open_popup(ctx, ADD_LABEL)
     ctx.item_click(f"//$FOCUSED/{NEW_LABEL}")
     ctx.yield_(3)
     ctx.set_ref("//Editor")
     choose_step(ctx, GridStep.SIXTEENTHS)
-    ctx.item_click(BARS_LABEL)
-    ctx.yield_(2)
+    open_popup(ctx, BARS_LABEL)
     ctx.item_click("//$FOCUSED/A bar behind this one")
     ctx.yield_(2)
     assert drive.state.editor is not None
@@ -80,8 +79,7 @@ def two_empty_bars(drive: Drive, ctx: Test) -> None:
 def save_as(drive: Drive, ctx: Test, name: str) -> None:
     """Keep it under a name, tell what its file says, and go back to the lessons."""
     ctx.set_ref("//Editor")
-    ctx.item_click(SAVE_AS_LABEL)
-    ctx.yield_(2)
+    open_popup(ctx, SAVE_AS_LABEL)
     ctx.item_input_value(f"//$FOCUSED/{NAME_LABEL}", name)
     ctx.yield_(2)
     if drive.state.editor is not None and drive.state.editor.name != name:
@@ -217,12 +215,11 @@ def finds_draft(drive: Drive, ctx: Test) -> None:
     """What a killed program left is offered, and gone on with; undo leads back to the beginning."""
     (left,) = drive.state.drafts
     ctx.set_ref("//Lessons")
-    ctx.item_click(f"**/{UNSAVED}a new lesson")
-    ctx.yield_(2)
+    open_popup(ctx, f"**/{UNSAVED}a new lesson")
     ctx.item_click(f"//$FOCUSED/{RESUME_LABEL}")
     ctx.yield_(3)
     view = drive.state.editor
-    assert view is not None, drive.state.toast
+    assert view is not None, "the draft is open"
     drive.seen["text"], drive.seen["saved"] = view.text, view.is_saved
     ctx.key_press(chord(imgui.Key.mod_ctrl, imgui.Key.s))
     ctx.yield_(3)

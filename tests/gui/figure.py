@@ -5,15 +5,14 @@ from imgui_bundle import imgui
 from station.core.settings import load_settings
 from station.motion.style.style import JOINTS
 from station.motion.style.style_file import load_style
-from tests.gui.drive import Drive
+from tests.gui.drive import Drive, open_popup
 
 
 def figure(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Everything in one window; what was set last is what the settings keep."""
     seen = drive.seen
     ctx.set_ref("//Transport")
-    ctx.item_click("Panels##panels")
-    ctx.yield_(2)
+    open_popup(ctx, "Panels##panels")
     ctx.item_click("//$FOCUSED/Figure")
     ctx.key_press(imgui.Key.escape)
     ctx.yield_(2)
@@ -23,8 +22,7 @@ def figure(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     seen["gain"] = drive.state.style.options.value("amplitude_gain")
     seen["moves so"] = drive.station.parts.sessions.player.drummer.style.amplitude_gain
     ctx.item_click("1##keep1")
-    ctx.item_click("##style")
-    ctx.yield_(2)
+    open_popup(ctx, "##style")
     ctx.item_click("//$FOCUSED/jazz##jazz")
     ctx.yield_(2)
     seen["chosen"] = [drive.state.style.options.style.name, drive.state.style.options.is_changed]
@@ -84,8 +82,7 @@ def own_styles(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.item_click("From the score##propose")
     ctx.yield_(2)
     seen["proposed"] = drive.state.style.options.style.name
-    ctx.item_click("##style")
-    ctx.yield_(2)
+    open_popup(ctx, "##style")
     ctx.item_click(f"//$FOCUSED/your own: My own##{seen_path(drive)}")
     ctx.yield_(2)
     seen["again"] = drive.state.style.options.style.name

@@ -12,7 +12,7 @@ from station.gui.panels.lessons.who_plays import NEW_NAME, WHO_LABEL
 from station.gui.panels.lessons_panel import ADD_LABEL
 from station.gui.panels.lessons_panel import IMPORT_LABEL as OPEN_IMPORT_LABEL
 from station.gui.widgets.level_choice import LEVEL_LABEL
-from tests.gui.drive import Drive, open_panel, to_list, to_options
+from tests.gui.drive import Drive, open_panel, open_popup, to_list, to_options
 from tests.gui.dropped_files import drop_files
 
 
@@ -25,7 +25,7 @@ def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.seen["keys"] = len(drive.engine.keys)
     drive.seen["shown"] = [card.title for card in drive.state.selection.visible()]
     for course in ("###course-funk", "###course-"):
-        ctx.item_click("##course")
+        open_popup(ctx, "##course")
         ctx.item_click(f"//$FOCUSED/{course}")
         ctx.yield_(2)
         kept = load_settings(drive.settings).course
@@ -39,7 +39,7 @@ def whose(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.choose(ctx, passes=3)
     places = drive.seen["start"] = [place_of_start(ctx)]
     to_options(ctx)
-    ctx.item_click(LEVEL_LABEL)
+    open_popup(ctx, LEVEL_LABEL)
     ctx.item_click("//$FOCUSED/###studio")
     ctx.yield_(2)
     drive.seen["levels"] = [str(drive.state.selection.level)]
@@ -88,7 +88,7 @@ def imports(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     for name in ("typed", "dropped", "copied"):
         (folder / f"{name}.tab").write_text(tab.format(name.title()))
     ctx.set_ref("//Lessons")
-    ctx.item_click(ADD_LABEL)
+    open_popup(ctx, ADD_LABEL)
     ctx.item_click(f"//$FOCUSED/{OPEN_IMPORT_LABEL}")
     ctx.yield_(3)
     ctx.set_ref(f"//{IMPORT}")

@@ -9,7 +9,7 @@ from station.engine.messages import Play
 from station.gui.panels.phase_panel import MODEL_LABEL, MOTION_LABEL, OPEN_LABEL, PHASE, PLAY_LABEL, STOP_LABEL
 from station.gui.panels.player_controls import COUNT_IN_LABEL
 from tests.fakes.walker_files import write_walker
-from tests.gui.drive import MOST_FRAMES, Drive
+from tests.gui.drive import MOST_FRAMES, Drive, open_popup
 from tests.gui.key_chord import chord
 
 
@@ -73,7 +73,7 @@ def graph(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The graph is opened, follows the play line, is zoomed by wheel, its line dragged; a result shows there."""
     panel, deck, seen = drive.window.pages.graph, drive.station.parts.sessions.player, drive.seen
     ctx.set_ref("//Transport")
-    ctx.item_click("Panels##panels")
+    open_popup(ctx, "Panels##panels")
     ctx.item_click("//$FOCUSED/Graph")
     ctx.popup_close_all()
     ctx.yield_(3)

@@ -15,7 +15,7 @@ from station.gui.panels.playback_row import STUDENT_LABEL, TEACHER_LABEL
 from station.gui.widgets.level_choice import LEVEL_LABEL
 from station.music.formats.format_table import read_part
 from station.render.notation.screen.score_place import ScoreForm
-from tests.gui.drive import MOST_FRAMES, TIMEOUT_S, Drive, open_panel, to_list, to_options
+from tests.gui.drive import MOST_FRAMES, TIMEOUT_S, Drive, open_panel, open_popup, to_list, to_options
 
 
 def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
@@ -23,7 +23,7 @@ def practise(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     drive.choose(ctx, passes=1)
     drive.seen["suggested"] = str(drive.state.selection.level)
     to_options(ctx)
-    ctx.item_click(LEVEL_LABEL)
+    open_popup(ctx, LEVEL_LABEL)
     ctx.item_click("//$FOCUSED/###advanced")
     ctx.yield_(2)
     ctx.set_ref("//Lessons")
@@ -148,7 +148,7 @@ def drill(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def by_ear(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The panel of every hit: its dots answer the mouse, and a bar of the teacher's and one's own is heard."""
-    ctx.item_click("//Transport/Panels##panels")
+    open_popup(ctx, "//Transport/Panels##panels")
     ctx.item_click("//$FOCUSED/Every hit")
     ctx.popup_close_all()
     ctx.yield_(3)

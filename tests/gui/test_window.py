@@ -57,7 +57,7 @@ def run_in_turn(scenarios: list[str], environment: dict[str, str], folder: Path)
     assert done.returncode == 0, done.stderr[-3000:]
     seen: dict[str, Any] = json.loads(out.read_text())
     for name, one in seen.items():
-        assert "traceback" not in one, f"{name}: {one['traceback']}"
+        assert "traceback" not in one, f"{name}: {one['traceback']}\n{done.stdout[-3000:]}"
     assert list(seen) == scenarios
     assert "Error" not in done.stdout, done.stdout[-3000:]
     return seen

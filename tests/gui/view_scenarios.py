@@ -17,7 +17,7 @@ from station.gui.panels.transport_bar import VIEW_LABEL
 from station.gui.panels.view_popup import LEGEND_LABEL
 from station.render.camera import VIEW_NAMES
 from tests.fakes.stick_physics import FINE_HZ, Sensor, measured
-from tests.gui.drive import MOST_FRAMES, Drive
+from tests.gui.drive import MOST_FRAMES, Drive, open_popup
 from tests.gui.key_chord import chord
 
 
@@ -70,8 +70,7 @@ def viewpoints(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     drive.seen["left"] = viewport.camera != turned
     ctx.set_ref("//Transport")
-    ctx.item_click("Look##look")
-    ctx.yield_(2)
+    open_popup(ctx, "Look##look")
     ctx.item_click("//$FOCUSED/3##go3")
     ctx.yield_(2)
     drive.seen["back"] = viewport.camera == turned
@@ -106,8 +105,7 @@ def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
         forms.append(drive.window.viewport.view_settings.score.name)
     drive.seen["by_key"] = forms
     ctx.set_ref("//Transport")
-    ctx.item_click("Look##look")
-    ctx.yield_(2)
+    open_popup(ctx, "Look##look")
     ctx.item_click("//$FOCUSED/Falling##Score")
     ctx.item_uncheck(f"//$FOCUSED/{LEGEND_LABEL}")
     ctx.yield_(2)
@@ -119,8 +117,7 @@ def score(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 def worn(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """The panels' colours in the popup and their size by keys; both are kept."""
     ctx.set_ref("//Transport")
-    ctx.item_click("Look##look")
-    ctx.yield_(2)
+    open_popup(ctx, "Look##look")
     ctx.item_click("//$FOCUSED/Day##Colours")
     ctx.yield_(2)
     paper = imgui.get_style().color_(imgui.Col_.window_bg)
@@ -144,14 +141,12 @@ def behind_buttons(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     assert strip is not None
     drive.seen["strip"] = strip.size.y / imgui.get_style().font_scale_main
     ctx.set_ref("//Transport")
-    ctx.item_click(VIEW_LABEL)
-    ctx.yield_(2)
+    open_popup(ctx, VIEW_LABEL)
     ctx.item_click("//$FOCUSED/mirror")
     ctx.yield_(2)
     drive.seen["mirrored"] = drive.window.viewport.view_settings.mirrored
     ctx.popup_close_all()
-    ctx.item_click(MORE_LABEL)
-    ctx.yield_(2)
+    open_popup(ctx, MORE_LABEL)
     ctx.item_input_value("//$FOCUSED/##speed", 70)
     ctx.yield_(2)
     drive.seen["speed"] = drive.state.player.player.speed_percent
