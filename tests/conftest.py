@@ -1,6 +1,7 @@
 """Settings for all tests."""
 
 import os
+import signal
 from collections.abc import Iterator
 
 import pytest
@@ -12,6 +13,10 @@ from xdist.scheduler import LoadGroupScheduling
 # The same examples in every run, so that a red test means a change; `SEARCH=1` looks for new ones.
 settings.register_profile("station", deadline=None, derandomize=not os.environ.get("SEARCH"))
 settings.load_profile("station")
+
+
+if hasattr(signal, "SIGHUP"):
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)  # as where the tests were begun by hand, also under `nohup`
 
 
 @pytest.fixture(scope="session", autouse=True)
