@@ -10,9 +10,9 @@ from pathlib import Path
 
 from station.core.units import NS_PER_S
 from station.practice.battle.battle import Battle
+from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.drummed import drummed
 from station.practice.battle.ground import Feel, Ground
-from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.headless.virtual_battle import battle_virtually
 from station.practice.headless.virtual_performers import virtual_performers
 from station.render.picture import Shot, draw_png

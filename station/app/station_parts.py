@@ -85,7 +85,7 @@ class StationParts:
             self.chooser.open,
             self.export.film_battle,
         )
-        self.battle = BattlePage(store, self.sessions, beside)
+        self.battle = BattlePage(store, self.sessions, beside, ThreadPoolExecutor(1, "bars of lessons"))
         self.teacher = TeacherPage(
             store, self.sessions.look_at, self.sessions.catalog.lesson, processes.work, ThreadPoolExecutor(1, "returns")
         )

@@ -20,13 +20,13 @@ def test_both_modes_are_chosen_played_and_told(environment: dict[str, str], tmp_
     assert seen["offered"] == ["Begin", "What: Repeat", "Against: The steady one", "More"]
     called, answered = "Listen to the steady one", "Your turn: play it back"
     turns = [called, answered, called, "Count-in", called, answered, called, answered]
-    assert seen["said of repeat"] == ["Count-in", *turns], "nothing stands between rounds, and a part comes whole"
+    assert seen["said of repeat"] == ["It begins at once", "Count-in", *turns], "nothing stands between rounds, and a part comes whole"
     headline, given, _ = seen["repeat"]
     assert headline == "You win against the steady one", "who strays by a few milliseconds repeats it well"
     assert [row[1] for row in given[1:]] == ["100 % right, won"] * ROUNDS
     assert seen["ways on"] == ["Again", "See the best bar", "Keep a video", "More"]
     assert seen["replay"], "the stage shows it once more, then the result comes back"
-    assert seen["said of improvise"][0] == "Count-in"
+    assert seen["said of improvise"][:2] == ["It begins at once", "Count-in"]
     assert {"The steady one plays", "Your turn: the bars are yours"} < set(seen["said of improvise"])
     assert seen["evidence"] == ["Time", "Dynamics", "Vocabulary", "Development", "Kit", "Space"]
     for mode in ("repeat", "improvise"):

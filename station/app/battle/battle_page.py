@@ -5,6 +5,7 @@ else ends it, and the battle that ran is kept.
 """
 
 from collections.abc import Callable
+from concurrent.futures import Executor, Future
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import assert_never
@@ -35,7 +36,8 @@ from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput, DeviceError
 from station.core.settings import setting_source
 from station.practice.battle.battle_result import BattleResult
-from station.practice.battle.battle_rules import BattleRules
+from station.practice.battle.battle_rules import BattleMode, BattleRules
+from station.practice.battle.vocabulary.lesson_bars import lesson_bars
 from station.practice.session.cues.click_options import parse_click
 from station.practice.session.cues.listening import Listening
 from station.scoring.matching.hit_windows import Level
@@ -58,10 +60,13 @@ class BattleSurroundings:
 
 
 class BattlePage:
-    """The battles of the student of `store`, played in `sessions`."""
+    """The battles of the student of `store`, played in `sessions`; `reader` reads lessons' bars while one chooses."""
 
-    def __init__(self, store: SettingsStore, sessions: SessionControl, around: BattleSurroundings) -> None:
-        self._store, self._sessions, self._around = store, sessions, around
+    def __init__(
+        self, store: SettingsStore, sessions: SessionControl, around: BattleSurroundings, reader: Executor
+    ) -> None:
+        self._store, self._sessions, self._around, self._reader = store, sessions, around, reader
+        self._reading: Future[object] | None = None
         self._setup = ChosenBattle()
         self._is_open = False
         self._leaf = 0
@@ -145,6 +150,7 @@ class BattlePage:
                 self._open()
             case ChooseBattle(setup):
                 self._setup = setup
+                self._read_ahead()
             case TurnLeaf():
                 self._leaf += 1
             case BeginBattle():
@@ -169,8 +175,17 @@ class BattlePage:
         self._sessions.dismiss()
         self._sessions.look()
         self._is_open, self._leaf = True, 0
+        self._read_ahead()
+
+    def _read_ahead(self) -> None:
+        """Have the bars read that the phrases may come from, which takes seconds at first."""
+        if self._setup.mode is BattleMode.REPEAT:
+            ground = self._setup.ground
+            self._reading = self._reader.submit(lesson_bars, ground.beats, ground.unit, ground.feel)
 
     def _begin(self) -> None:
+        if self._reading is not None:
+            self._reading.result()
         rules = with_handicap(self._setup, self._rules(), self._store.now.sessions_dir)
         self._around.make_ready()
         self._sessions.battle(rules)

@@ -64,7 +64,8 @@ class BattleResultShown:
     """The battle that is over: who won, what each of the `names` was given in the `rows`, where it is kept.
 
     `failed` names the phrase that went worst, empty where none did, `best` the bar that went best; `judged_as` is None
-    where no windows are asked of a battle; `told` is what came of judging it again.
+    where no windows are asked of a battle; `told` is what came of judging it again. `advice` says what to practise, a
+    sentence a player.
     """
 
     headline: str
@@ -75,6 +76,7 @@ class BattleResultShown:
     best: str = ""
     judged_as: Level | None = None
     told: str = ""
+    advice: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

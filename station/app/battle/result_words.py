@@ -7,6 +7,7 @@ from station.app.battle.board_words import in_a_sentence, names_of, verdict_of
 from station.practice.battle.battle_result import BattleResult, JudgedTurn, is_lost, standings
 from station.practice.battle.battle_rules import DRUMMER, FINAL_WEIGHT, BattleMode, BattleRules
 from station.practice.battle.judging.improvisation_marks import Component, ImprovisationMarks
+from station.practice.battle.records.battle_advice import advice_lines
 from station.practice.battle.repeating.answer_marks import AnswerMarks
 
 _NOBODY = "—"
@@ -24,6 +25,7 @@ def result_of(result: BattleResult, folder: str = "") -> BattleResultShown:
         folder,
         "" if failed is None else _failed_words(failed),
         judged_as=rules.level if rules.mode is BattleMode.REPEAT else None,
+        advice=advice_lines(result),
     )
 
 

@@ -12,14 +12,14 @@ from station.core.errors import DeviceError, StationError
 from station.core.events import Hit
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
-from station.engine.messages import Command, EngineEvent
+from station.engine.messages import Command, EngineEvent, RecordCapture
 from station.practice.battle.battle import Battle
 from station.practice.battle.battle_result import BattleResult, JudgedTurn
 from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.battle_view import BattleView
 from station.practice.battle.drummed import drummed
 from station.practice.battle.records.battle_folder import BattleFolder, kept_battle
-from station.practice.headless.live import begin, end
+from station.practice.headless.live import end
 from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency
 from station.practice.session.engine_state import EngineState
@@ -33,6 +33,8 @@ from station.scoring.matching.hit_windows import Level
 
 _IN_SIGHT = 64
 """The last strokes that the stage is shown: some seconds of what anybody plays (our choice)."""
+_FRAMES_BEFORE = 2
+"""When the second frame begins, the first has been drawn."""
 
 
 class BattleSession:
@@ -52,6 +54,7 @@ class BattleSession:
         self._scene: BattleScene | None = None  # where nobody looks nobody moves
         self._replay: BarReplay | None = None
         self._struck: deque[Hit] = deque(maxlen=_IN_SIGHT)
+        self._frames_until_start = _FRAMES_BEFORE
         self.outcome: BattleResult | None = None
         """All that was played, once it is over."""
 
@@ -68,9 +71,13 @@ class BattleSession:
     # --- while it runs -----------------------------------------------------------------------------------------------
 
     def begin(self, settings: Settings) -> None:
-        """Start the transport and the capture; raises `StationError`, and leaves nothing behind then."""
+        """Start the capture; raises `StationError`, and leaves nothing behind then.
+
+        The transport follows once the stage has been drawn: two new figures take a second or two, in which the count-in
+        would go by unseen.
+        """
         with BattleFolder.make(None, settings, self.rules.opponent) as folder:
-            begin(self._engine, self._battle, folder.capture)
+            self._engine.send(RecordCapture(folder.capture))
             self._folder = folder
 
     def handle(self, event: EngineEvent) -> None:
@@ -97,8 +104,16 @@ class BattleSession:
         """Move on; returns whether it is over."""
         if self.outcome is None:
             self._view = None
+            if self._frames_until_start:
+                self._frames_until_start -= 1
+                if not self._frames_until_start:
+                    self._start()
             self._send(self._battle.advance(now_ns))
         return self._battle.over
+
+    def _start(self) -> None:
+        self._frames_until_start = 0
+        self._send(self._battle.start())
 
     def turn(self) -> None:
         """Pause, or go on."""
@@ -161,6 +176,8 @@ class BattleSession:
     def finish(self) -> StationError | None:
         """End it, judge all once more and keep it; returns what went wrong."""
         assert self._folder is not None, "it was begun"
+        if self._frames_until_start:
+            self._start()  # what is kept has a beginning
         fault = end(self._engine, self._battle) if self._engine.alive else None
         self.outcome, self._view = self._battle.result(), None
         try:

@@ -143,7 +143,7 @@ class Battle:
                 if index >= len(self._judged):
                     live.advance(at_ns)
         commands: list[Command] = []
-        while not (self.stopped or self.over) and self._is_due(self._next_ns):
+        while self._plan and not (self.stopped or self.over) and self._is_due(self._next_ns):
             commands += self._move_on()
         return tuple(commands)
 

@@ -93,7 +93,9 @@ class BattleResultPage:
             imgui.end_table()
 
     def _kept(self, result: BattleResultShown) -> None:
-        """Where it is kept, and how strictly it was judged."""
+        """What to practise, where it is kept, and how strictly it was judged."""
+        for line in result.advice:
+            imgui.text_wrapped(line)
         if result.judged_as is not None:
             self._level(result.judged_as)
         if result.told:

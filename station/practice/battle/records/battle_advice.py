@@ -66,6 +66,13 @@ def practise_next(result: BattleResult) -> tuple[Advice, ...]:
     return tuple(one for one in found if one is not None)
 
 
+def advice_lines(result: BattleResult) -> tuple[str, ...]:
+    """The same as lines of a report, which say whose they are where several play."""
+    rules = result.rules
+    whose = {side: "" if rules.is_solo else f" for {rules.player_of(side).name}" for side in rules.player_sides}
+    return tuple(f"Next{whose[one.side]}: {one.text}" for one in practise_next(result))
+
+
 def _advice(result: BattleResult, side: int) -> Advice | None:
     turns = [turn for turn in result.turns if turn.planned.side == side and turn.marks is not None]
     weakest = _weakest_answer(result, turns) or _weakest_component(turns)

@@ -7,7 +7,7 @@ from station.practice.battle.battle_result import BattleResult, JudgedTurn, is_l
 from station.practice.battle.battle_rules import DRUMMER, BattleMode
 from station.practice.battle.battle_words import round_words
 from station.practice.battle.judging.improvisation_marks import ImprovisationMarks
-from station.practice.battle.records.battle_advice import practise_next
+from station.practice.battle.records.battle_advice import advice_lines
 from station.practice.battle.records.battle_document import side_name
 from station.practice.battle.repeating.answer_marks import AnswerMarks
 from station.practice.battle.turn_marks import TurnMarks
@@ -35,10 +35,10 @@ def _lines(result: BattleResult) -> Iterator[str]:
         yield ""
         yield round_words(rules, number).capitalize()
         yield from _round(result, turns)
-    advice = practise_next(result)
+    advice = advice_lines(result)
     if advice:
         yield ""
-        yield from (_named(result, one.side, one.text) for one in advice)
+        yield from advice
 
 
 def _competing(result: BattleResult) -> tuple[int, ...]:
@@ -87,7 +87,3 @@ def _evidence(marks: TurnMarks) -> Iterator[str]:
     for one in marks.components if isinstance(marks, ImprovisationMarks) else ():
         points = "  –" if one.points is None else f"{one.points:3.0f}"
         yield f"    {one.component:12}{points}  {one.words}"
-
-
-def _named(result: BattleResult, side: int, text: str) -> str:
-    return f"Next: {text}" if result.rules.is_solo else f"Next for {side_name(result.rules, side)}: {text}"

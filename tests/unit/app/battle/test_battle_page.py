@@ -66,6 +66,14 @@ def begun(line: Line, station: Controller, chosen: ChosenBattle = SHORT) -> None
     """The battle's count-in begins to sound at one second."""
     station.dispatch(ChooseBattle(chosen))
     station.dispatch(BeginBattle())
+    starts(line, station)
+
+
+def starts(line: Line, station: Controller) -> None:
+    """The stage is drawn, then the transport starts."""
+    for frame in range(2):
+        assert not [one for one in line.heard if isinstance(one, Play)], "no count-in goes by unseen"
+        station.update(2 + frame)
     line.says.append(Started(NS_PER_S))
     station.update(NS_PER_S + 1)
 
@@ -174,6 +182,9 @@ def test_whoever_plays_nothing_loses_and_may_practise_it(line: Line, station: Co
     assert result is not None
     assert result.headline == "The steady one wins this time"
     assert result.failed == "The phrase of round 1: 0 % right"
+    (folder,) = (path.parent for path in kept(tmp_path))
+    assert len(result.advice) == 1
+    assert result.advice[0] in (folder / "battle.txt").read_text(), "what is kept says the same"
     station.dispatch(PractiseFailed())
     assert shown(station).stage is BattleStage.CLOSED
     (lesson,) = (tmp_path / "lessons").glob("*.toml")
@@ -230,8 +241,7 @@ def test_back_to_the_lessons_from_a_result(line: Line, station: Controller) -> N
 def test_two_kicks_or_enter_begin_it_and_no_pad_pauses_it(line: Line, station: Controller) -> None:
     station.dispatch(Begin())
     assert shown(station).stage is BattleStage.PLAYING
-    line.says.append(Started(NS_PER_S))
-    station.update(NS_PER_S + 1)
+    starts(line, station)
     for piece in (Piece.CRASH_1, Piece.CRASH_2):
         line.says.append(Hit(6 * NS_PER_S, piece, Zone.EDGE, 100))
     station.update(6 * NS_PER_S)
