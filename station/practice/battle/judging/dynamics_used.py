@@ -17,6 +17,7 @@ from types import MappingProxyType
 import numpy as np
 
 from station.practice.battle.improvising.played_beats import Instrument
+from station.practice.battle.judging.component_words import Cost, own_cost, words_of
 from station.practice.battle.judging.heard_turn import SLOTS, Floats, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 
@@ -26,8 +27,6 @@ CHANCE, CHANCE_CREDIT = (0.5, 0.9), (1.0, 0.0)
 """Human phrases lie at .47 to .87, strokes whose levels are drawn by lot at 1 (our choice between)."""
 CHANCE_STROKES = 8
 """So many strokes by chance are thought beside those that come again, so that two or three alike prove nothing."""
-PURPOSE = 0.5
-"""From here on the words say "on purpose"."""
 CONTOUR_DB, CONTOUR_CREDIT = (0.5, 3.0), (0.0, 1.0)
 """The bars of human phrases differ by 1 to 7 dB (our choice)."""
 RANGE_SHARE, PURPOSE_SHARE, CONTOUR_SHARE = 0.3, 0.6, 0.1
@@ -40,13 +39,28 @@ def dynamics_used(turn: HeardTurn, own: float) -> ComponentMarks:
         return ComponentMarks(Component.DYNAMICS, 0.0, "nothing to compare")
     spread, chance, contour = float(turn.level_db.std()), _chance(turn), _contour_db(turn)
     purpose = float(np.interp(chance, CHANCE, CHANCE_CREDIT))
-    shaped = PURPOSE_SHARE + CONTOUR_SHARE * float(np.interp(contour, CONTOUR_DB, CONTOUR_CREDIT))
-    credit = np.interp(spread, RANGE_DB, RANGE_CREDIT) * (RANGE_SHARE + purpose * shaped)
+    curve = float(np.interp(contour, CONTOUR_DB, CONTOUR_CREDIT))
+    shaped = PURPOSE_SHARE + CONTOUR_SHARE * curve
+    wide = float(np.interp(spread, RANGE_DB, RANGE_CREDIT))
+    credit = wide * (RANGE_SHARE + purpose * shaped)
+    costs = (
+        Cost(FULL_POINTS * (1.0 - wide), f"{spread:.1f} dB of loud and soft (best: {RANGE_DB[1]:.0f})"),
+        Cost(
+            FULL_POINTS * (PURPOSE_SHARE + CONTOUR_SHARE) * (1.0 - purpose),
+            f"loud and soft at their own places: {100 * purpose:.0f} % (best: 100)",
+        ),
+        Cost(
+            FULL_POINTS * CONTOUR_SHARE * purpose * (1.0 - curve),
+            f"bars {contour:.1f} dB apart (best: {CONTOUR_DB[1]:.0f})",
+        ),
+        own_cost(own),
+    )
+    at_best = f"{spread:.0f} dB of loud and soft, placed on purpose"
     figures = {"range_db": spread, "chance": chance, "contour_db": contour, "own": own}
     return ComponentMarks(
         Component.DYNAMICS,
-        FULL_POINTS * own * float(credit),
-        _words(spread, purpose),
+        FULL_POINTS * own * credit,
+        "all at one level" if spread < FLAT_DB else words_of(costs, at_best),
         MappingProxyType(figures),
         _loudest(turn),
     )
@@ -82,13 +96,6 @@ def _contour_db(turn: HeardTurn) -> float:
 def _bar_levels(turn: HeardTurn) -> Floats:
     counts = np.bincount(turn.bar, minlength=turn.bars)
     return np.asarray(np.bincount(turn.bar, turn.level_db, minlength=turn.bars) / np.maximum(counts, 1))
-
-
-def _words(spread: float, purpose: float) -> str:
-    if spread < FLAT_DB:
-        return "all at one level"
-    placed = "placed on purpose" if purpose > PURPOSE else "rarely twice at one place"
-    return f"{spread:.0f} dB of loud and soft, {placed}"
 
 
 def _loudest(turn: HeardTurn) -> tuple[Place, ...]:

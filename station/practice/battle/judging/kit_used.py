@@ -14,6 +14,7 @@ from types import MappingProxyType
 import numpy as np
 
 from station.practice.battle.improvising.played_beats import Instrument
+from station.practice.battle.judging.component_words import Cost, own_cost, words_of
 from station.practice.battle.judging.heard_turn import Floats, HeardTurn, Ints
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks
 
@@ -31,12 +32,16 @@ def kit_used(turn: HeardTurn, own: float) -> ComponentMarks:
     voicings, hands = _voicings(turn)
     number, crowded = _effective(voicings), float((hands > HANDS).mean())
     instruments = len(np.unique(turn.instrument))
-    credit = float(np.interp(number, VOICINGS, VOICINGS_CREDIT)) * (1.0 - crowded) ** 2
+    spoken, playable = float(np.interp(number, VOICINGS, VOICINGS_CREDIT)), (1.0 - crowded) ** 2
     figures = {"voicings": number, "crowded": crowded, "instruments": float(instruments), "own": own}
-    words = f"{instruments} instruments, about {number:.0f} voicings"
-    if instruments == 1:
-        words = "one instrument only"
-    return ComponentMarks(Component.KIT, FULL_POINTS * own * credit, words, MappingProxyType(figures))
+    on = "one instrument" if instruments == 1 else f"{instruments} instruments"
+    costs = (
+        Cost(FULL_POINTS * (1.0 - spoken), f"{number:.1f} voicings on {on} (best: {VOICINGS[1]:.0f})"),
+        Cost(FULL_POINTS * (1.0 - playable), f"{100 * crowded:.0f} % of the moments ask for a third hand"),
+        own_cost(own),
+    )
+    words, points = words_of(costs, f"{number:.0f} voicings on {on}"), FULL_POINTS * own * spoken * playable
+    return ComponentMarks(Component.KIT, points, words, MappingProxyType(figures))
 
 
 def bar_credit(turn: HeardTurn) -> Floats:

@@ -21,6 +21,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from station.practice.battle.judging.component_words import Cost, words_of
 from station.practice.battle.judging.heard_turn import Floats, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 from station.practice.battle.judging.likeness import copied, likeness
@@ -79,11 +80,15 @@ def motif_development(turn: HeardTurn, bars: BarLikeness) -> ComponentMarks:
         points = None if len(bars.kept) == 1 and any(bars.sounds) else 0.0
         return ComponentMarks(Component.DEVELOPMENT, points, "one bar alone" if any(bars.sounds) else "nothing played")
     kept, period = float(bars.kept[told].mean()), _period(turn)
-    credit = np.interp((kept + period) / 2, KEPT, KEPT_CREDIT) * np.interp(bars.own, OWN, OWN_CREDIT)
+    taken, changed = np.interp((kept + period) / 2, KEPT, KEPT_CREDIT), np.interp(bars.own, OWN, OWN_CREDIT)
     figures = MappingProxyType({"kept": kept, "period": period, "own": bars.own})
     places = _places(bars)
-    words = _words(kept, bars.own)
-    return ComponentMarks(Component.DEVELOPMENT, FULL_POINTS * float(credit), words, figures, places)
+    costs = (
+        Cost(FULL_POINTS * (1.0 - taken), f"{50 * (kept + period):.0f} % of it taken up (best: {100 * KEPT[1]:.0f})"),
+        Cost(FULL_POINTS * (1.0 - changed), f"{100 * bars.own:.0f} % of it no copy (best: {100 * OWN[1]:.0f})"),
+    )
+    words = words_of(costs, "takes its motifs up and changes them")
+    return ComponentMarks(Component.DEVELOPMENT, FULL_POINTS * float(taken * changed), words, figures, places)
 
 
 def _taken_up(turn: HeardTurn, other: HeardTurn) -> Floats:
@@ -127,14 +132,6 @@ def bar_credit(bars: BarLikeness) -> Floats:
     """Share of full marks (bars,) for taking up and changing; the first bar has nothing to take up and gets half."""
     kept = np.where(np.isnan(bars.kept), sum(KEPT) / 2, bars.kept)
     return np.where(bars.sounds, np.interp(kept, KEPT, KEPT_CREDIT) * (1.0 - bars.copy), 0.0)
-
-
-def _words(kept: float, own: float) -> str:
-    if own < OWN[1]:
-        return "says the same again"
-    if kept < sum(KEPT) / 2:
-        return "bars share little"
-    return "takes its motifs up and changes them"
 
 
 def _places(bars: BarLikeness) -> tuple[Place, ...]:

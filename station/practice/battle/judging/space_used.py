@@ -12,6 +12,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from station.practice.battle.judging.component_words import Cost, own_cost, words_of
 from station.practice.battle.judging.heard_turn import SLOTS, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 
@@ -29,11 +30,24 @@ def space_used(turn: HeardTurn, own: float) -> ComponentMarks:
         return ComponentMarks(Component.SPACE, 0.0, "nothing but rest")
     counts = np.bincount(turn.bar, minlength=turn.bars)
     opened, shape = _open(turn), float(counts.std() / counts.mean())
-    credit = OPEN_SHARE * np.interp(opened, OPEN, OPEN_CREDIT) + SHAPE_SHARE * np.interp(shape, SHAPE, SHAPE_CREDIT)
+    breathes, varies = np.interp(opened, OPEN, OPEN_CREDIT), np.interp(shape, SHAPE, SHAPE_CREDIT)
+    credit = OPEN_SHARE * breathes + SHAPE_SHARE * varies
     proof = min(1.0, len(turn) / (PROOF_A_BAR * turn.bars))
     figures = MappingProxyType({"open": opened, "shape": shape, "own": own})
     fullest = Place(int(np.argmax(counts)), None, "the fullest bar")
-    words = f"{100 * opened:.0f} % left open"
+    costs = (
+        Cost(
+            FULL_POINTS * OPEN_SHARE * (1.0 - breathes),
+            f"{100 * opened:.0f} % left open (best: {100 * OPEN[1]:.0f}–{100 * OPEN[2]:.0f})",
+        ),
+        Cost(
+            FULL_POINTS * SHAPE_SHARE * (1.0 - varies),
+            f"bars {100 * shape:.0f} % fuller and thinner (best: {100 * SHAPE[1]:.0f}–{100 * SHAPE[2]:.0f})",
+        ),
+        Cost(FULL_POINTS * (1.0 - proof), f"{len(turn)} strokes ({PROOF_A_BAR * turn.bars} shape a space)"),
+        own_cost(own),
+    )
+    words = words_of(costs, f"{100 * opened:.0f} % left open, bars fuller and thinner")
     return ComponentMarks(Component.SPACE, FULL_POINTS * own * proof * float(credit), words, figures, (fullest,))
 
 

@@ -18,6 +18,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from station.practice.battle.judging.component_words import Cost, words_of
 from station.practice.battle.judging.heard_turn import Floats, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 
@@ -53,7 +54,8 @@ def time_kept(turn: HeardTurn) -> ComponentMarks:
     figures = {"spread_ms": kept.spread_ms, "blur": kept.blur, "drift_ms": kept.drift_ms, "proof": proof}
     if kept.home_ms is not None:
         figures["home_ms"] = kept.home_ms
-    return ComponentMarks(Component.TIME, points, _words(kept), MappingProxyType(figures), _places(turn, kept))
+    words = _words(turn, kept, proof)
+    return ComponentMarks(Component.TIME, points, words, MappingProxyType(figures), _places(turn, kept))
 
 
 def bar_credit(turn: HeardTurn) -> Floats:
@@ -84,19 +86,57 @@ def _drift_ms(turn: HeardTurn, off: Floats) -> float:
     return float(along @ off) / square if square > 0 else 0.0
 
 
+@dataclass(frozen=True, slots=True)
+class _Credits:
+    """Shares of full marks."""
+
+    spread: float
+    blur: float
+    drift: float
+    home: float
+
+    @property
+    def even(self) -> float:
+        return min(self.spread, self.blur)
+
+
+def _credits(kept: _Kept) -> _Credits:
+    return _Credits(
+        float(np.interp(kept.spread_ms, SPREAD_MS, SPREAD_CREDIT)),
+        float(np.interp(kept.blur, BLUR, BLUR_CREDIT)),
+        float(np.interp(abs(kept.drift_ms), DRIFT_MS, DRIFT_CREDIT)),
+        float(np.interp(abs(kept.home_ms), HOME_MS, HOME_CREDIT)) if kept.home_ms is not None else 0.0,
+    )
+
+
 def _credit(kept: _Kept) -> float:
-    spread = min(np.interp(kept.spread_ms, SPREAD_MS, SPREAD_CREDIT), np.interp(kept.blur, BLUR, BLUR_CREDIT))
-    drift = np.interp(abs(kept.drift_ms), DRIFT_MS, DRIFT_CREDIT)
-    home = np.interp(abs(kept.home_ms), HOME_MS, HOME_CREDIT) if kept.home_ms is not None else 0.0
-    return float(SHARES["spread"] * spread + SHARES["drift"] * min(drift, spread) + SHARES["home"] * home)
+    earned = _credits(kept)
+    drift = min(earned.drift, earned.even)
+    return SHARES["spread"] * earned.even + SHARES["drift"] * drift + SHARES["home"] * earned.home
 
 
-def _words(kept: _Kept) -> str:
-    evenly = f"kept within {kept.spread_ms:.0f} ms"
+def _words(turn: HeardTurn, kept: _Kept, proof: float) -> str:
+    """What cost points of time."""
+    earned, even = _credits(kept), f"kept within {kept.spread_ms:.0f} ms (best: {SPREAD_MS[0]:.0f})"
+    if earned.blur < earned.spread:
+        even = f"off the grid by {100 * kept.blur:.1f} % of its cells (best: {100 * BLUR[0]:.0f})"
+    costs = (
+        Cost(FULL_POINTS * (SHARES["spread"] + SHARES["drift"]) * (1.0 - earned.even), even),
+        Cost(FULL_POINTS * SHARES["home"] * (1.0 - earned.home), _home_words(kept)),
+        Cost(
+            FULL_POINTS * SHARES["drift"] * max(earned.even - earned.drift, 0.0),
+            f"drifts by {abs(kept.drift_ms):.0f} ms (best: {DRIFT_MS[0]:.0f})",
+        ),
+        Cost(FULL_POINTS * (1.0 - proof), f"{len(turn)} strokes ({PROOF_A_BAR * turn.bars} prove a time)"),
+    )
+    return words_of(costs, f"kept within {kept.spread_ms:.0f} ms, and back on one")
+
+
+def _home_words(kept: _Kept) -> str:
     if kept.home_ms is None:
-        return f"{evenly}; nothing on the next one"
+        return "no stroke on the one after the turn"
     side = "late" if kept.home_ms > 0 else "early"
-    return f"{evenly}; back on one {abs(kept.home_ms):.0f} ms {side}"
+    return f"back on one {abs(kept.home_ms):.0f} ms {side} (best: {HOME_MS[0]:.0f})"
 
 
 def _places(turn: HeardTurn, kept: _Kept) -> tuple[Place, ...]:

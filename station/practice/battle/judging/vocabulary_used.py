@@ -15,6 +15,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from station.practice.battle.judging.component_words import Cost, own_cost, words_of
 from station.practice.battle.judging.heard_turn import Floats, HeardTurn
 from station.practice.battle.judging.improvisation_marks import FULL_POINTS, Component, ComponentMarks, Place
 from station.practice.battle.judging.likeness import copied, likeness
@@ -40,10 +41,16 @@ def vocabulary_used(turn: HeardTurn, before: Sequence[HeardTurn], own: float) ->
         np.interp(fresh, ROUNDS, ROUNDS_CREDIT),
     )
     figures = MappingProxyType({"figures": float(new.sum()), "rooted": rooted, "rounds": fresh, "own": own})
+    told = (
+        f"{new.sum():.1f} figures in {turn.beats} beats (best: {NEWS[1] * turn.beats:.1f})",
+        f"figures come again {100 * rooted:.0f} % alike (best: {100 * ROOTED[1]:.0f})",
+        f"{100 * fresh:.0f} % new since the turns before (best: {100 * ROUNDS[1]:.0f})",
+    )
+    costs = [Cost(FULL_POINTS * (1.0 - float(share)), words) for share, words in zip(shares, told, strict=True)]
     return ComponentMarks(
         Component.VOCABULARY,
         FULL_POINTS * own * float(np.prod(shares)),
-        _words(float(new.sum()), rooted, fresh),
+        words_of((*costs, own_cost(own)), f"{new.sum():.0f} figures, which come again"),
         figures,
         _newest(turn, new),
     )
@@ -72,14 +79,6 @@ def _fresh(turn: HeardTurn, before: Sequence[HeardTurn]) -> float:
         return 1.0
     alike = likeness(turn.beat_shapes[turn.beat_sounds], np.concatenate(shapes))
     return float(1.0 - copied(alike.max(axis=1)).mean())
-
-
-def _words(figures: float, rooted: float, fresh: float) -> str:
-    if fresh < ROUNDS[1] / 2:
-        return "nothing new since the last turn"
-    if rooted < sum(ROOTED) / 2:
-        return "no figure comes twice"
-    return f"about {max(figures, 1.0):.0f} figures"
 
 
 def _newest(turn: HeardTurn, new: Floats) -> tuple[Place, ...]:

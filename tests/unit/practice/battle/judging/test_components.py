@@ -37,7 +37,8 @@ def test_spread_and_home_are_what_was_played() -> None:
     assert found["spread_ms"] == pytest.approx(12.0, abs=0.1)
     assert found["home_ms"] == pytest.approx(20.0, abs=0.1)
     assert found["blur"] == pytest.approx(12.0 / 150.0, abs=0.001)  # a sixteenth is 150 ms
-    assert judged_improvisation(turn, (), None).of(Component.TIME).words == "kept within 12 ms; back on one 20 ms late"
+    words = judged_improvisation(turn, (), None).of(Component.TIME).words
+    assert words == "kept within 12 ms (best: 4); back on one 20 ms late (best: 10)"
 
 
 def test_a_drift_is_told() -> None:
@@ -56,7 +57,7 @@ def test_without_a_landing_the_return_is_lost() -> None:
     home, away = (bars_of(GROOVE, VARIED, GROOVE, FILL, landing=landing) for landing in (True, False))
     lost = [judged_improvisation(turn, (), None).of(Component.TIME) for turn in (home, away)]
     assert lost[0].points - lost[1].points == pytest.approx(25.0)  # type: ignore[operator]
-    assert "nothing on the next one" in lost[1].words
+    assert "no stroke on the one after the turn" in lost[1].words
 
 
 # --- dynamics ---------------------------------------------------------------------------------------------------------
@@ -130,7 +131,7 @@ def test_strangers_bars_develop_less_than_a_phrase() -> None:
 def test_nothing_new_in_another_round_has_little_vocabulary() -> None:
     first, again = (judged_improvisation(phrase(), said, None).of(Component.VOCABULARY) for said in ((), (phrase(),)))
     assert again.points < 0.3 * first.points  # type: ignore[operator]
-    assert again.words == "nothing new since the last turn"
+    assert "0 % new since the turns before (best: 30)" in again.words
 
 
 # --- kit, space, the best bar -----------------------------------------------------------------------------------------
