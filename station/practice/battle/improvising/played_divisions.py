@@ -8,7 +8,6 @@ rhythm, and fast jazz swings less than triplets do.
 """
 
 from dataclasses import dataclass, replace
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +17,7 @@ from station.drills.transcription.timing.beat_spans import BeatSpans, Floats, In
 from station.drills.transcription.timing.beat_spans import is_ternary as is_ternary_span
 from station.drills.transcription.timing.divisions import Division, divisions_of
 from station.drills.transcription.timing.take_feel import LEAN_SD_S, LEANS_S
-from station.drills.transcription.timing.take_fit import Strokes, collision_cost, nearest_cells, strokes_at
+from station.drills.transcription.timing.take_fit import Strokes, collision_cost, nearest_cells
 from station.music.swing import Swing
 from station.practice.battle.ground import Feel, Ground
 
@@ -71,14 +70,20 @@ def cells_played(times_s: Floats, piece: Ints, ground: Ground, bars: int) -> Pla
     A bar more is read than was asked for: what is played on its downbeat is the landing.
     """
     spans = beat_spans(ground, bars + 1)
-    manners = [_Manner(*m) for m in product(LEANS_S, SWUNG_PLACES)]
-    courses = [_course(manner.strokes(times_s, piece, spans), manner.swung, ground.feel) for manner in manners]
-    costs = [course.cost + manner.cost for course, manner in zip(courses, manners, strict=True)]
-    best, manner = courses[int(np.argmin(costs))], manners[int(np.argmin(costs))]
-    over = best.cell == best.division[best.span]  # the end of a beat is the next one's first cell
-    beat, cell = best.span + over, np.where(over, 0, best.cell)
-    division, cell = _coarsest(best.division, beat, cell)
-    return PlayedCells(division, beat, cell, best.errors_s + manner.lean_s)
+    strokes = _with_each_lean(times_s, piece, spans)
+    cells, costs = _cuts(strokes)
+    costs += _feel_costs(strokes, ground.feel)
+    by_manner = costs.reshape(len(SWUNG_PLACES), len(LEANS_S), len(spans), len(DIVISIONS)).swapaxes(0, 1)
+    (lean, swung), chosen = _cheapest_course(by_manner)
+    own = slice(lean * len(piece), (lean + 1) * len(piece))  # the strokes as they are with that lean
+    span, place, length_s = strokes.span[own] - lean * len(spans), strokes.place[own], strokes.length_s[own]
+    cell = cells[swung, chosen[span], np.arange(own.start, own.stop)]
+    division = np.array(DIVISIONS)[chosen]
+    late_s = (place - cell / division[span]) * length_s + LEANS_S[lean]
+    over = cell == division[span]  # the end of a beat is the next one's first cell
+    beat, cell = span + over, np.where(over, 0, cell)
+    division, cell = _coarsest(division, beat, cell)
+    return PlayedCells(division, beat, cell, late_s)
 
 
 def _coarsest(division: Ints, beat: Ints, cell: Ints) -> tuple[Ints, Ints]:
@@ -88,57 +93,34 @@ def _coarsest(division: Ints, beat: Ints, cell: Ints) -> tuple[Ints, Ints]:
     return np.where(halved, division // 2, division), np.where(halved[beat], cell // 2, cell)
 
 
-@dataclass(frozen=True, slots=True)
-class _Manner:
-    """How a turn may be played: all so much late, the third of three at `swung`."""
-
-    lean_s: float
-    swung: float
-
-    def strokes(self, times_s: Floats, piece: Ints, spans: BeatSpans) -> Strokes:
-        """The strokes without the lean."""
-        return strokes_at(times_s - self.lean_s, piece, spans, SPREAD_S)
-
-    @property
-    def cost(self) -> float:
-        """What the manner costs before a stroke is heard."""
-        swing = SWUNG_COST if self.swung != SWUNG_PLACES[0] else 0.0
-        return (self.lean_s / LEAN_SD_S) ** 2 / 2 + swing
+def _with_each_lean(times_s: Floats, piece: Ints, spans: BeatSpans) -> Strokes:
+    """The strokes without each of `LEANS_S`, one take after the other on spans of its own: l times n on l times b."""
+    span, place = spans.places(times_s - np.array(LEANS_S)[:, None])
+    takes = np.arange(len(LEANS_S))[:, None]
+    again = spans.only(np.tile(np.arange(len(spans)), len(LEANS_S)))
+    return Strokes(again, (span + takes * len(spans)).ravel(), place.ravel(), np.tile(piece, len(LEANS_S)), SPREAD_S)
 
 
-@dataclass(frozen=True, eq=False)
-class _Course:
-    """The `division` (b,) of each beat; of the strokes (n,) `span`, `cell` and `errors_s` beside it; what all costs."""
-
-    division: Ints
-    span: Ints
-    cell: Ints
-    errors_s: Floats
-    cost: float
-
-
-def _course(strokes: Strokes, swung: float, feel: Feel) -> _Course:
-    """The course of divisions at least cost; what the playing leaves open has the ground's `feel`."""
-    cells = np.zeros((len(DIVISIONS), len(strokes.place)), np.int64)
-    costs = np.full((len(strokes.spans), len(DIVISIONS)), np.inf)
+def _cuts(strokes: Strokes) -> tuple[Ints, Floats]:
+    """Of each swing and division the cells of the strokes, (w, d, l·n), and what those cost each beat, (w, l·b, d)."""
+    cells = np.zeros((len(SWUNG_PLACES), len(DIVISIONS), len(strokes.place)), np.int64)
+    costs = np.full((len(SWUNG_PLACES), len(strokes.spans), len(DIVISIONS)), np.inf)
     is_ternary, length = bool(strokes.spans.is_ternary[0]), int(strokes.spans.lengths[0])
     for division in divisions_of(is_ternary, length, Swing()):
-        if division.cells in DIVISIONS:
-            at = DIVISIONS.index(division.cells)
-            places = np.array([0.0, 1 / 3, swung, 1.0]) if division.cells == 3 and not is_ternary else division.places
-            cells[at], costs[:, at] = _cut(strokes, replace(division, places=places))
-    between = strokes.sums((np.abs(strokes.place - 0.5) < 0.5 - OFF_THE_BEAT).astype(np.float64)) > 0
-    between[0] = True  # where nothing is played, it begins in the ground's feel
-    costs += np.outer(between, np.where((feel is Feel.STRAIGHT) == _STRAIGHT, 0.0, OTHER_FEEL_COST))
-    chosen, cost = _cheapest_course(costs)
-    cell = cells[chosen[strokes.span], np.arange(len(strokes.span))]
-    found = np.array(DIVISIONS)[chosen]
-    errors = (strokes.place - cell / found[strokes.span]) * strokes.length_s
-    return _Course(found, strokes.span, cell, errors, cost)
+        if division.cells not in DIVISIONS:
+            continue
+        at = DIVISIONS.index(division.cells)
+        if division.cells != 3 or is_ternary:  # these do not swing
+            cells[:, at], costs[:, :, at] = _cut(strokes, division)
+            continue
+        for swing, swung in enumerate(SWUNG_PLACES):
+            places = np.array([0.0, 1 / 3, swung, 1.0])
+            cells[swing, at], costs[swing, :, at] = _cut(strokes, replace(division, places=places))
+    return cells, costs
 
 
 def _cut(strokes: Strokes, division: Division) -> tuple[Ints, Floats]:
-    """The cells of the strokes (n,) where all beats are cut so, and what that costs each beat (b,)."""
+    """The cells of the strokes where all beats are cut so, and what that costs each beat."""
     cell = nearest_cells(strokes, division.places)
     struck = np.zeros((len(strokes.spans), division.cells + 1), np.bool_)
     struck[strokes.span, cell] = True
@@ -146,17 +128,27 @@ def _cut(strokes: Strokes, division: Division) -> tuple[Ints, Floats]:
     return cell, error + division.fine + struck[:, 1:-1] @ division.costs[1:-1]
 
 
-def _cheapest_course(costs: Floats) -> tuple[Ints, float]:
-    """Of each beat the index of its division, and the cost of them all (Viterbi 1967)."""
-    total, came = costs[0], np.zeros(costs.shape, np.int64)
-    for beat in range(1, len(costs)):
-        steps = total[:, None] + _CHANGES
-        came[beat] = np.argmin(steps, axis=0)
-        total = steps.min(axis=0) + costs[beat]
-    chosen = [int(np.argmin(total))]
-    for beat in range(len(costs) - 1, 0, -1):
-        chosen.append(int(came[beat, chosen[-1]]))
-    return np.array(chosen[::-1]), float(total.min())
+def _feel_costs(strokes: Strokes, feel: Feel) -> Floats:
+    """What each division (d,) costs each beat (l·b,) beside the ground's feel, which decides what is left open."""
+    between = strokes.sums((np.abs(strokes.place - 0.5) < 0.5 - OFF_THE_BEAT).astype(np.float64)) > 0
+    between.reshape(len(LEANS_S), -1)[:, 0] = True  # where nothing is played, it begins in the ground's feel
+    cost: Floats = np.where((feel is Feel.STRAIGHT) == _STRAIGHT, 0.0, OTHER_FEEL_COST)
+    return np.where(between[:, None], cost, 0.0)
+
+
+def _cheapest_course(costs: Floats) -> tuple[tuple[int, int], Ints]:
+    """Lean and swing of the cheapest course, and each beat's division in it, from (l, w, b, d) (Viterbi 1967)."""
+    total, came = costs[:, :, 0], np.zeros(costs.shape, np.int64)
+    for beat in range(1, costs.shape[2]):
+        steps = total[..., None] + _CHANGES
+        came[:, :, beat] = np.argmin(steps, axis=2)
+        total = steps.min(axis=2) + costs[:, :, beat]
+    whole = total.min(axis=2) + _MANNER_COSTS
+    lean, swung = np.unravel_index(int(np.argmin(whole)), whole.shape)
+    chosen = [int(np.argmin(total[lean, swung]))]
+    for beat in range(costs.shape[2] - 1, 0, -1):
+        chosen.append(int(came[lean, swung, beat, chosen[-1]]))
+    return (int(lean), int(swung)), np.array(chosen[::-1])
 
 
 def _changes() -> NDArray[np.float64]:
@@ -166,3 +158,8 @@ def _changes() -> NDArray[np.float64]:
 
 
 _CHANGES = _changes()
+_MANNER_COSTS = np.add.outer(
+    [(lean_s / LEAN_SD_S) ** 2 / 2 for lean_s in LEANS_S],
+    [SWUNG_COST if swung != SWUNG_PLACES[0] else 0.0 for swung in SWUNG_PLACES],
+)
+"""What each lean and swing (l, w) costs before a stroke is heard."""

@@ -23,7 +23,7 @@ likest before it lie at .86 and below in 90 of 100 phrases (four drummers of the
 def likeness(ones: Floats, others: Floats) -> Floats:
     """(n, m) of shapes (n, slots, instruments) and (m, slots, instruments); silence is like nothing."""
     squares, other_squares = (np.einsum("nsc,nsc->nc", shapes, shapes) for shapes in (ones, others))
-    products = np.einsum("nsc,msc->nmc", ones, others, optimize=True)
+    products = np.matmul(ones.transpose(2, 0, 1), others.transpose(2, 1, 0)).transpose(1, 2, 0)
     norms = np.sqrt(squares[:, None] * other_squares[None])
     cosines = np.divide(products, norms, out=np.zeros_like(products), where=norms > 0)
     weights = np.sqrt(squares[:, None] + other_squares[None])
