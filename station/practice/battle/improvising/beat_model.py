@@ -95,10 +95,14 @@ class BeatModel:
 
     def divisions(self, steps: Steps, beats: NDArray[np.int64], music: Music, memory: float = 1.0) -> Floats:
         """The probabilities (m, d) of the divisions of `beats` (m,), given all before them."""
-        network = np.exp(self.network.divisions(division_rows(steps, beats, music))).astype(np.float64)
+        counts = np.stack([_counts(steps, int(beat)) for beat in beats])
+        return self.divisions_after(division_rows(steps, beats, music), counts, memory)
+
+    def divisions_after(self, rows: NDArray[np.float32], counts: Floats, memory: float) -> Floats:
+        """The same after `rows` (m, j), and `counts` (m, d) of the divisions that were heard at these places."""
+        network = np.exp(self.network.divisions(rows)).astype(np.float64)
         if not memory:
             return network
-        counts = np.stack([_counts(steps, int(beat)) for beat in beats])
         strength = self.strength / memory
         mixed: Floats = (counts + strength * network) / (counts.sum(axis=1, keepdims=True) + strength)
         return mixed

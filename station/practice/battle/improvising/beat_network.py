@@ -63,6 +63,11 @@ class BeatNetwork:
         added: Floats = np.maximum(hidden, 0.0) @ self.asked[instrument]
         return added
 
+    def questions(self, hidden: Floats) -> Floats:
+        """What the hidden sums (m, h) add to the log-odds (m, 9) of all instruments, as if no more were struck."""
+        added: Floats = np.maximum(hidden, 0.0) @ self.asked.T
+        return added
+
     def divisions(self, rows: Floats) -> Floats:
         """The log-probabilities (m, d) of each division of a beat."""
         scores = rows @ self.cut + self.cut_bias

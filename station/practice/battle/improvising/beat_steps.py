@@ -131,6 +131,8 @@ _EARLIER = (
 """Bars ago, beats ago, and which steps about that place are seen, in cells of the beat that is played."""
 _SPANS = (4, 16)
 """Over so many beats it is counted how much of each instrument there was."""
+AMOUNTS = len(_SPANS) * INSTRUMENTS
+"""Columns of `amounts`."""
 _HISTORY_BARS = (1, 2, 4)
 """So many bars that have been heard are told apart, for silence is not the same as nothing heard."""
 
@@ -141,8 +143,8 @@ def step_rows(steps: Steps, which: NDArray[np.int64], music: Music) -> NDArray[n
     columns = [
         _recent(steps, which),
         _earlier(steps, beat, at),
-        _amounts(steps, beat),
-        _place(steps.division[beat], at),
+        amounts(steps, beat),
+        place_in_beat(steps.division[beat], at),
         beat_place(beat, steps.beats_a_bar, music),
         np.broadcast_to(music_row(music), (len(which), len(STYLES) + 2)),
     ]
@@ -155,22 +157,27 @@ def _recent(steps: Steps, which: NDArray[np.int64]) -> NDArray[np.float32]:
 
 
 def _earlier(steps: Steps, beat: NDArray[np.int64], at: NDArray[np.int64]) -> NDArray[np.float32]:
-    cell = GRID // steps.division[beat]
-    lags = [(bars * steps.beats_a_bar + beats, about) for bars, beats, about in _EARLIER]
-    offsets = np.array([-min(lag, LONGEST_LAG) * GRID for lag, about in lags for _ in about])
-    cells = np.array([step for _, about in lags for step in about])
-    rows = LONGEST_LAG * GRID + at[:, None] + offsets + cells * cell[:, None]
+    rows = at[:, None] + earlier_offsets(GRID // steps.division[beat], steps.beats_a_bar)
     seen: NDArray[np.float32] = steps.grid[np.maximum(rows, 0)]
     return seen.reshape(len(at), -1)
 
 
-def _amounts(steps: Steps, beat: NDArray[np.int64]) -> NDArray[np.float32]:
-    """Strokes a beat of each instrument in the last beats."""
+def earlier_offsets(cell: NDArray[np.int64], beats_a_bar: int) -> NDArray[np.int64]:
+    """Which rows of the grid are seen (m, 16), beside each step's place, where a `cell` (m,) has so many of it."""
+    lags = [(bars * beats_a_bar + beats, about) for bars, beats, about in _EARLIER]
+    offsets = np.array([(LONGEST_LAG - min(lag, LONGEST_LAG)) * GRID for lag, about in lags for _ in about])
+    cells = np.array([step for _, about in lags for step in about])
+    return np.asarray(offsets + cells * cell[:, None])
+
+
+def amounts(steps: Steps, beat: NDArray[np.int64] | int) -> NDArray[np.float32]:
+    """Strokes a beat of each instrument in the last beats before `beat`, one or (m,)."""
     past = [(steps.counts[beat] - steps.counts[np.maximum(beat - span, 0)]) / np.float32(span) for span in _SPANS]
-    return np.concatenate(past, axis=1)
+    return np.concatenate(past, axis=-1)
 
 
-def _place(division: NDArray[np.int64], at: NDArray[np.int64]) -> NDArray[np.float32]:
+def place_in_beat(division: NDArray[np.int64], at: NDArray[np.int64]) -> NDArray[np.float32]:
+    """Where in its beat each step (m,) stands, and how that is divided."""
     in_beat = (at % GRID)[:, None] == np.array(PLACES)
     cut = division[:, None] == np.array(DIVISIONS)
     return np.concatenate([in_beat, cut], axis=1).astype(np.float32)
@@ -188,16 +195,21 @@ def beat_place(beat: NDArray[np.int64], beats_a_bar: int, music: Music) -> NDArr
 
 def division_rows(steps: Steps, which: NDArray[np.int64], music: Music) -> NDArray[np.float32]:
     """What is known before the beats `which` (m,) of how they are divided, shape (m, columns)."""
-    lags = (1, 2, 3, steps.beats_a_bar, 2 * steps.beats_a_bar, 4 * steps.beats_a_bar)
-    past = which[:, None] - np.array(lags)
-    said = steps.division[np.maximum(past, 0)][:, :, None] == np.array(DIVISIONS)
-    said &= (past >= 0)[:, :, None]
     return np.concatenate(
         [
-            said.reshape(len(which), -1).astype(np.float32),
-            _amounts(steps, which),
+            past_divisions(steps, which),
+            amounts(steps, which),
             beat_place(which, steps.beats_a_bar, music),
             np.broadcast_to(music_row(music), (len(which), len(STYLES) + 2)),
         ],
         axis=1,
     )
+
+
+def past_divisions(steps: Steps, which: NDArray[np.int64]) -> NDArray[np.float32]:
+    """How the last beats, and those of the last bars, were divided, seen from beats (m,)."""
+    lags = (1, 2, 3, steps.beats_a_bar, 2 * steps.beats_a_bar, 4 * steps.beats_a_bar)
+    past = which[:, None] - np.array(lags)
+    said = steps.division[np.maximum(past, 0)][:, :, None] == np.array(DIVISIONS)
+    said &= (past >= 0)[:, :, None]
+    return np.asarray(said.reshape(len(which), -1), np.float32)

@@ -1,9 +1,12 @@
 """The memory of a player's own bars, by counts made by hand."""
 
+from functools import reduce
 from math import log
 
 import numpy as np
 import pytest
+from hypothesis import given as given_any
+from hypothesis.strategies import integers, lists
 
 from station.practice.battle.improvising.bar_memory import (
     MOST_KEPT,
@@ -14,6 +17,7 @@ from station.practice.battle.improvising.bar_memory import (
     evidence_of,
     given,
     said_of,
+    with_chord,
 )
 from station.practice.battle.improvising.beat_steps import steps_of
 from station.practice.battle.improvising.played_beats import Beats, Instrument, joined
@@ -61,12 +65,23 @@ def test_what_was_never_heard_says_nothing() -> None:
     assert not evidence_of(steps_of(Beats.silent(4, 4)))[0].any()
 
 
+def past_of(chords: list[int]) -> int:
+    return reduce(with_chord, chords, 0)
+
+
 def test_contexts_know_no_more_than_the_past() -> None:
-    steps = steps_of(Beats.silent(8, 4))
-    keys = contexts(steps, 20, [0] * 20)
+    keys = contexts(5, 0, 4, past_of([0] * 20))
     assert len(keys) == ORDERS == len(set(keys))
-    assert keys == contexts(steps, 20, [0] * 20)
-    assert contexts(steps, 20, [0] * 19 + [KICK]) != keys
+    assert keys == contexts(5, 0, 4, past_of([0] * 20))
+    assert contexts(5, 0, 4, past_of([0] * 19 + [KICK])) != keys
+
+
+@given_any(chords=lists(integers(0, 511), max_size=12), others=lists(integers(0, 511), max_size=12))
+def test_pasts_are_alike_where_their_last_eight_chords_are(chords: list[int], others: list[int]) -> None:
+    assert (past_of(chords) == past_of(others)) == (chords[-8:] == others[-8:])
+    ones, two = contexts(1, 6, 4, past_of(chords)), contexts(1, 6, 4, past_of(others))
+    assert (ones[3] == two[3]) == (chords[-3:] == others[-3:])
+    assert (ones[4] == two[4]) == (chords[-8:] == others[-8:])
 
 
 def test_a_bar_that_comes_again_is_expected() -> None:
