@@ -7,9 +7,7 @@ from station.practice.battle.judging.improvisation_marks import ImprovisationMar
 from station.practice.battle.opponents.opponent import find_opponent
 from station.practice.battle.repeating.answer_marks import AnswerMarks
 from station.practice.battle.turn_marks import TurnMarks
-
-EVEN_MS = 3.0
-"""A mean within this is on the click (our choice: half of what anybody hears)."""
+from station.scoring.report.technique_text import LEAST_MS
 
 
 def board_of(view: BattleView) -> BoardShown:
@@ -102,6 +100,6 @@ def _answered(marks: AnswerMarks) -> tuple[Evidence, ...]:
 
 
 def _lean(mean_ms: float) -> str:
-    if abs(mean_ms) < EVEN_MS:
+    if abs(mean_ms) < LEAST_MS:
         return "on the click"
     return f"{abs(mean_ms):.0f} ms {'late' if mean_ms > 0 else 'early'} on the whole"

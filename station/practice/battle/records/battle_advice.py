@@ -1,8 +1,10 @@
 """What to practise after a battle: what cost a player most, and a shipped lesson of it that fits them.
 
 In repeat mode phrases ask for a kind of coordination and of dynamics; of the kinds whose answers were lost the one with
-the lowest mean accuracy is named. Of improvisations it is the component with the fewest points. The lesson is the one
-with a tag of that kind whose difficulty is nearest to what the player has reached, in the ground's style where one is.
+the lowest mean accuracy is named. Where next to nothing was right it tells of no kind: something else was played, and
+easier phrases or a slower tempo come first. Of improvisations it is the component with the fewest points. The lesson is
+the one with a tag of that kind whose difficulty is nearest to what the player has reached, or else to the level that
+they are judged by, in the ground's style where one is.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -17,9 +19,13 @@ from station.practice.battle.judging.improvisation_marks import Component, Impro
 from station.practice.battle.repeating.answer_marks import AnswerMarks
 from station.practice.battle.repeating.demands import demand_at
 from station.practice.battle.vocabulary.asked_of_limbs import Coordination, Dynamics, coordination_of, dynamics_of
+from station.scoring.matching.hit_windows import Level
+from station.scoring.report.advice import SLOWER
 
-USUAL_STEP = 8
-"""How hard a lesson is offered to whom nothing tells more (our choice: a third of the way up)."""
+STEPS_A_LEVEL = 4
+"""How much harder a lesson a level asks for where nothing tells more (our choice: intermediate a third of the way)."""
+NEXT_TO_NOTHING = 0.25
+"""With fewer right notes of those that were asked something else was played (our choice)."""
 GOOD_POINTS = 70.0
 """A component with so many points needs no lesson (our choice)."""
 
@@ -51,7 +57,7 @@ _KINDS: Mapping[Enum, _Kind] = MappingProxyType(
         Dynamics.GHOSTS: _Kind("ghost notes", ("ghosts",)),
         Dynamics.ORNAMENTS: _Kind("flams, drags and rolls", ("flams", "drags", "diddles", "rolls")),
         Component.TIME: _Kind("keeping time", ("time", "tempo", "groove")),
-        Component.DYNAMICS: _Kind("loud and soft", ("dynamics", "accents", "ghosts")),
+        Component.DYNAMICS: _Kind("loud and soft", ("accents",)),
         Component.VOCABULARY: _Kind("more to say", ("fill", "linear", "paradiddle")),
         Component.DEVELOPMENT: _Kind("taking a motif further", ("trading", "form")),
         Component.KIT: _Kind("the whole kit", ("orchestrated", "toms")),
@@ -75,6 +81,8 @@ def advice_lines(result: BattleResult) -> tuple[str, ...]:
 
 def _advice(result: BattleResult, side: int) -> Advice | None:
     turns = [turn for turn in result.turns if turn.planned.side == side and turn.marks is not None]
+    if (easier := _easier(result, turns)) is not None:
+        return Advice(side, easier, None)
     weakest = _weakest_answer(result, turns) or _weakest_component(turns)
     if weakest is None:
         return None
@@ -82,6 +90,18 @@ def _advice(result: BattleResult, side: int) -> Advice | None:
     lesson = _lesson(_KINDS[kind].tags, result.rules.ground.style, _step_reached(result, turns))
     where = "" if lesson is None else f"; {lesson.title} ({lesson.name}) is about it"
     return Advice(side, f"practise {_KINDS[kind].words}: {measured}{where}", None if lesson is None else lesson.name)
+
+
+def _easier(result: BattleResult, turns: Iterable[JudgedTurn]) -> str | None:
+    """What makes phrases easier, where next to nothing of them was right."""
+    answers = [turn for turn in turns if isinstance(turn.marks, AnswerMarks) and turn.planned.step is not None]
+    marks = [turn.marks for turn in answers if isinstance(turn.marks, AnswerMarks)]
+    right, known = sum(one.right for one in marks), sum(one.known for one in marks)
+    if not known or right >= NEXT_TO_NOTHING * known:
+        return None
+    easier = "easier phrases, or " if any(turn.planned.step for turn in answers) else ""
+    slow = f"a slower tempo such as {SLOWER * result.rules.ground.tempo_bpm:.0f} bpm"
+    return f"begin with {easier}{slow}: {right} of {known} notes were right"
 
 
 def _weakest_answer(result: BattleResult, turns: Iterable[JudgedTurn]) -> tuple[Enum, str] | None:
@@ -117,8 +137,10 @@ def _weakest_component(turns: Iterable[JudgedTurn]) -> tuple[Enum, str] | None:
 
 
 def _step_reached(result: BattleResult, turns: Iterable[JudgedTurn]) -> int:
-    won = [t.planned.step for t in turns if t.planned.step is not None and not is_lost(result.rules, t)]
-    return max(won, default=USUAL_STEP)
+    asked = [t for t in turns if t.planned.step is not None]
+    won = [t.planned.step or 0 for t in asked if not is_lost(result.rules, t)]
+    usual = STEPS_A_LEVEL * list(Level).index(result.rules.level)
+    return max(won, default=min([usual, *(t.planned.step or 0 for t in asked)]))
 
 
 def _lesson(tags: Sequence[str], style: str, step: int) -> LessonRow | None:

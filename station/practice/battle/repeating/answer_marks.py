@@ -6,6 +6,9 @@ as the score weighs what was not asked (`scoring.analysis.points`). A note is kn
 was played. A battle has one time: whoever answers a beat late, or begins again, has answered late, so that each stroke
 is measured where it was played. The phrase's landing on the next downbeat may be played and need not be: it counts
 neither as a note nor as an extra, nor does any stroke after the bars' end.
+
+A lean is told of the right notes alone, and where the report of a session would tell one: where there are as many as an
+interval asks for (`technique.estimates`), and it leaves out 0.
 """
 
 from collections.abc import Sequence
@@ -20,6 +23,7 @@ from station.music.performance import Performance
 from station.practice.battle.phrase import Phrase, Turn
 from station.practice.battle.phrase_as_turn import phrase_as_turn
 from station.scoring.align import align
+from station.scoring.analysis.technique.estimates import figure
 from station.scoring.matching.alignment import Alignment
 from station.scoring.matching.hit_windows import Windows
 from station.scoring.matching.right import right_notes
@@ -30,7 +34,11 @@ _UNASKED = (Label.EXTRA, Label.PLAYED_AGAIN)
 
 @dataclass(frozen=True, slots=True)
 class AnswerMarks:
-    """An answer's counts. `accuracy` 0–1 is None where nothing is known; `mean_ms` negative is early, None of none."""
+    """An answer's counts.
+
+    `accuracy` 0–1 is None where nothing is known; `mean_ms` is the lean of the right notes, negative is
+    early, None where they do not tell one.
+    """
 
     notes: int
     known: int
@@ -66,16 +74,16 @@ def answer_marks(phrase: Phrase, turn: Turn, windows: Windows, unheard: Sequence
     alignment = with_unknown(alignment, notes_within(score, unheard))
     asked = score.notes["tick"] < phrase.score.end_tick
     label = alignment.note_label[asked]
-    off_ns = alignment.asynchrony_ns[asked & (alignment.note_label == Label.MATCH) & ~score.is_grace]
+    right = right_notes(score, alignment, windows) & asked
     in_bars = turn.played.hits["at_ns"] < turn.length_ns
     return AnswerMarks(
         notes=int(asked.sum()),
         known=int(np.count_nonzero(label != Label.UNKNOWN)),
-        right=int(np.count_nonzero(right_notes(score, alignment, windows)[asked])),
+        right=int(np.count_nonzero(right)),
         answered=int(np.count_nonzero(label == Label.MATCH)),
         wrong_pieces=int(np.count_nonzero(label == Label.WRONG_PIECE)),
         extras=int(np.count_nonzero(np.isin(alignment.hit_label, _UNASKED) & in_bars)),
-        mean_ms=float(off_ns.mean()) / NS_PER_MS if len(off_ns) else None,
+        mean_ms=_lean_ms(alignment.asynchrony_ns, score.notes["tick"], right & ~score.is_grace),
     )
 
 
@@ -85,6 +93,12 @@ def answer_well_ended(phrase: Phrase, turn: Turn, windows: Windows, until_ns: in
     before, after = turn.played.hits["at_ns"] < until_ns, written["at_ns"] >= until_ns
     played = Performance.from_array(np.concatenate([turn.played.hits[before], written[after]]))
     return answer_marks(phrase, replace(turn, played=played), windows)
+
+
+def _lean_ms(off_ns: NDArray[np.int64], tick: NDArray[np.int64], told: NDArray[np.bool_]) -> float | None:
+    """The mean of the notes (n,) that are `told`; None where they are too few, or it may be chance."""
+    lean = figure(off_ns[told] / NS_PER_MS, tick[told])
+    return lean.mean if lean.ci is not None and lean.ci[0] * lean.ci[1] > 0 else None
 
 
 def _in_place(alignment: Alignment, onset_ns: NDArray[np.int64], played: Performance) -> Alignment:
