@@ -145,6 +145,7 @@ class StationParts:
         if self.sessions.practice.is_playing:
             self.sessions.practice.end()
             fault = self.sessions.practice.fault
+        self.battle.close()
         try:
             self.style.keep()
             self.store.write()

@@ -61,5 +61,5 @@ def state_of(parts: StationParts, now_ns: int) -> State:
         sound=parts.sound.view() if shown.sound else SoundView(),
         flash=parts.engine.flash.at(now_ns) if parts.store.now.heard == NOTHING else DARK,
         toast=parts.toasts.text,
-        is_lively=sessions.is_lively(now_ns) or (shown.sticks and parts.sticks.is_lively),
+        is_lively=sessions.is_lively(now_ns) or parts.battle.is_lively or (shown.sticks and parts.sticks.is_lively),
     )

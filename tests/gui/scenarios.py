@@ -30,6 +30,7 @@ from tests.gui.editor_scenarios import (
 )
 from tests.gui.exam_scenario import exam
 from tests.gui.figure import figure
+from tests.gui.friend_scenario import friend
 from tests.gui.interruption_scenarios import closes, lost, unplugged
 from tests.gui.lesson_list_scenarios import imports, search, whose
 from tests.gui.newcomer_scenario import first_minute, newcomer
@@ -77,6 +78,7 @@ SCENARIOS: dict[str, Scenario] = {
     "sound": sound,
     "planned_day": planned_day,
     "battle": battle,
+    "friend": friend,
     "exam": exam,
     "exam_in_a_small_window": exam,
     "there_and_back": there_and_back,
@@ -96,6 +98,7 @@ SIZES = {
     "whose_in_a_large_window": (1280, 720),
     "exam": (1280, 720),
     "battle": (1280, 720),
+    "friend": (1280, 720),
     "choices": (1280, 720),
     "player": (1280, 560),
     "phase": (1280, 720),

@@ -34,6 +34,11 @@ class BeginBattle:
 
 
 @dataclass(frozen=True, slots=True)
+class CallOff:
+    """Wait for no friend on the network any more."""
+
+
+@dataclass(frozen=True, slots=True)
 class ReplayBest:
     """See and hear the best bar again, or end that."""
 
@@ -61,6 +66,7 @@ BattleAction = (
     | ChooseBattle
     | TurnLeaf
     | BeginBattle
+    | CallOff
     | ReplayBest
     | JudgeBattle
     | FilmBattle

@@ -1,6 +1,7 @@
 """What pads, keys and the mouse may choose of a battle: a few large options a leaf, the first always to play."""
 
 from collections.abc import Collection
+from dataclasses import replace
 
 from station.app.actions.action import Action
 from station.app.actions.battle_actions import (
@@ -30,8 +31,10 @@ _Made = tuple[str, Action, str]
 def battle_choice(shown: BattleShown, leaf: int, there: Collection[Piece], kit_starts: bool) -> ScreenChoice | None:
     """What is to be chosen now on the leaf of that number, by the pads `there`; None while somebody plays."""
     if shown.stage is BattleStage.CHOOSING:
-        begins = ("Begin", BeginBattle(), shown.fault or begin_words(shown.setup))
-        rest = _settings(shown.setup)
+        if shown.friend.waits:
+            return None
+        begins = (_begin_label(shown.setup), BeginBattle(), shown.fault or begin_words(shown.setup))
+        rest = [*_hosts(shown), *_settings(shown.setup)]
     elif shown.stage is BattleStage.OVER and shown.result is not None:
         begins = ("Again", BeginBattle(), begin_words(shown.setup))
         rest = _ways_on(shown.result, shown.replays)
@@ -45,8 +48,22 @@ def battle_choice(shown: BattleShown, leaf: int, there: Collection[Piece], kit_s
 
 def begin_words(setup: ChosenBattle) -> str:
     """What begins, in a line."""
+    if setup.is_guest:
+        return f"The battle that is hosted at {setup.address}"
     whom = setup.people.words if setup.people.needs_friend else f"against {setup.drummer.title.lower()}"
     return f"{setup.mode.value.capitalize()}, {whom}, {setup.ground.beats_a_minute:.0f} bpm"
+
+
+def _begin_label(setup: ChosenBattle) -> str:
+    if setup.is_linked:
+        return "Join" if setup.joins else "Host"
+    return "Begin"
+
+
+def _hosts(shown: BattleShown) -> list[_Made]:
+    """The hosts that a guest may choose, but for the one that is chosen."""
+    hosts = [one for one in shown.friend.hosts if not one.is_busy and one.address != shown.setup.address]
+    return [(one.title, ChooseBattle(replace(shown.setup, address=one.address)), one.words) for one in hosts]
 
 
 def _on_leaf(rest: list[_Made], leaf: int) -> list[_Made]:
@@ -76,7 +93,7 @@ def _ways_on(result: BattleResultShown, replays: bool) -> list[_Made]:
         made.append(("Back to the result" if replays else "See the best bar", ReplayBest(), result.best))
     if result.failed:
         made.append(("Practise it", PractiseFailed(), result.failed))
-    if result.folder:
+    if result.folder and result.films:
         made.append(("Keep a video", FilmBattle(), "Both drummers on the stage, filmed while you go on"))
     made.append(("Another battle", CloseBattle(), "Choose who, what and how"))
     if result.judged_as is not None:

@@ -6,13 +6,14 @@ else ends it, and the battle that ran is kept.
 
 from collections.abc import Callable
 from concurrent.futures import Executor, Future
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import assert_never
 
 from station.app.actions.battle_actions import (
     BattleAction,
     BeginBattle,
+    CallOff,
     ChooseBattle,
     CloseBattle,
     FilmBattle,
@@ -27,16 +28,21 @@ from station.app.battle.battle_shown import BattleResultShown, BattleShown, Batt
 from station.app.battle.best_moment import best_moment, moment_words
 from station.app.battle.board_words import board_of, names_of
 from station.app.battle.failed_phrase import keep_phrase
+from station.app.battle.friend_line import FriendLine, address_in
+from station.app.battle.friend_meeting import FriendMeeting
 from station.app.battle.result_words import failed_turn, result_of, winner_words
-from station.app.sessions.battle_session import BattleSession
+from station.app.sessions.battle_session import BattleSession, battle_here
+from station.app.sessions.linked_session import LinkedSession, battle_linked
 from station.app.sessions.screen_choice import ScreenChoice
 from station.app.sessions.session_control import SessionControl
-from station.app.settings.chosen_battle import ChosenBattle, chosen_rules, with_handicap
+from station.app.settings.chosen_battle import ChosenBattle, chosen_rules, port_of, with_handicap
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput, DeviceError
 from station.core.settings import setting_source
 from station.practice.battle.battle_result import BattleResult
 from station.practice.battle.battle_rules import BattleMode, BattleRules
+from station.practice.battle.link.linked_rules import Agreed
+from station.practice.battle.link.linked_station import LinkedStation
 from station.practice.battle.vocabulary.lesson_bars import lesson_bars
 from station.practice.session.cues.click_options import parse_click
 from station.practice.session.cues.listening import Listening
@@ -49,7 +55,8 @@ class BattleSurroundings:
 
     `make_ready` ends what else hears the kit, raising `StationError` where it cannot; `show_lessons` shows what is
     chosen of them again, `open_lesson` chooses the one in a file; `film` makes the
-    video of the battle in a folder, raising `DeviceError` while another is made.
+    video of the battle in a folder, raising `DeviceError` while another is made; at `meeting` a friend on the network
+    is met.
     """
 
     kits: Callable[[], tuple[str, ...]]
@@ -57,6 +64,7 @@ class BattleSurroundings:
     show_lessons: Callable[[], None]
     open_lesson: Callable[[Path], None]
     film: Callable[[Path], None]
+    meeting: FriendMeeting = field(default_factory=FriendMeeting)
 
 
 class BattlePage:
@@ -72,6 +80,7 @@ class BattlePage:
         self._leaf = 0
         self._told: tuple[BattleResult, BattleResultShown] | None = None
         self._replay: Listening | None = None
+        self._friend = FriendLine(self._begin_linked, around.meeting)
 
     # --- what is shown -----------------------------------------------------------------------------------------------
 
@@ -88,6 +97,11 @@ class BattlePage:
             return BattleStage.PLAYING if practice.is_playing else BattleStage.OVER
         return BattleStage.CHOOSING if self._is_open else BattleStage.CLOSED
 
+    @property
+    def is_lively(self) -> bool:
+        """Whether somebody on the network may be heard at any moment."""
+        return self._friend.is_lively
+
     def view(self) -> BattleShown:
         """What is shown; nothing where no battle is."""
         stage, battle = self.stage, self._sessions.practice.battle
@@ -95,10 +109,10 @@ class BattlePage:
             return BattleShown()
         shown = BattleShown(stage, self._setup, self._store.now.student)
         if stage is BattleStage.CHOOSING:
-            return replace(shown, fault=self._fault())
+            return replace(shown, fault=self._fault(), friend=self._friend.view())
         assert battle is not None, "it runs or is over"
         if stage is BattleStage.PLAYING:
-            return replace(shown, board=board_of(battle.view()))
+            return replace(shown, board=board_of(battle.view(), battle.told, battle.last_marks()))
         replays = self._replay is not None and self._sessions.is_listening_to(self._replay)
         return replace(shown, result=self._result(battle), replays=replays)
 
@@ -117,13 +131,20 @@ class BattlePage:
             best = best_moment(battle.outcome)
             names = names_of(battle.outcome.rules)
             words = "" if best is None else moment_words(best, names[best.turn.planned.side])
-            self._told = battle.outcome, replace(result_of(battle.outcome, folder), best=words)
+            shown = replace(result_of(battle.outcome, folder), best=words)
+            if isinstance(battle, LinkedSession):
+                shown = replace(shown, told=battle.how_it_ended, judged_as=None, films=False)
+            self._told = battle.outcome, shown
         return self._told[1]
 
     def _fault(self) -> str:
         """Why what is chosen cannot begin; empty where it can."""
         try:
             self._rules()
+            if self._setup.is_guest:
+                address_in(self._setup)
+            elif self._setup.is_linked:
+                port_of(self._setup)
         except BadInput as fault:
             return fault.fault
         return ""
@@ -136,10 +157,15 @@ class BattlePage:
     # --- as time goes by ---------------------------------------------------------------------------------------------
 
     def advance(self, now_ns: int) -> None:
-        """What else is begun takes the page's place."""
+        """What else is begun takes the page's place; a friend who is there begins. Raises `StationError`."""
         practice = self._sessions.practice
         if practice.is_playing and not practice.is_battle:
             self._is_open = False
+        stage = self.stage
+        if stage is not BattleStage.CHOOSING and self._friend.waits:
+            self._friend.call_off()
+        looks = stage is BattleStage.CHOOSING and self._setup.is_guest
+        self._friend.advance(now_ns, looks, stage is BattleStage.PLAYING)
 
     # --- what the user does ------------------------------------------------------------------------------------------
 
@@ -149,12 +175,15 @@ class BattlePage:
             case OpenBattle():
                 self._open()
             case ChooseBattle(setup):
-                self._setup = setup
-                self._read_ahead()
+                if not self._friend.waits:  # what a friend was promised stays
+                    self._setup = setup
+                    self._read_ahead()
             case TurnLeaf():
                 self._leaf += 1
             case BeginBattle():
                 self._begin()
+            case CallOff():
+                self._friend.call_off()
             case CloseBattle():
                 self._back()
             case PractiseFailed():
@@ -186,10 +215,29 @@ class BattlePage:
     def _begin(self) -> None:
         if self._reading is not None:
             self._reading.result()
+        if self._setup.is_linked:
+            self._ask_friend()
+            return
         rules = with_handicap(self._setup, self._rules(), self._store.now.sessions_dir)
         self._around.make_ready()
-        self._sessions.battle(rules)
+        self._sessions.battle(battle_here(rules))
         self._is_open, self._leaf = True, 0
+
+    def _ask_friend(self) -> None:
+        """Host, or join: the battle begins once a friend is there."""
+        if self._friend.waits or self.stage is BattleStage.PLAYING:
+            return
+        rules = self._rules()
+        self._around.make_ready()
+        if self.stage is BattleStage.OVER:
+            self._sessions.leave_battle()
+        self._is_open, self._leaf = True, 0
+        self._friend.ask(self._setup, rules)
+
+    def _begin_linked(self, station: LinkedStation, agreed: Agreed) -> None:
+        """A friend is there."""
+        self._around.make_ready()
+        self._sessions.battle(battle_linked(station, agreed))
 
     def _practise_failed(self) -> str:
         """Make a lesson of the phrase that went worst, and choose it; returns what it is called."""
@@ -228,6 +276,8 @@ class BattlePage:
         battle = self._sessions.practice.battle
         if self.stage is not BattleStage.OVER or battle is None or battle.outcome is None:
             return ""
+        if not battle.can_be_judged_again:
+            raise DeviceError("the friend's strokes are at their station: it cannot be judged again here")
         was, judged = winner_words(battle.outcome), battle.judged_as(level)
         now = winner_words(judged)
         told = f"Judged as {level.words}: {'the same side wins' if now == was else f'{now}; it was: {was}'}"
@@ -240,6 +290,8 @@ class BattlePage:
         if self.stage is BattleStage.OVER:
             self._sessions.leave_battle()
             self._leaf = 0
+        elif self._friend.waits:
+            self._friend.call_off()
         elif self.stage is BattleStage.CHOOSING:
             self.leave()
 
@@ -247,7 +299,12 @@ class BattlePage:
         """Back to the lessons, wherever it is; one that runs is ended and kept."""
         if not self.is_open:
             return
+        self._friend.call_off()
         self._sessions.practice.end()
         self._sessions.leave_battle()
         self._is_open = False
         self._around.show_lessons()
+
+    def close(self) -> None:
+        """The window closes; a battle that ran is over and kept already."""
+        self._friend.close()

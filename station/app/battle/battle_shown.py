@@ -6,6 +6,7 @@ Everything is in words already: the window draws, and counts nothing.
 from dataclasses import dataclass, field
 from enum import Enum, auto
 
+from station.app.battle.friend_shown import FriendShown
 from station.app.settings.chosen_battle import ChosenBattle
 from station.scoring.matching.hit_windows import Level
 
@@ -64,7 +65,8 @@ class BattleResultShown:
     """The battle that is over: who won, what each of the `names` was given in the `rows`, where it is kept.
 
     `failed` names the phrase that went worst, empty where none did, `best` the bar that went best; `judged_as` is None
-    where no windows are asked of a battle; `told` is what came of judging it again. `advice` says what to practise, a
+    where no windows are asked of a battle; `told` is what else is to be known, such as what came of judging it
+    again; `films`: all of it can be filmed from what is kept. `advice` says what to practise, a
     sentence a player.
     """
 
@@ -77,6 +79,7 @@ class BattleResultShown:
     judged_as: Level | None = None
     told: str = ""
     advice: tuple[str, ...] = ()
+    films: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +87,7 @@ class BattleShown:
     """The battle's page.
 
     `fault` is why the chosen battle cannot begin, empty where it can; `replays` while the best of it is seen again.
+    `friend` is what goes on with a friend on the network.
     """
 
     stage: BattleStage = BattleStage.CLOSED
@@ -93,6 +97,7 @@ class BattleShown:
     board: BoardShown = field(default_factory=BoardShown)
     result: BattleResultShown | None = None
     replays: bool = False
+    friend: FriendShown = field(default_factory=FriendShown)
 
     @property
     def covers_picture(self) -> bool:

@@ -1,5 +1,7 @@
 """A battle in words for the board: who is on, and what the turns before were worth; the end is in `result_words`."""
 
+from collections.abc import Mapping
+
 from station.app.battle.battle_shown import BoardShown, Evidence, Verdict
 from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.battle_view import BattleView, Doing, TurnView
@@ -10,10 +12,15 @@ from station.practice.battle.turn_marks import TurnMarks
 from station.scoring.report.technique_text import LEAST_MS
 
 
-def board_of(view: BattleView) -> BoardShown:
-    """The board as of `view`."""
-    turn = running_turn(view)
-    return BoardShown(headline(view), _share(view, turn), _last_verdicts(view))
+def board_of(view: BattleView, told: str = "", marks: Mapping[int, TurnMarks] | None = None) -> BoardShown:
+    """The board as of `view`.
+
+    `told` stands in the headline's place, if it is not empty; `marks` are those of each side's last turn, where the
+    view does not have them.
+    """
+    last = _last_marks(view) if marks is None else marks
+    verdicts = tuple(verdict_of(view.rules, side, last[side]) for side in sorted(last))
+    return BoardShown(told or headline(view), _share(view, running_turn(view)), verdicts)
 
 
 def names_of(rules: BattleRules) -> tuple[str, ...]:
@@ -54,10 +61,9 @@ def _share(view: BattleView, turn: TurnView | None) -> float | None:
     return min(max((view.at_ns - turn.start_ns) / whole, 0.0), 1.0)
 
 
-def _last_verdicts(view: BattleView) -> tuple[Verdict, ...]:
+def _last_marks(view: BattleView) -> Mapping[int, TurnMarks]:
     """What each side's last turn was worth, in the order of the sides."""
-    last = {turn.side: turn for turn in view.turns if turn.marks is not None}
-    return tuple(verdict_of(view.rules, side, last[side].marks) for side in sorted(last))
+    return {turn.side: turn.marks for turn in view.turns if turn.marks is not None}
 
 
 def verdict_of(rules: BattleRules, side: int, marks: TurnMarks | None) -> Verdict:

@@ -1,7 +1,7 @@
-"""A battle in the window: its folder, its pictures, what is kept of it; `practice.battle.battle` moves it on."""
+"""A battle in the window: its folder, its pictures, what is kept of it; `PlayedBattle` moves it on."""
 
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
@@ -18,14 +18,16 @@ from station.practice.battle.battle_result import BattleResult, JudgedTurn
 from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.battle_view import BattleView
 from station.practice.battle.drummed import drummed
+from station.practice.battle.played_battle import PlayedBattle
 from station.practice.battle.records.battle_folder import BattleFolder, kept_battle
+from station.practice.battle.turn_marks import TurnMarks
 from station.practice.headless.live import end
 from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency
 from station.practice.session.engine_state import EngineState
 from station.render.snapshot import Snapshot
 from station.scenes.battle.bar_replay import BarReplay, ReplayedBar
-from station.scenes.battle.battle_scene import BattleScene
+from station.scenes.battle.battle_scene import BattleScene, StageOptions
 from station.scenes.battle.cast import cast_of
 from station.scenes.battle.kept_views import KeptViews
 from station.scenes.battle.motion_chain import Body
@@ -36,18 +38,21 @@ _IN_SIGHT = 64
 _FRAMES_BEFORE = 2
 """When the second frame begins, the first has been drawn."""
 
+Notify = Callable[[str], None]
+
 
 class BattleSession:
-    """A battle by `rules`, on devices that are so late; `player` is who sits at the kit on the stage.
+    """`battle` on the window's engine; `player` is who sits at the kit on the stage.
 
     `notify` hears what a user should read.
     """
 
-    def __init__(
-        self, engine: EngineClient, rules: BattleRules, latency: Latency, player: Body, notify: Callable[[str], None]
-    ) -> None:
+    can_be_judged_again = True
+    """Whether all that its result is made of is in its capture."""
+
+    def __init__(self, engine: EngineClient, battle: PlayedBattle, player: Body, notify: Notify) -> None:
         self._engine, self._notify = engine, notify
-        self._battle = Battle(rules, drummed, latency)
+        self._battle = battle
         self._folder: BattleFolder | None = None
         self._view: BattleView | None = None
         self._player = player
@@ -125,6 +130,15 @@ class BattleSession:
             for command in commands:
                 self._engine.send(command)
 
+    @property
+    def told(self) -> str:
+        """What is to be read in place of who is on; empty where nothing is."""
+        return ""
+
+    def last_marks(self) -> Mapping[int, TurnMarks] | None:
+        """What the last turn of each side is worth, where the view does not have it."""
+        return None
+
     # --- what is seen ------------------------------------------------------------------------------------------------
 
     def view(self) -> BattleView:
@@ -148,7 +162,7 @@ class BattleSession:
         if heard_ns is not None and self._replay is not None:
             return self._replay.snapshot(heard_ns / NS_PER_S)
         if self._scene is None:
-            self._scene = BattleScene(self.rules, cast_of(self.rules, self._player))
+            self._scene = BattleScene(self.rules, self._cast(), StageOptions(away=self._away))
         snapshot = self._scene.snapshot(self.view(), self._struck)
         return replace(snapshot, hud=replace(snapshot.hud, message=""))  # the board below says more
 
@@ -157,9 +171,17 @@ class BattleSession:
         assert self.outcome is not None, "it is over"
         shown = KeptViews(self.outcome).whole_turns()[turn.planned.index]
         strokes = () if turn.played is None else tuple(turn.played.played)
-        cast = cast_of(self.rules, self._player)
-        self._replay = BarReplay(self.view(), cast, ReplayedBar(replace(shown, played=strokes), bar))
+        self._replay = BarReplay(self.view(), self._cast(), ReplayedBar(replace(shown, played=strokes), bar))
         return Listening(self._replay.cues(), round(self._replay.length_s * NS_PER_S))
+
+    @property
+    def _away(self) -> int | None:
+        """The side of a player at another station."""
+        return None
+
+    def _cast(self) -> Mapping[int, Body]:
+        """Who stands on the stage."""
+        return cast_of(self.rules, self._player)
 
     # --- the end -----------------------------------------------------------------------------------------------------
 
@@ -179,9 +201,28 @@ class BattleSession:
         if self._frames_until_start:
             self._start()  # what is kept has a beginning
         fault = end(self._engine, self._battle) if self._engine.alive else None
+        self._ended()
         self.outcome, self._view = self._battle.result(), None
         try:
-            self._folder.write(self.outcome)
+            self._keep(self._folder, self.outcome)
         except StationError as refused:
             return refused
         return fault
+
+    def _ended(self) -> None:
+        """What else its end means."""
+
+    def _keep(self, folder: BattleFolder, outcome: BattleResult) -> None:
+        """Write what came of it; raises `StationError`."""
+        folder.write(outcome)
+
+
+NewBattle = Callable[[EngineClient, Latency, Body, Notify], BattleSession]
+"""Makes a battle on the window's engine and devices, with whoever sits at the kit."""
+
+
+def battle_here(rules: BattleRules) -> NewBattle:
+    """A battle by these rules, all of it at this station."""
+    return lambda engine, latency, player, notify: BattleSession(
+        engine, Battle(rules, drummed, latency), player, notify
+    )

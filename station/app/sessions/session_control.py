@@ -14,7 +14,7 @@ from station.app.actions.practice_actions import Answer, Dismiss, EndSession, He
 from station.app.catalog import Catalog
 from station.app.engine_client import EngineClient
 from station.app.room_state import FreeRequest, RoomState, SessionRequest, Stage
-from station.app.sessions.battle_session import BattleSession
+from station.app.sessions.battle_session import NewBattle
 from station.app.sessions.current_practice import CurrentPractice
 from station.app.sessions.demo_player import DemoPlayer
 from station.app.sessions.free_session import FreeSession
@@ -32,7 +32,6 @@ from station.drills.exam.exam_piece import ExamPiece
 from station.drills.lesson import Lesson
 from station.engine.messages import Command, EngineEvent, Started
 from station.motion.sticking.hand_notes import Hands
-from station.practice.battle.battle_rules import BattleRules
 from station.practice.exam.exam_sitting import Sitting
 from station.practice.exam.exam_take import exam_plan
 from station.practice.records.session_files import CAPTURE_NAME
@@ -289,12 +288,12 @@ class SessionControl:
         self._playback.without_track()
         self.practice.begin_free(request)
 
-    def battle(self, rules: BattleRules) -> None:
-        """Begin a battle by these rules, ending what runs; raises `StationError`."""
+    def battle(self, new: NewBattle) -> None:
+        """Begin a battle, ending what runs; raises `StationError`."""
         self._make_room()
         self._playback.without_track()
         player = Body(self._prepared.own_kit(), self._demonstrator.figure, self._demonstrator.style)
-        self.practice.begin_battle(BattleSession(self._engine, rules, self._latency, player, self._notify))
+        self.practice.begin_battle(new(self._engine, self._latency, player, self._notify))
 
     def leave_battle(self) -> None:
         """The result of a battle was read: the kit alone is shown."""

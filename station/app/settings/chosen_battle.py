@@ -8,6 +8,8 @@ from pathlib import Path
 from station.core.errors import BadInput
 from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.ground import Ground
+from station.practice.battle.link.link_discovery import DEFAULT_PORT
+from station.practice.battle.link.link_socket import MOST_PORT
 from station.practice.battle.opponents.opponent import OPPONENTS, USUAL_OPPONENT, Opponent, find_opponent
 from station.practice.battle.people.player import Player
 from station.practice.battle.records.earlier_rounds import expected_of
@@ -25,6 +27,7 @@ class People(Enum):
     ALONE = "You and the drummer", "One kit, and the computer's drummer answers"
     HOT_SEAT = "Two at one kit", "Two of you change places at the same kit, bar for bar"
     TWO_KITS = "Two kits here", "Two of you, a kit each, both on this computer"
+    NETWORK = "A friend on the network", "Two of you, each at your own station and kit"
 
     def __init__(self, words: str, about: str) -> None:
         self.words, self.about = words, about
@@ -41,6 +44,8 @@ class ChosenBattle:
 
     `friend` is what the other person is called, empty for a name of no matter. `is_fair`:
     players are measured against what they did in earlier battles. `seed` draws the phrases, None for others each time.
+    With a friend on the network this station `joins` the one at `address`, or hosts at `port`, both as they were typed;
+    `guest_begins`: the first turn of a trade is theirs.
     """
 
     mode: BattleMode = BattleMode.REPEAT
@@ -57,6 +62,20 @@ class ChosenBattle:
     keeps_time: bool = True
     is_fair: bool = False
     seed: int | None = None
+    joins: bool = False
+    guest_begins: bool = False
+    port: str = f"{DEFAULT_PORT}"
+    address: str = ""
+
+    @property
+    def is_linked(self) -> bool:
+        """Whether the other person plays at another station."""
+        return self.people is People.NETWORK
+
+    @property
+    def is_guest(self) -> bool:
+        """Whether the other station hosts, and chooses what is played."""
+        return self.is_linked and self.joins
 
     @property
     def drummer(self) -> Opponent:
@@ -95,6 +114,14 @@ def chosen_rules(setup: ChosenBattle, student: str, kits: Sequence[str], click: 
         click=click if setup.is_clicked else SILENT,
         keeps_time=setup.keeps_time,
     )
+
+
+def port_of(setup: ChosenBattle) -> int:
+    """The port that was typed, 0 for any; raises `BadInput` where it is none."""
+    typed = setup.port.strip()
+    if typed.isascii() and typed.isdigit() and len(typed) <= len(f"{MOST_PORT}") and int(typed) <= MOST_PORT:
+        return int(typed)
+    raise BadInput("port", typed, f"a port is a number up to {MOST_PORT}, such as {DEFAULT_PORT}")
 
 
 def _players(setup: ChosenBattle, student: str, kits: Sequence[str]) -> tuple[Player, ...]:

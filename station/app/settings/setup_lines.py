@@ -87,6 +87,32 @@ OPPONENT_LINE = SetupLine(
     lambda setup: setup.drummer.title,
     lambda setup, way: setup.against(stepped(tuple(OPPONENTS), setup.opponent, way)),
 )
+LEVEL_LINE = SetupLine(
+    "Judged as",
+    "How near to its time a stroke counts as right",
+    lambda setup: setup.level.words,
+    lambda setup, way: replace(setup, level=stepped(tuple(Level), setup.level, way)),
+    _repeats,
+)
+WHO_LINE = SetupLine(
+    "Who",
+    "You against the computer's drummer, or against a friend",
+    lambda setup: setup.people.words,
+    lambda setup, way: replace(setup, people=stepped(tuple(People), setup.people, way)),
+)
+WAY_LINE = SetupLine(
+    "This station",
+    "One of you hosts and chooses what is played, the other joins",
+    lambda setup: "joins" if setup.joins else "hosts",
+    lambda setup, _: replace(setup, joins=not setup.joins),
+    lambda setup: setup.is_linked,
+)
+CLICK_LINE = SetupLine(
+    "Click",
+    "Whether a click sounds all the while",
+    lambda setup: "on" if setup.is_clicked else "off",
+    lambda setup, _: replace(setup, is_clicked=not setup.is_clicked),
+)
 TEMPO_LINE = SetupLine(
     "Tempo",
     "Beats a minute, the same for both",
@@ -117,13 +143,7 @@ LINES: tuple[SetupLine, ...] = (
         lambda setup, way: replace(setup, target=stepped(TARGETS, setup.target, way)),
         _repeats,
     ),
-    SetupLine(
-        "Judged as",
-        "How near to its time a stroke counts as right",
-        lambda setup: setup.level.words,
-        lambda setup, way: replace(setup, level=stepped(tuple(Level), setup.level, way)),
-        _repeats,
-    ),
+    LEVEL_LINE,
     SetupLine(
         "Lives",
         "Rounds that may be lost before the battle is over",
@@ -131,11 +151,14 @@ LINES: tuple[SetupLine, ...] = (
         lambda setup, way: replace(setup, lives=stepped(LIVES, setup.lives, way)),
         _repeats,
     ),
+    WHO_LINE,
+    WAY_LINE,
     SetupLine(
-        "Who",
-        "You against the computer's drummer, or against a friend",
-        lambda setup: setup.people.words,
-        lambda setup, way: replace(setup, people=stepped(tuple(People), setup.people, way)),
+        "Begins",
+        "Who plays the first turn",
+        lambda setup: "your friend" if setup.guest_begins else "you",
+        lambda setup, _: replace(setup, guest_begins=not setup.guest_begins),
+        lambda setup: setup.is_linked and not _repeats(setup),
     ),
     SetupLine(
         "Meter",
@@ -155,12 +178,7 @@ LINES: tuple[SetupLine, ...] = (
         lambda setup: setup.ground.style,
         lambda setup, way: _ground(setup, style=stepped(STYLES, setup.ground.style, way)),
     ),
-    SetupLine(
-        "Click",
-        "Whether a click sounds all the while",
-        lambda setup: "on" if setup.is_clicked else "off",
-        lambda setup, _: replace(setup, is_clicked=not setup.is_clicked),
-    ),
+    CLICK_LINE,
     SetupLine(
         "Under your turn",
         "Whether the drummer keeps time while you play",
@@ -172,12 +190,18 @@ LINES: tuple[SetupLine, ...] = (
         "Each is measured against their own earlier battles, so that a child can beat a parent fairly",
         lambda setup: "fair play" if setup.is_fair else "none",
         lambda setup, _: replace(setup, is_fair=not setup.is_fair),
-        lambda setup: setup.people.needs_friend,
+        lambda setup: setup.people.needs_friend and not setup.is_linked,
     ),
 )
 """In the order in which they are read; pads reach them in the same."""
 
 
+_OF_A_GUEST = (WHO_LINE, WAY_LINE, LEVEL_LINE, CLICK_LINE)
+"""All that a guest chooses; the rest is the host's."""
+
+
 def lines_of(setup: ChosenBattle) -> tuple[SetupLine, ...]:
     """The lines that matter to what is chosen."""
+    if setup.is_guest:
+        return _OF_A_GUEST
     return tuple(line for line in LINES if line.matters(setup))

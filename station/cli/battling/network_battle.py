@@ -9,7 +9,6 @@ from time import sleep
 from station.cli.battling.network_options import LIST, NetworkOptions
 from station.cli.console import print_json, say, write
 from station.core.clock import Clock, MonotonicClock
-from station.core.disk.files import write_whole
 from station.core.errors import BadInput, StationError
 from station.core.measured_latency import load_calibration
 from station.core.settings import Settings
@@ -19,19 +18,17 @@ from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.drummed import drummed
 from station.practice.battle.link.link_socket import address_of, own_address
 from station.practice.battle.link.linked_battle import LinkedBattle
-from station.practice.battle.link.linked_document import linked_result, network_fields, network_report
+from station.practice.battle.link.linked_keeping import linked_record
+from station.practice.battle.link.linked_play import LinkedPlay
 from station.practice.battle.link.linked_rules import Agreed
 from station.practice.battle.link.linked_station import LinkedStation, hosts_here, introduction
-from station.practice.battle.records.battle_document import battle_document
-from station.practice.battle.records.battle_folder import DOCUMENT_NAME, BattleFolder
-from station.practice.battle.records.battle_report import battle_report
+from station.practice.battle.records.battle_folder import BattleFolder
 from station.practice.battle.vocabulary.lesson_bars import lesson_bars
 from station.practice.headless.end_signals import end_asked
 from station.practice.headless.linked_live import ROUND_S, LinkedSetup, meet, play_linked
 from station.practice.headless.linked_text import LinkedText
 from station.practice.headless.live import EngineLink
 from station.practice.headless.virtual_partner import VirtualPartner
-from station.practice.records.session_files import write_document
 from station.practice.session.device_latency import latency_of
 from station.simulation.student_spec import parse_spec
 
@@ -74,7 +71,7 @@ def play_over_network(asked: NetworkBattle) -> StationError | None:
             engine.battle = battle
         for event in met.events:
             battle.handle(event)
-        fault = play_linked(setup, battle, asked.folder.capture)
+        fault = play_linked(setup, LinkedPlay(station, battle), asked.folder.capture)
         _leave(battle, asked)
     return fault
 
@@ -114,19 +111,16 @@ def _agreed_words(agreed: Agreed) -> str:
 
 def _leave(battle: LinkedBattle, asked: NetworkBattle) -> None:
     """Keep what both ends have, and print it."""
-    result = linked_result(battle)
-    document = {**battle_document(result), "network": network_fields(battle)}
-    report = battle_report(result) + network_report(battle)
+    record = linked_record(battle)
     refused: StationError | None = None
     try:
-        write_document(asked.folder.path / DOCUMENT_NAME, document)
-        write_whole(asked.folder.report, report.encode())
+        asked.folder.keep(record.document, record.report)
     except StationError as fault:
         refused = fault
     if asked.as_json:
-        print_json(document)
+        print_json(record.document)
     else:
-        write(report, end="", flush=True)
+        write(record.report, end="", flush=True)
     if refused is not None:
         raise refused
     say(f"report   {asked.folder.report}")

@@ -13,6 +13,7 @@ from station.core.clock import Clock
 from station.core.errors import DeviceError, StationError
 from station.engine.messages import EngineEvent
 from station.practice.battle.link.linked_battle import LinkedBattle
+from station.practice.battle.link.linked_play import LinkedPlay
 from station.practice.battle.link.linked_rules import Agreed
 from station.practice.battle.link.linked_station import LinkedStation
 from station.practice.headless.end_signals import EndAsked
@@ -64,32 +65,29 @@ def meet(setup: LinkedSetup, said: Callable[[str], None]) -> Met | None:
     return None
 
 
-def play_linked(setup: LinkedSetup, battle: LinkedBattle, capture: Path | None) -> StationError | None:
-    """Play `battle` until it is over or the end is asked for, and take leave; returns what the players must know.
+def play_linked(setup: LinkedSetup, play: LinkedPlay, capture: Path | None) -> StationError | None:
+    """Play until it is over or the end is asked for, and take leave; returns what the players must know.
 
     Raises `DeviceError` if the engine dies before the transport runs: then there is nothing to report.
     """
     fault: StationError | None = None
     try:
-        begin(setup.engine, battle, capture)
-        while not battle.over and not setup.asked:
-            _step(setup, battle)
+        begin(setup.engine, play, capture)
+        while not play.over and not setup.asked:
+            _step(setup, play)
     except DeviceError as error:
-        if not battle.started:
+        if not play.battle.started:
             raise
         fault = error
-        battle.stop()
+        play.stop()
     else:
-        fault = end(setup.engine, battle)
+        fault = end(setup.engine, play)
     setup.station.take_leave(setup.clock, lambda: sleep(ROUND_S))
     return fault or setup.telling.fault("not all could be shown while you played, the battle is kept")
 
 
-def _step(setup: LinkedSetup, battle: LinkedBattle) -> None:
+def _step(setup: LinkedSetup, play: LinkedPlay) -> None:
     events = setup.engine.events(ROUND_S)
-    now_ns = setup.clock.now_ns()
-    setup.station.exchange(now_ns)
-    for command in battle.update(now_ns, events):
+    for command in play.update(setup.clock.now_ns(), events):
         setup.engine.send(command)
-    setup.station.exchange(now_ns)
-    setup.telling.attempt(setup.show, battle)
+    setup.telling.attempt(setup.show, play.battle)

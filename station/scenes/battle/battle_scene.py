@@ -51,12 +51,14 @@ class StageOptions:
     """What may be switched off: cuts of the camera, which then shows both throughout, and the crowd.
 
     `is_kept`: the battle is over and all strokes are known (`BattleScene.know`), so that players too are planned, each
-    link when its time comes.
+    link when its time comes. `away` is the side of a player at another station: of them calls alone are known, which
+    they play as a drummer does, and every stroke is of the player here.
     """
 
     cuts: bool = True
     crowd: bool = True
     is_kept: bool = False
+    away: int | None = None
 
 
 class BattleScene:
@@ -65,7 +67,9 @@ class BattleScene:
     def __init__(self, rules: BattleRules, cast: Mapping[int, Body], options: StageOptions = StageOptions()) -> None:
         self.rules, self.options = rules, options
         self._movers = {
-            side: _Drummer(rules, body, options.is_kept) if side == DRUMMER or options.is_kept else _Player(rules, body)
+            side: _Drummer(rules, body, options.is_kept)
+            if options.is_kept or side in (DRUMMER, options.away)
+            else _Player(rules, body, is_alone=options.away is not None)
             for side, body in cast.items()
         }
         self._cameras: dict[tuple[Sides, ShotKind, int | None], Camera] = {}
@@ -126,11 +130,12 @@ class BattleScene:
 
     def _strikes(self, view: BattleView, side: int, hits: Sequence[Hit], at_ns: int) -> tuple[SeenStrike, ...]:
         """What a player struck a moment ago; the drummer's strokes show in their pose."""
-        if side == DRUMMER:
+        if side in (DRUMMER, self.options.away):
             return ()
         since_ns = at_ns - STRIKE_SHOWN_NS
         recent = (hit for hit in hits if since_ns <= hit.at_ns <= at_ns)
-        return strikes((hit for hit in recent if _is_by(view, side, hit)), at_ns)
+        is_alone = self.options.away is not None
+        return strikes((hit for hit in recent if is_alone or _is_by(view, side, hit)), at_ns)
 
     # --- the camera ---------------------------------------------------------------------------------------------------
 
@@ -200,9 +205,13 @@ class _Drummer:
 
 
 class _Player:
-    """Whoever moves as they are heard; they sit still until their vocabulary is planned."""
+    """Whoever moves as they are heard; they sit still until their vocabulary is planned.
 
-    def __init__(self, rules: BattleRules, body: Body) -> None:
+    Every stroke is theirs where they are the only ones here, `is_alone`.
+    """
+
+    def __init__(self, rules: BattleRules, body: Body, is_alone: bool) -> None:
+        self._is_alone = is_alone
         self._rules, self.figure = rules, body.figure
         self._rest = MotionChain(rules.ground, body)
         self.kit: Kit = self._rest.kit
@@ -227,7 +236,7 @@ class _Player:
         self._heard = {hit for hit in self._heard if at_ns - REMEMBERED_NS < hit.at_ns <= at_ns}
         for hit in hits:
             is_recent = at_ns - REMEMBERED_NS < hit.at_ns <= at_ns
-            if is_recent and hit not in self._heard and _is_by(view, side, hit):
+            if is_recent and hit not in self._heard and (self._is_alone or _is_by(view, side, hit)):
                 self._figure.strike(hit.at_ns / NS_PER_S, hit.piece, hit.velocity, hit.limb)
                 self._heard.add(hit)
         self._expect(side, view)
@@ -282,6 +291,8 @@ def _notes_of(rules: BattleRules, side: int, turn: TurnView) -> NDArray[np.void]
     if side == DRUMMER:
         said = turn.phrase if turn.kind is TurnKind.CALL else turn.keeping
         return np.zeros(0, NOTE_DTYPE) if said is None else said.with_landing.notes
+    if turn.side == side and turn.kind is TurnKind.CALL and turn.phrase is not None:
+        return turn.phrase.with_landing.notes  # a player at another station, as they were heard
     if turn.side != side or not turn.played:
         return np.zeros(0, NOTE_DTYPE)
     bar_ns = rules.ground.ns_of_bars(1)

@@ -9,15 +9,27 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
-from station.app.actions.battle_actions import ChooseBattle, CloseBattle
+from station.app.actions.battle_actions import CallOff, ChooseBattle, CloseBattle
 from station.app.battle.battle_shown import BattleShown
+from station.app.battle.friend_shown import FriendShown
 from station.app.settings.chosen_battle import MOST_NAME, ChosenBattle, People
-from station.app.settings.setup_lines import LINES, MODE_ABOUT, MODE_LINE, MODE_WORDS, OPPONENT_LINE, SetupLine
+from station.app.settings.setup_lines import (
+    MODE_ABOUT,
+    MODE_LINE,
+    MODE_WORDS,
+    OPPONENT_LINE,
+    WAY_LINE,
+    WHO_LINE,
+    SetupLine,
+    lines_of,
+)
 from station.gui import theme
+from station.gui.panels.battle.friend_lines import way_to_friend
 from station.practice.battle.battle_rules import BattleMode
 from station.practice.battle.opponents.opponent import OPPONENTS, Opponent
 
 CLOSE_LABEL = "Back to the lessons##close-battle"
+CALL_OFF_LABEL = "Call it off##call-off"
 FRIEND_LABEL = "##battle-friend"
 _TWO_COLUMNS = 620.0
 """Design pixels in which drummers and settings stand beside each other (our choice)."""
@@ -34,14 +46,21 @@ class BattleSetupPage:
     def gui(self, shown: BattleShown) -> None:
         """Draw the page and do what the user does in it."""
         setup = shown.setup
+        if shown.friend.waits:
+            self._waiting(shown.friend)
+            return
         chosen = self._head(setup)
         if shown.fault:
             theme.warning(shown.fault)
-        if imgui.get_content_region_avail().x < theme.points(_TWO_COLUMNS):
-            chosen = self._settings(chosen)
+        if shown.friend.told:
+            theme.warning(shown.friend.told)
+        if setup.is_guest:
+            chosen = self._settings(chosen, shown.friend)
+        elif imgui.get_content_region_avail().x < theme.points(_TWO_COLUMNS):
+            chosen = self._settings(chosen, shown.friend)
             chosen = self._drummers(chosen)
         else:
-            chosen = self._beside(chosen)
+            chosen = self._beside(chosen, shown.friend)
         if chosen != setup:
             self._dispatch(ChooseBattle(chosen))
 
@@ -54,6 +73,9 @@ class BattleSetupPage:
         if imgui.button(CLOSE_LABEL):
             self._dispatch(CloseBattle())
         theme.tooltip("No battle (Esc)")
+        if setup.is_guest:
+            theme.soft("Your friend hosts, and chooses what is played.")
+            return setup
         for place, mode in enumerate(BattleMode):
             if place:
                 imgui.same_line(0, theme.points(24))
@@ -63,7 +85,7 @@ class BattleSetupPage:
         theme.soft(MODE_ABOUT[setup.mode])
         return setup
 
-    def _beside(self, setup: ChosenBattle) -> ChosenBattle:
+    def _beside(self, setup: ChosenBattle, friend: FriendShown) -> ChosenBattle:
         """Drummers on the left, settings on the right."""
         room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing.x
         imgui.begin_child("##drummers", imgui.ImVec2((room.x - gap) / 2, 0))
@@ -71,7 +93,7 @@ class BattleSetupPage:
         imgui.end_child()
         imgui.same_line()
         imgui.begin_child("##settings")
-        setup = self._settings(setup)
+        setup = self._settings(setup, friend)
         imgui.end_child()
         return setup
 
@@ -86,15 +108,28 @@ class BattleSetupPage:
 
     # --- everything else ---------------------------------------------------------------------------------------------
 
-    def _settings(self, setup: ChosenBattle) -> ChosenBattle:
+    def _settings(self, setup: ChosenBattle, friend: FriendShown) -> ChosenBattle:
         theme.part("How")
-        for line in LINES:
-            if line in (MODE_LINE, OPPONENT_LINE) or not line.matters(setup):
+        for line in lines_of(setup):
+            if line in (MODE_LINE, OPPONENT_LINE):
                 continue
             setup = _line(line, setup)
-            if line.title == "Who":
+            if line is WHO_LINE:
                 setup = self._who(setup)
+            elif line is WAY_LINE:
+                setup = way_to_friend(setup, friend)
         return setup
+
+    def _waiting(self, friend: FriendShown) -> None:
+        """Who is waited for, how they come here, and the way back."""
+        theme.heading(friend.waits[0], 24)
+        for line in friend.waits[1:]:
+            imgui.text_wrapped(line)
+        if friend.told:
+            theme.soft(friend.told)
+        if imgui.button(CALL_OFF_LABEL):
+            self._dispatch(CallOff())
+        theme.tooltip("Back to what is chosen (Esc)")
 
     @staticmethod
     def _who(setup: ChosenBattle) -> ChosenBattle:

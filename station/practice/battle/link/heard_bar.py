@@ -3,6 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from station.core.pieces import Dynamic, Ornament
 from station.core.units import NS_PER_MS
 from station.music.performance import Performance
 from station.music.score import NOTE_DTYPE, Score
@@ -27,6 +28,7 @@ def heard_bar(played: Performance, bar: int, ground: Ground) -> Phrase:
     notes = np.zeros(len(played), NOTE_DTYPE)
     for name in _SAME:
         notes[name] = played.hits[name]
+    notes["dynamic"], notes["ornament"] = Dynamic.NORMAL, Ornament.NONE  # velocities say it
     notes["tick"] = ground.tempo_map.ticks_at_ns(np.maximum(at_ns, 0))
     notes["late_ms"] = np.minimum(at_ns, 0) / NS_PER_MS
     notes["choke_ticks"] = _choke_ticks(played, ground)

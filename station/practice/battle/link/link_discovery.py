@@ -16,6 +16,8 @@ DEFAULT_PORT = 34_117
 """Where a host listens unless told otherwise (our choice, in the range that is registered but unused there)."""
 EVERYBODY = "255.255.255.255"
 ASK_EVERY_NS = NS_PER_S
+FORGETS_NS = 4 * ASK_EVERY_NS
+"""A host that has not answered for so long is not shown any more (our choice: four questions may be lost)."""
 _MOST_FOUND = 64
 """Of hosts in a list (our choice: two classes)."""
 _MOST_QUESTIONS = 8
@@ -42,11 +44,18 @@ class Lookout:
         self._asked: dict[bytes, int] = {}
         self._asked_ns: int | None = None
         self._found: dict[Address, FoundStation] = {}
+        self._heard_ns: dict[Address, int] = {}
 
     @property
     def found(self) -> tuple[FoundStation, ...]:
         """Who has answered, the nearest first."""
         return tuple(sorted(self._found.values(), key=lambda each: (each.ping_ms, each.address)))
+
+    def forget(self, now_ns: int) -> None:
+        """Leave out whoever has not answered for `FORGETS_NS`, for who looks all the while."""
+        for address, heard_ns in list(self._heard_ns.items()):
+            if now_ns - heard_ns > FORGETS_NS:
+                del self._found[address], self._heard_ns[address]
 
     def due(self, now_ns: int) -> list[tuple[bytes, Address]]:
         """The questions that are to be sent now."""
@@ -75,7 +84,7 @@ class Lookout:
             return Drop.MALFORMED
         if source not in self._found and len(self._found) >= _MOST_FOUND:
             return Drop.FLOOD
-        before = self._found.get(source)
+        before, self._heard_ns[source] = self._found.get(source), now_ns
         ping_ms = ms_from_ns(now_ns - asked_ns)
         least_ms = ping_ms if before is None else min(ping_ms, before.ping_ms)
         self._found[source] = FoundStation(source, card.station, card.about, card.is_busy, least_ms)

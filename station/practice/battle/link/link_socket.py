@@ -17,15 +17,19 @@ MOST_AT_ONCE = 256
 _LEAST_PORT, MOST_PORT = 1, 65_535
 
 
-def address_of(written: str, port: int = DEFAULT_PORT) -> Address:
-    """The address that a user typed, `192.168.1.20`, `station.local` or either with `:port`; raises `BadInput`."""
+def address_of(written: str, port: int = DEFAULT_PORT, is_numeric: bool = False) -> Address:
+    """The address that a user typed, `192.168.1.20`, `station.local` or either with `:port`; raises `BadInput`.
+
+    A name may take seconds to be found; where nobody may wait the address `is_numeric`, and a name is none.
+    """
     host, colon, digits = written.strip().partition(":")
     typed = digits if colon else str(port)
     is_number = typed.isascii() and typed.isdigit() and len(typed) <= len(str(MOST_PORT))
     if not (is_number and _LEAST_PORT <= int(typed) <= MOST_PORT):
         raise BadInput("address", written, f"expected a port from {_LEAST_PORT} to {MOST_PORT} after the colon")
+    flags = socket.AI_NUMERICHOST if is_numeric else 0
     try:
-        found = socket.getaddrinfo(host, int(typed), socket.AF_INET, socket.SOCK_DGRAM)
+        found = socket.getaddrinfo(host, int(typed), socket.AF_INET, socket.SOCK_DGRAM, flags=flags)
     except (OSError, UnicodeError):
         raise BadInput("address", written, "no such address; expected one such as 192.168.1.20") from None
     name, number = found[0][4][:2]
@@ -60,9 +64,7 @@ class LinkSocket:
             self._socket.bind((host, port))
         except OSError as fault:
             self._socket.close()
-            raise DeviceError(
-                f"port {port} of UDP cannot be opened: {fault.strerror}; choose another with --port"
-            ) from None
+            raise DeviceError(f"port {port} of UDP cannot be opened: {fault.strerror}; choose another port") from None
         except (OverflowError, TypeError):  # no port, or a host that no name's encoding takes
             self._socket.close()
             raise BadInput("address", f"{host}:{port}", f"expected an address, and a port up to {MOST_PORT}") from None

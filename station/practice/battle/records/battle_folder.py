@@ -4,6 +4,7 @@
 written by the engine while it is played, so that one that was cut off lacks its report and nothing else.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -18,6 +19,7 @@ from station.practice.battle.records.battle_report import battle_report
 from station.practice.battle.records.judge_battle_again import judge_battle_again
 from station.practice.records.session_files import session_folder, student_folder, write_document
 from station.scoring.matching.hit_windows import Level
+from station.scoring.report.assessment_document import Json
 
 CAPTURE_NAME = "battle.capture"
 DOCUMENT_NAME = "battle.json"
@@ -61,8 +63,12 @@ class BattleFolder:
 
     def write(self, result: BattleResult) -> None:
         """Keep a battle that is over; raises `DeviceError`."""
-        write_document(self.path / DOCUMENT_NAME, battle_document(result))
-        write_whole(self.report, battle_report(result).encode())
+        self.keep(battle_document(result), battle_report(result))
+
+    def keep(self, document: Mapping[str, Json], report: str) -> None:
+        """Keep a battle that is over as a document and in words; raises `DeviceError`."""
+        write_document(self.path / DOCUMENT_NAME, document)
+        write_whole(self.report, report.encode())
 
     def __enter__(self) -> "BattleFolder":
         return self

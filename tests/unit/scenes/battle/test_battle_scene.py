@@ -16,7 +16,10 @@ from station.motion.kinematics.figure import load_figure
 from station.music.performance import Performance
 from station.music.score import Score
 from station.practice.battle.battle_result import BattleResult, JudgedTurn
+from station.practice.battle.battle_rules import BattleMode
+from station.practice.battle.battle_view import SideView, TurnView
 from station.practice.battle.opponents.opponent import OPPONENTS
+from station.practice.battle.people.player import Player
 from station.practice.battle.phrase import Turn
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.session.device_latency import Latency
@@ -27,7 +30,7 @@ from station.scenes.battle.battle_film import BattleFilm, battle_cues, film_span
 from station.scenes.battle.battle_scene import BattleScene, StageOptions
 from station.scenes.battle.cast import cast_of, opponent_body, sides_on_stage
 from station.scenes.battle.motion_chain import Body
-from tests.unit.scenes.battle.battles_on_stage import BAR_NS, GROUND, RULES, all_hits, turns, view_at
+from tests.unit.scenes.battle.battles_on_stage import BAR_NS, GROUND, RULES, SIDES, all_hits, phrase, turns, view_at
 
 FPS = Fraction(30)
 KNOWN = turns(4)
@@ -115,6 +118,26 @@ def test_a_live_player_sits_until_planned_and_answers_what_is_heard() -> None:
     places = list(tips.values())
     assert np.abs(places[1] - places[0]).max() > 0.05
     assert np.abs(places[2] - places[1]).max() > 0.02
+
+
+def test_a_player_away_moves_as_they_are_heard_and_every_stroke_is_of_the_player_here() -> None:
+    rules = replace(RULES, mode=BattleMode.IMPROVISE, players=(Player("Ann"), Player("Ben")))
+    turn = TurnView(0, 1, 2, TurnKind.CALL, 2 * BAR_NS, 2, phrase(2), None, None)
+    scene = BattleScene(rules, cast_of(rules, Body()), StageOptions(away=2))
+    stroke = Hit(turn.start_ns + BAR_NS // 2, Piece.SNARE, Zone.HEAD, 100, device="kit")
+    sides = (*SIDES, SideView("Ben", False, 0.0, None, 0))
+    tips = []
+    for share in (0.0, 0.5, 0.6):
+        at_ns = turn.start_ns + round(share * BAR_NS)
+        snapshot = scene.snapshot(replace(view_at(at_ns, (turn,)), rules=rules, sides=sides), [stroke])
+        assert snapshot.rival is not None
+        assert snapshot.rival.pose is not None
+        assert snapshot.rival.strikes == ()
+        for link in scene._movers[2]._chain._links:  # type: ignore[union-attr]
+            link.coming.result(timeout=60)
+        tips.append(snapshot.rival.pose.row[frame.TIP].copy())
+    assert [strike.piece for strike in snapshot.strikes] == [Piece.SNARE]
+    assert np.abs(tips[2] - tips[1]).max() > 0.02
 
 
 def test_strokes_at_one_time_and_late_news_move_all_limbs() -> None:

@@ -3,7 +3,7 @@
 import pytest
 
 from station.core.events import Choke, Hit
-from station.core.pieces import Articulation, Limb, Piece, Zone
+from station.core.pieces import Articulation, Dynamic, Limb, Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.music.performance import Performance
 from station.practice.battle.ground import Ground
@@ -38,6 +38,7 @@ def test_a_bar_sounds_as_it_was_played() -> None:
     assert (kick.velocity, kick.limb, kick.midi_note, kick.openness) == (30, Limb.RIGHT_FOOT, 36, None)
     assert (hat.zone, hat.velocity) == (Zone.EDGE, 101)
     assert hat.openness == pytest.approx(0.4)
+    assert {note.dynamic for note in phrase.score} == {Dynamic.NORMAL}, "no note stands in brackets: velocities say it"
     assert crash.choke_ticks == GROUND.bar_ticks // 4  # half a second
 
 

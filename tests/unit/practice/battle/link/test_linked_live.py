@@ -15,6 +15,7 @@ from station.practice.battle.ground import Ground
 from station.practice.battle.link.link_handshake import Address
 from station.practice.battle.link.linked_battle import LinkedBattle, LinkEnd
 from station.practice.battle.link.linked_document import network_fields, network_report
+from station.practice.battle.link.linked_play import LinkedPlay
 from station.practice.battle.link.linked_station import LinkedStation, hosts_here, introduction
 from station.practice.battle.people.player import Player
 from station.practice.headless.end_signals import EndAsked
@@ -68,7 +69,7 @@ class End:
             self.engine.battle = self.battle = LinkedBattle(met.agreed, self.setup.station.line, drum)
             for event in met.events:
                 self.battle.handle(event)
-            self.fault = play_linked(self.setup, self.battle, capture)
+            self.fault = play_linked(self.setup, LinkedPlay(self.setup.station, self.battle), capture)
 
 
 def hosting(mode: BattleMode) -> tuple[LinkedStation, Address]:
