@@ -9,7 +9,7 @@ chosen is kept in the capture (`records.battle_log`), with all that judging it a
 Read `turn_plan` for who plays when, `turn_judging` for what it is worth, `battle_result` for who wins.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 from station.core.events import Hit
 from station.engine.messages import AddCues, Annotate, Command, EngineEvent, Play, Stop, Unheard
@@ -18,6 +18,7 @@ from station.practice.battle.battle_ear import BattleEar
 from station.practice.battle.battle_result import BattleResult, JudgedTurn, is_decided
 from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.battle_view import BattleView, TurnView
+from station.practice.battle.heard_battle import HeardBattle
 from station.practice.battle.next_turns import next_turns, so_far
 from station.practice.battle.phrase_request import Drum
 from station.practice.battle.records.battle_log import (
@@ -38,12 +39,11 @@ from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.battle.view_building import Moment, view_of
 from station.practice.session.cues.stroke_cues import in_order, moved_by
 from station.practice.session.device_latency import Latency
-from station.practice.session.engine_state import EngineState
 from station.practice.session.plan import TAIL_NS
 from station.practice.session.session import LEAD_IN_NS
 
 
-class Battle:
+class Battle(HeardBattle):
     """Call `start`, then `handle` every event and `advance` the time, or `update` for both, until `over`; then `stop`.
 
     Every call returns the commands for the engine. `drum` plays the drummer's part.
@@ -53,7 +53,6 @@ class Battle:
         self.rules = rules
         self.latency = latency or Latency()
         self.ear = BattleEar(rules, self.latency)
-        """What was heard."""
         self.paused = False
         """Whether the transport stands and waits for `resume`."""
         self.stopped = False
@@ -115,16 +114,6 @@ class Battle:
         return Play(moved_by(cues, counted_ns - self.ear.from_ns), LEAD_IN_NS)
 
     # --- input ------------------------------------------------------------------------------------------------------
-
-    @property
-    def heard(self) -> EngineState:
-        """What the engine has said."""
-        return self.ear.heard
-
-    def update(self, now_ns: int, events: Iterable[EngineEvent]) -> tuple[Command, ...]:
-        """Take all `events`, then move on to the present."""
-        commands = [command for event in events for command in self.handle(event)]
-        return (*commands, *self.advance(now_ns))
 
     def handle(self, event: EngineEvent) -> tuple[Command, ...]:
         """Take one event."""
@@ -221,19 +210,9 @@ class Battle:
     # --- output -----------------------------------------------------------------------------------------------------
 
     @property
-    def at_ns(self) -> int | None:
-        """Battle time now; None while the transport stands."""
-        return self.ear.at_ns
-
-    @property
     def plan(self) -> Sequence[PlannedTurn]:
         """The turns so far and those known to come."""
         return tuple(self._plan)
-
-    @property
-    def began_ns(self) -> int | None:
-        """The session time at which battle time 0 was heard; None while the transport stands."""
-        return None if self.at_ns is None else self.ear.now_ns - self.at_ns
 
     @property
     def started(self) -> bool:

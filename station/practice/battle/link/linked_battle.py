@@ -6,7 +6,7 @@ begun is played to its end, for it needs no line. Where the line is cut, or some
 stands as soon as nothing can go on, and goes on with a count-in where it was.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from enum import Enum
 from typing import Literal
 
@@ -15,6 +15,7 @@ from station.core.units import NS_PER_MS, NS_PER_S
 from station.engine.messages import AddCues, Annotate, Command, EngineEvent, Play, Stop, Unheard
 from station.practice.battle.battle_cues import count_in_cues, turn_cues
 from station.practice.battle.battle_ear import BattleEar
+from station.practice.battle.heard_battle import HeardBattle
 from station.practice.battle.link.link_line import WHO, LinkLine
 from station.practice.battle.link.link_messages import (
     Bye,
@@ -44,7 +45,6 @@ from station.practice.battle.turn_judging import judged_at_ns
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.session.cues.stroke_cues import in_order, moved_by
 from station.practice.session.device_latency import Latency
-from station.practice.session.engine_state import EngineState
 from station.practice.session.plan import TAIL_NS
 from station.practice.session.session import LEAD_IN_NS
 
@@ -68,7 +68,7 @@ class LinkEnd(Enum):
     FAULT = "the other station said what cannot be"
 
 
-class LinkedBattle:
+class LinkedBattle(HeardBattle):
     """Call `start`, then `handle` every event and `advance` the time, or `update` for both, until `over`; then `stop`.
 
     Every call returns the commands for the engine. `drum` plays what the drummer plays; the line must be open.
@@ -78,7 +78,6 @@ class LinkedBattle:
         self.agreed, self.rules = agreed, agreed.rules
         self.latency = latency or Latency()
         self.ear = BattleEar(self.rules, self.latency)
-        """What was heard here."""
         self.rounds = LinkedRounds(agreed, drum)
         """What both know."""
         self.ended: LinkEnd | None = None
@@ -163,19 +162,9 @@ class LinkedBattle:
     # --- input ------------------------------------------------------------------------------------------------------
 
     @property
-    def heard(self) -> EngineState:
-        """What the engine has said."""
-        return self.ear.heard
-
-    @property
     def is_cut(self) -> bool:
         """Whether the other station has not been heard for too long, and had not said yet that it has all."""
         return self.their_digest is None and self._line.is_cut(self.ear.now_ns)
-
-    def update(self, now_ns: int, events: Iterable[EngineEvent]) -> tuple[Command, ...]:
-        """Take all `events`, then move on to the present."""
-        commands = [command for event in events for command in self.handle(event)]
-        return (*commands, *self.advance(now_ns))
 
     def handle(self, event: EngineEvent) -> tuple[Command, ...]:
         """Take one event."""
@@ -309,16 +298,6 @@ class LinkedBattle:
         if self.ended is None:
             self.ended = why
             self._line.send(Bye(_BYES[why]))
-
-    @property
-    def at_ns(self) -> int | None:
-        """Battle time now; None while the transport stands."""
-        return self.ear.at_ns
-
-    @property
-    def began_ns(self) -> int | None:
-        """The session time at which battle time 0 was heard; None while the transport stands."""
-        return None if self.at_ns is None else self.ear.now_ns - self.at_ns
 
     @property
     def started(self) -> bool:

@@ -3,42 +3,31 @@
 It is played as a battle at one station is (`played_battle`); every `advance` also carries the line's datagrams.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from station.engine.messages import Command, EngineEvent
-from station.practice.battle.battle_ear import BattleEar
 from station.practice.battle.battle_result import BattleResult
 from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.battle_view import BattleView
+from station.practice.battle.heard_battle import HeardBattle
 from station.practice.battle.link.linked_battle import LinkedBattle
 from station.practice.battle.link.linked_document import linked_result
 from station.practice.battle.link.linked_station import LinkedStation
 from station.practice.battle.link.linked_view import linked_view
 from station.practice.battle.turn_marks import TurnMarks
-from station.practice.session.engine_state import EngineState
 
 
-class LinkedPlay:
+class LinkedPlay(HeardBattle):
     """`battle`, whose line is that of `station`."""
 
     def __init__(self, station: LinkedStation, battle: LinkedBattle) -> None:
-        self.station, self.battle = station, battle
+        self.station, self.battle, self.ear = station, battle, battle.ear
         self._now_ns: int | None = None
 
     @property
     def rules(self) -> BattleRules:
         """What it is played by."""
         return self.battle.rules
-
-    @property
-    def ear(self) -> BattleEar:
-        """What was heard here."""
-        return self.battle.ear
-
-    @property
-    def heard(self) -> EngineState:
-        """What the engine has said."""
-        return self.battle.heard
 
     @property
     def paused(self) -> bool:
@@ -70,11 +59,6 @@ class LinkedPlay:
         """Go on, where nobody else asked for a pause."""
         self.battle.resume()
         return ()
-
-    def update(self, now_ns: int, events: Iterable[EngineEvent]) -> tuple[Command, ...]:
-        """Take all `events`, then move on to the present."""
-        commands = [command for event in events for command in self.handle(event)]
-        return (*commands, *self.advance(now_ns))
 
     def handle(self, event: EngineEvent) -> tuple[Command, ...]:
         """Take one event."""

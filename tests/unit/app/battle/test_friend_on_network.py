@@ -2,14 +2,17 @@
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from station.app.actions.battle_actions import BeginBattle, CallOff, ChooseBattle, CloseBattle
 from station.app.actions.practice_actions import EndSession, Pause
-from station.app.battle.battle_shown import BattleStage
+from station.app.battle.battle_choice import battle_choice
+from station.app.battle.battle_shown import BattleShown, BattleStage
 from station.app.battle.friend_meeting import FriendMeeting
+from station.app.battle.friend_shown import FriendShown, HostShown
 from station.app.settings.chosen_battle import ChosenBattle, People
 from station.practice.battle.battle_rules import BattleMode
 from station.practice.battle.battle_view import Doing
@@ -72,6 +75,16 @@ def test_the_host_is_found_and_gone_when_called_off(room: Room) -> None:
         looking.advance(room.now_ns)
     assert looking.view().hosts == (), "the list forgets who is gone"
     looking.close()
+
+
+def test_pads_choose_among_the_hosts_that_are_free() -> None:
+    setup = ChosenBattle(people=People.NETWORK, joins=True)
+    hosts = (HostShown("1.2.3.4:5", "The shed", "Ann"), HostShown("1.2.3.4:6", "The attic", "Cy", is_busy=True))
+    shown = BattleShown(BattleStage.CHOOSING, setup, friend=FriendShown(hosts))
+    choice = battle_choice(shown, 0, (), kit_starts=True)
+    assert choice is not None
+    assert [option.label for option in choice.options[:2]] == ["Join", "The shed"]
+    assert choice.options[1].action == ChooseBattle(replace(setup, address="1.2.3.4:5"))
 
 
 def test_nobody_at_the_address_is_told_on_the_page(room: Room) -> None:
