@@ -115,6 +115,7 @@ HELP: Mapping[Topic, Help] = MappingProxyType(
                 ("Improvise", "you trade bars; each turn is judged by six things, and says what it saw"),
                 ("The drummers", "each has a manner; choose one by what is said of them"),
                 ("Pads", "below the page: the snare begins, the others turn what stands on them, More has the rest"),
+                ("Who", "also a friend on the network, at another station: one hosts, the other joins"),
                 ("The board", "who is on, how much of the turn is left, what the last turns were worth and why"),
                 ("Pause", "or Backspace; two kicks begin a battle, but never end or pause one"),
                 ("Stop", "or Esc: it ends here and is kept"),

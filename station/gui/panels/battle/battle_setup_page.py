@@ -122,9 +122,9 @@ class BattleSetupPage:
 
     def _waiting(self, friend: FriendShown) -> None:
         """Who is waited for, how they come here, and the way back."""
-        theme.heading(friend.waits[0], 24)
+        theme.heading(friend.waits[0], 34)
         for line in friend.waits[1:]:
-            imgui.text_wrapped(line)
+            theme.heading(line, 24)
         if friend.told:
             theme.soft(friend.told)
         if imgui.button(CALL_OFF_LABEL):
