@@ -72,8 +72,8 @@ class BarMemory:
 
     def after(self, keys: Sequence[Hashable]) -> After:
         """What came after each of the contexts that have been heard."""
-        known = [(order, self._after.get(key)) for order, key in enumerate(keys)]
-        return [(order, heard) for order, heard in known if heard is not None]
+        get = self._after.get
+        return [(order, heard) for order, key in enumerate(keys) if (heard := get(key)) is not None]
 
     def learn(self, keys: Sequence[Hashable], chord: int) -> None:
         """Remember that `chord` came in these contexts."""
@@ -134,10 +134,11 @@ def heard_in(after: After) -> int:
 def given(after: After, instrument: int, is_struck: bool) -> After:
     """What is left of it when it is known whether an instrument is struck."""
     bit, wanted = 1 << instrument, is_struck << instrument
-    left = [
-        (order, {chord: times for chord, times in heard.items() if chord & bit == wanted}) for order, heard in after
+    return [
+        (order, left)
+        for order, heard in after
+        if (left := {chord: times for chord, times in heard.items() if chord & bit == wanted})
     ]
-    return [(order, heard) for order, heard in left if heard]
 
 
 def evidence_of(steps: Steps) -> NDArray[np.float32]:

@@ -95,7 +95,9 @@ class BeatModel:
 
     def divisions(self, steps: Steps, beats: NDArray[np.int64], music: Music, memory: float = 1.0) -> Floats:
         """The probabilities (m, d) of the divisions of `beats` (m,), given all before them."""
-        counts = np.stack([_counts(steps, int(beat)) for beat in beats])
+        counts = np.zeros((len(beats), len(DIVISIONS)))
+        if memory:
+            counts = np.stack([_counts(steps, int(beat)) for beat in beats])
         return self.divisions_after(division_rows(steps, beats, music), counts, memory)
 
     def divisions_after(self, rows: NDArray[np.float32], counts: Floats, memory: float) -> Floats:

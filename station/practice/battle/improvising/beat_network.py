@@ -7,6 +7,7 @@ to 1, and bits are honest. Trained by `tools/train_battle_model.py`; here it onl
 """
 
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -56,7 +57,15 @@ class BeatNetwork:
 
     def begun(self, rows: Floats) -> tuple[Floats, Floats]:
         """The hidden sums (m, h) before anything is struck, and what goes past them (m, 9)."""
-        return rows @ self.seen + self.seen_bias, rows @ self.straight + self.asked_bias
+        weights, bias = self._both
+        both: Floats = rows @ weights + bias
+        return both[:, : len(self.seen_bias)], both[:, len(self.seen_bias) :]
+
+    @cached_property
+    def _both(self) -> tuple[Floats, Floats]:
+        """`seen` and `straight` side by side (i, h + 9), and their biases: one product for both."""
+        bias = np.concatenate([self.seen_bias, self.asked_bias])
+        return np.concatenate([self.seen, self.straight], axis=1), bias
 
     def question(self, instrument: int, hidden: Floats) -> Floats:
         """What the hidden sums (m, h) add to the log-odds (m,) of one instrument."""

@@ -172,7 +172,8 @@ def earlier_offsets(cell: NDArray[np.int64], beats_a_bar: int) -> NDArray[np.int
 
 def amounts(steps: Steps, beat: NDArray[np.int64] | int) -> NDArray[np.float32]:
     """Strokes a beat of each instrument in the last beats before `beat`, one or (m,)."""
-    past = [(steps.counts[beat] - steps.counts[np.maximum(beat - span, 0)]) / np.float32(span) for span in _SPANS]
+    counts = steps.counts
+    past = [(counts[beat] - counts[np.maximum(beat - span, 0)]) / np.float32(span) for span in _SPANS]
     return np.concatenate(past, axis=-1)
 
 
@@ -210,6 +211,9 @@ def past_divisions(steps: Steps, which: NDArray[np.int64]) -> NDArray[np.float32
     """How the last beats, and those of the last bars, were divided, seen from beats (m,)."""
     lags = (1, 2, 3, steps.beats_a_bar, 2 * steps.beats_a_bar, 4 * steps.beats_a_bar)
     past = which[:, None] - np.array(lags)
-    said = steps.division[np.maximum(past, 0)][:, :, None] == np.array(DIVISIONS)
-    said &= (past >= 0)[:, :, None]
-    return np.asarray(said.reshape(len(which), -1), np.float32)
+    said: NDArray[np.float32] = _ONE_OF[steps.division[np.maximum(past, 0)]] * (past >= 0)[:, :, None]
+    return said.reshape(len(which), -1)
+
+
+_ONE_OF = (np.arange(max(DIVISIONS) + 1)[:, None] == np.array(DIVISIONS)).astype(np.float32)
+"""By number of cells, which of the divisions it is: a one among zeros."""
