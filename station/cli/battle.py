@@ -9,7 +9,8 @@ from station.cli.battling.battle_video import check_film, film_battle
 from station.cli.console import print_json, say, write
 from station.cli.options.device_option import wanted_kits
 from station.cli.options.option_fields import Command
-from station.core.errors import BadInput, StationError
+from station.cli.options.virtual_students import whose
+from station.core.errors import BadInput, DeviceError, StationError
 from station.core.settings import Settings
 from station.practice.battle.battle_result import BattleResult
 from station.practice.battle.battle_rules import BattleRules
@@ -37,8 +38,11 @@ def run(options: BattleOptions) -> int:
         return 0
     if options.network.is_wanted:
         return _over_network(options, settings)
-    rules = battle_rules(options, settings)
-    specs = _virtual_players(options, rules, settings)
+    specs = _virtual_players(options, settings)
+    settings = whose(settings, options.student) if specs else settings
+    rules = battle_rules(options, settings, specs)
+    if not specs:
+        _check_ports(rules)
     with BattleFolder.make(options.report, settings, rules.opponent) as folder:
         if specs:
             fault = _virtual(rules, specs, folder, options)
@@ -47,7 +51,7 @@ def run(options: BattleOptions) -> int:
             fault = _live(rules, settings, folder, options)
     if fault is not None:
         raise fault
-    if options.video.film is not None:
+    if options.video.film is not None and folder.capture.exists():
         film_battle(kept_battle(folder.path), options.video, settings)
     return 0
 
@@ -61,8 +65,9 @@ def _over_network(options: BattleOptions, settings: Settings) -> int:
         return 0
     if len(options.players) > 1:
         raise BadInput("--players", f"{len(options.players)}", "one plays at each station of a network")
-    rules = battle_rules(options, settings)
-    specs = _virtual_players(options, rules, settings)
+    specs = _virtual_players(options, settings)
+    settings = whose(settings, options.student) if specs else settings
+    rules = battle_rules(options, settings, specs)
     with BattleFolder.make(options.report, settings, "network") as folder:
         spec = specs[0] if specs else None
         fault = play_over_network(NetworkBattle(rules, settings, options.network, spec, folder, options.json))
@@ -96,7 +101,16 @@ def _live(rules: BattleRules, settings: Settings, folder: BattleFolder, options:
 
 
 def _leave(folder: BattleFolder, result: BattleResult, options: BattleOptions) -> None:
-    """Keep a battle and print its report; what the disk refuses is said after the report was printed."""
+    """Keep a battle and print its report; what the disk refuses is said after the report was printed.
+
+    One that nobody played is not kept.
+    """
+    if not result.is_played:
+        folder.discard()
+        if options.json:
+            print_json(battle_document(result))
+        say("nobody has played a stroke: the battle is not kept")
+        return
     refused: StationError | None = None
     try:
         folder.write(result)
@@ -115,16 +129,29 @@ def _print(result: BattleResult, options: BattleOptions) -> None:
         write(battle_report(result), end="", flush=True)
 
 
-def _virtual_players(options: BattleOptions, rules: BattleRules, settings: Settings) -> tuple[str, ...]:
-    """Who plays instead of people, a line each; none where people play."""
-    specs = tuple(options.virtual_student)
+def _virtual_players(options: BattleOptions, settings: Settings) -> tuple[str, ...]:
+    """Who plays instead of people, a line each; none where people play, as they do on kits that are named."""
+    specs, players = tuple(options.virtual_student), max(len(options.players), 1)
+    if not specs and any(player.device for player in options.players):
+        return ()
     if not specs and (options.headless or not _is_kit_there(settings.kit)):
         if not options.headless:
             say("no kit here: a virtual student plays instead")
         specs = (STAND_IN,)
-    if specs and len(specs) not in (1, len(rules.players)):
-        raise BadInput("--virtual-student", f"{len(specs)} of them", f"expected 1 or {len(rules.players)}")
-    return specs * len(rules.players) if len(specs) == 1 else specs
+    if specs and len(specs) not in (1, players):
+        raise BadInput("--virtual-student", f"{len(specs)} of them", f"expected 1 or {players}")
+    return specs * players if len(specs) == 1 else specs
+
+
+def _check_ports(rules: BattleRules) -> None:
+    """Raise `DeviceError` where a kit that was named is not there."""
+    from station.devices.device_ports import devices_there, no_device, parse_device
+
+    named = {player: parse_device(player.device) for player in rules.players if player.device}
+    absent = tuple(request for request in named.values() if not devices_there((request,)))
+    if absent:
+        wanted = ", ".join(f"{player.name} on {player.device!r}" for player in named)
+        raise DeviceError(f"kits are named for this battle ({wanted}): {no_device(absent)}")
 
 
 def _is_kit_there(wanted: str) -> bool:

@@ -11,6 +11,7 @@ from station.cli.console import print_json, say, write
 from station.cli.input.enter_keys import NextEnter, enter_keys
 from station.cli.options.device_option import devices_option, wanted_kits
 from station.cli.options.option_fields import Command, choice, flag, number, option, optional_argument, whole_number
+from station.cli.options.virtual_students import whose
 from station.core.disk.files import write_whole
 from station.core.errors import BadInput, StationError
 from station.core.settings import Settings
@@ -59,6 +60,8 @@ def run(options: ExamOptions) -> int:
     if options.rubric:
         _print(exam_document(piece, None, seen_before=False), rubric_text(piece), options.json)
         return 0
+    if options.virtual_student is not None:
+        settings = whose(settings, options.student)
     say(rubric_text(piece))
     fault = _hold(Sitting.begin(piece, settings, options.report), options, settings)
     if fault is not None:

@@ -11,6 +11,7 @@ from station.app.settings.settings_store import SettingsStore
 from station.cli.console import say
 from station.cli.options.device_option import wanted_kits, wanted_sticks
 from station.cli.options.option_fields import Command
+from station.cli.options.virtual_students import whose
 from station.cli.practising.practice_options import PracticeOptions
 from station.cli.practising.practice_plan import AskedPractice, asked_practice, lesson_of
 from station.cli.practising.practice_report import leave_report
@@ -87,6 +88,7 @@ def _virtual(asked: AskedPractice, spec: str, options: PracticeOptions, settings
     from station.simulation.student_spec import parse_spec
 
     student, plan = parse_spec(spec), asked.plan
+    settings = whose(settings, options.student)
     remembered = _remembered(asked, settings, options.student is not None) if options.adapt else None
     with SessionFolder.make(options.report, settings, plan.lesson.name) as folder:
         if remembered is None:

@@ -274,7 +274,7 @@ class BattlePage:
     def _judge(self, level: Level) -> str:
         """Judge the battle that is over by other windows; what is kept stays. Raises `BadInput`."""
         battle = self._sessions.practice.battle
-        if self.stage is not BattleStage.OVER or battle is None or battle.outcome is None:
+        if self.stage is not BattleStage.OVER or battle is None or battle.outcome is None or battle.folder is None:
             return ""
         if not battle.can_be_judged_again:
             raise DeviceError("the friend's strokes are at their station: it cannot be judged again here")

@@ -24,7 +24,8 @@ def result_of(result: BattleResult, folder: str = "") -> BattleResultShown:
         (_whole(result, shown), *rows) if rows else (),
         folder,
         "" if failed is None else _failed_words(failed),
-        judged_as=rules.level if rules.mode is BattleMode.REPEAT else None,
+        judged_as=rules.level if rules.mode is BattleMode.REPEAT and result.is_played else None,
+        told="" if result.is_played else "Nobody has played a stroke: the battle is not kept",
         advice=advice_lines(result),
     )
 

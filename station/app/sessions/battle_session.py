@@ -187,7 +187,7 @@ class BattleSession:
 
     @property
     def folder(self) -> Path | None:
-        """Where it is kept, None before it began."""
+        """Where it is kept, None before it began, and where nobody has played."""
         return None if self._folder is None else self._folder.path
 
     def judged_as(self, level: Level) -> BattleResult:
@@ -213,7 +213,11 @@ class BattleSession:
         """What else its end means."""
 
     def _keep(self, folder: BattleFolder, outcome: BattleResult) -> None:
-        """Write what came of it; raises `StationError`."""
+        """Write what came of it, unless nobody has played; raises `StationError`."""
+        if not outcome.is_played:
+            self._folder = None
+            folder.discard()
+            return
         folder.write(outcome)
 
 

@@ -1,6 +1,6 @@
 """The options of `station battle`, and the rules that they make."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from types import MappingProxyType
@@ -20,12 +20,13 @@ from station.cli.options.option_fields import (
     whole_number,
 )
 from station.cli.options.sound_options import SoundOptions
+from station.cli.options.virtual_students import virtual_name
 from station.core.errors import BadInput
 from station.core.settings import Settings, setting_source
 from station.practice.battle.battle_rules import TURN_BARS, BattleMode, BattleRules
 from station.practice.battle.ground import Feel, Ground
 from station.practice.battle.opponents.opponent import OPPONENTS, USUAL_OPPONENT, find_opponent
-from station.practice.battle.people.player import Player
+from station.practice.battle.people.player import Player, virtual_device
 from station.practice.battle.records.earlier_rounds import expected_of
 from station.practice.battle.repeating.demands import MOST_STEP
 from station.practice.session.cues.click_options import parse_click
@@ -107,8 +108,11 @@ class BattleOptions:
     sound: SoundOptions = group(SoundOptions, "sound")
 
 
-def battle_rules(options: BattleOptions, settings: Settings) -> BattleRules:
-    """What is agreed; raises `BadInput` for what nobody can play."""
+def battle_rules(options: BattleOptions, settings: Settings, specs: Sequence[str] = ()) -> BattleRules:
+    """What is agreed; `specs` are the virtual students who play, none where people do.
+
+    Raises `BadInput` for what nobody can play.
+    """
     keeps_time = options.mode is BattleMode.IMPROVISE if options.keep_time is None else options.keep_time
     if options.handicap and len(options.players) < 2:
         raise BadInput("--handicap", "", "it is for two players or more; name them with --players")
@@ -118,7 +122,7 @@ def battle_rules(options: BattleOptions, settings: Settings) -> BattleRules:
         ground=_ground(options),
         mode=options.mode,
         opponent=find_opponent(options.opponent).name,
-        players=options.players or (Player(settings.student),),
+        players=_who(options, settings, specs),
         rounds=options.rounds,
         has_final=not options.no_final,
         bars=options.bars,
@@ -129,10 +133,20 @@ def battle_rules(options: BattleOptions, settings: Settings) -> BattleRules:
         seed=options.seed,
         click=parse_click(settings.click_pattern, setting_source("click_pattern")),
         keeps_time=keeps_time,
-        expectations=tuple(expected_of(settings.sessions_dir, player.name) for player in options.players)
+        expectations=tuple(expected_of(settings.sessions_dir, player.name, bool(specs)) for player in options.players)
         if options.handicap
         else (),
     )
+
+
+def _who(options: BattleOptions, settings: Settings, specs: Sequence[str]) -> tuple[Player, ...]:
+    """Who plays; virtual students sit at kits of their own where people would."""
+    if not options.players:
+        return (Player(virtual_name(specs[0]) if specs and options.student is None else settings.student),)
+    if not specs:
+        return options.players
+    sides = enumerate(options.players, 1)
+    return tuple(replace(one, device=virtual_device(side)) if one.device else one for side, one in sides)
 
 
 def _ground(options: BattleOptions) -> Ground:

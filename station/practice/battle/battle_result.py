@@ -171,6 +171,13 @@ class BattleResult:
     devices: tuple[str | None, ...] = ()
 
     @property
+    def is_played(self) -> bool:
+        """Whether any stroke of a player was heard, here or at another station."""
+        answers = (turn.played for turn in self.turns if turn.planned.side != DRUMMER)
+        has_strokes = any(played is not None and len(played.played) > 0 for played in answers)
+        return has_strokes or any(device is not None for device in self.devices[1:])
+
+    @property
     def standings(self) -> tuple[Standing, ...]:
         """Every side's standing, the drummer's first."""
         return standings(self.rules, self.turns)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from station.core.errors import DeviceError, StationError
 from station.practice.battle.battle import Battle
+from station.practice.battle.people.player import virtual_device
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.headless.engine_here import EngineHere
 from station.practice.headless.live import begin, end
@@ -16,11 +17,6 @@ Performer = Callable[[PlannedTurn, Battle], Sequence[TimedBytes]]
 """A virtual player: what they play in an answer, as bytes with their times from its downbeat in ns, in order."""
 _Coming = tuple[int, int, str, bytes]
 """A session time, a count that keeps the order, the device, its bytes."""
-
-
-def virtual_device(side: int) -> str:
-    """What a virtual player's kit is called."""
-    return f"virtual player {side}"
 
 
 def battle_virtually(

@@ -25,6 +25,8 @@ _LONGEST = 80
 """Our choice: two such names and a date stay far below every file system's 255 bytes, even of four-byte letters."""
 OWN_FOLDERS = frozenset({"assignments", "courses", "lessons", "returns", "styles"})
 """What lies beside the students' folders: given and returned parcels, what the user has written."""
+VIRTUAL_STUDENT = "virtual student"
+"""Whose a session is that a virtual student plays who was given no name: nobody's who practises here."""
 _RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{n}" for port in ("COM", "LPT") for n in range(10))}
 """Names that Windows keeps for itself."""
 _UNSAFE = re.compile(r"[^\w.-]+")

@@ -7,7 +7,14 @@ from pathlib import Path
 
 from station.core.errors import BadInput
 from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import DOCUMENT_NAME, OWN_FOLDERS, alike, student_folder
+from station.practice.records.session_files import (
+    DOCUMENT_NAME,
+    OWN_FOLDERS,
+    VIRTUAL_STUDENT,
+    alike,
+    folder_name,
+    student_folder,
+)
 
 _SESSIONS = "????-??-??T??-??-??_*"
 _MARKS = ("mastery", "book")
@@ -41,6 +48,8 @@ def known_students(sessions: Path, named: Iterable[str]) -> tuple[KnownStudent, 
     first = len(found)
     for folder in _folders(sessions):
         started = _started(folder)
+        if folder.name == folder_name(VIRTUAL_STUDENT):
+            continue
         if alike(folder.name) not in found and (started or any((folder / mark).is_dir() for mark in _MARKS)):
             found[alike(folder.name)] = _reported_name(folder, started), started
     everyone = list(found.values())

@@ -28,7 +28,7 @@ def test_every_opponent_plays_both_modes(
     assert said["schema"] == "drum-station/battle/1"
     assert [turn["kind"] for turn in said["rounds"][0]["turns"]] == ["call", "answer"]
     assert json.loads((tmp_path / "battle.json").read_text()) == said
-    assert (tmp_path / "battle.txt").read_text().startswith("student against ")
+    assert (tmp_path / "battle.txt").read_text().startswith("Virtual pro against ")
 
 
 def test_the_same_seed_is_the_same_battle_and_judging_it_again_gives_it_once_more(

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from station.core.errors import BadInput
+from station.practice.records.session_files import VIRTUAL_STUDENT
 
 MOST_PLAYERS = 4
 """On one computer (our choice: whoever waits longer than three turns goes for a drink)."""
@@ -25,6 +26,19 @@ class Player:
     def plays_on(self, device: str) -> bool:
         """Whether a stroke on `device` is theirs."""
         return self.device.lower() in device.lower()
+
+
+def virtual_device(side: int) -> str:
+    """What the kit of a virtual player on a `side` is called."""
+    return f"{_VIRTUAL_PLAYER} {side}"
+
+
+def is_virtual(device: str | None) -> bool:
+    """Whether a virtual player's strokes come from `device`, here or at the other end of a network."""
+    return device is not None and (device == VIRTUAL_STUDENT or device.startswith(f"{_VIRTUAL_PLAYER} "))
+
+
+_VIRTUAL_PLAYER = "virtual player"
 
 
 def check_players(players: Sequence[Player]) -> None:

@@ -10,7 +10,7 @@ from datetime import datetime
 from pathlib import Path
 
 from station.core.disk.files import write_whole
-from station.core.errors import BadInput
+from station.core.errors import BadInput, DeviceError
 from station.core.settings import Settings
 from station.devices.capture.capture import read_capture
 from station.practice.battle.battle_result import BattleResult
@@ -69,6 +69,14 @@ class BattleFolder:
         """Keep a battle that is over as a document and in words; raises `DeviceError`."""
         write_document(self.path / DOCUMENT_NAME, document)
         write_whole(self.report, report.encode())
+
+    def discard(self) -> None:
+        """Leave nothing of a battle that nobody played; raises `DeviceError`."""
+        try:
+            self.capture.unlink(missing_ok=True)
+        except OSError as fault:
+            raise DeviceError(f"{self.capture}: it stays: {fault.strerror or fault}") from fault
+        self.__exit__()
 
     def __enter__(self) -> "BattleFolder":
         return self

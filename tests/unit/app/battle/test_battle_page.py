@@ -11,6 +11,7 @@ from station.app.actions.battle_actions import (
     BeginBattle,
     ChooseBattle,
     CloseBattle,
+    JudgeBattle,
     OpenBattle,
     PractiseFailed,
     ReplayBest,
@@ -33,6 +34,7 @@ from station.engine.messages import AddCues, Play, RecordCapture, Started
 from station.practice.battle.battle_rules import BattleMode
 from station.practice.battle.turn_plan import TurnKind
 from station.practice.session.plan import PlanOptions, plan_practice
+from station.scoring.matching.hit_windows import Level
 from tests.fakes.stations import Line, station_on, store_with
 
 PLAN = plan_practice(find_lesson("rock-1"), PlanOptions(loops=1, demonstrations=0))
@@ -76,6 +78,12 @@ def starts(line: Line, station: Controller) -> None:
         station.update(2 + frame)
     line.says.append(Started(NS_PER_S))
     station.update(NS_PER_S + 1)
+
+
+def strikes(line: Line, station: Controller, piece: Piece = Piece.CRASH_1) -> None:
+    """Somebody strikes once, in the first bars."""
+    line.says.append(Hit(6 * NS_PER_S, piece, Zone.EDGE, 100))
+    station.update(6 * NS_PER_S)
 
 
 def over(line: Line, station: Controller, plays: bool) -> None:
@@ -175,8 +183,23 @@ def test_whoever_plays_all_back_wins_and_it_is_kept(line: Line, station: Control
     assert any(isinstance(command, AddCues) for command in line.heard)
 
 
-def test_whoever_plays_nothing_loses_and_may_practise_it(line: Line, station: Controller, tmp_path: Path) -> None:
+def test_a_battle_that_nobody_played_is_not_kept(line: Line, station: Controller, tmp_path: Path) -> None:
     begun(line, station)
+    over(line, station, plays=False)
+    result = shown(station).result
+    assert result is not None
+    assert result.told == "Nobody has played a stroke: the battle is not kept"
+    assert (result.folder, result.judged_as) == ("", None), "nothing is left to film or to judge again"
+    assert not list(tmp_path.rglob("battle.*"))
+    station.dispatch(JudgeBattle(Level.STUDIO))
+    assert shown(station).result == result
+
+
+def test_whoever_plays_something_else_loses_and_may_practise_it(
+    line: Line, station: Controller, tmp_path: Path
+) -> None:
+    begun(line, station)
+    line.says.append(Hit(6 * NS_PER_S, Piece.COWBELL, Zone.HEAD, 100))
     over(line, station, plays=False)
     result = shown(station).result
     assert result is not None
@@ -193,6 +216,7 @@ def test_whoever_plays_nothing_loses_and_may_practise_it(line: Line, station: Co
 
 def test_a_battle_that_is_stopped_has_no_winner_and_is_kept(line: Line, station: Controller, tmp_path: Path) -> None:
     begun(line, station)
+    strikes(line, station)
     station.dispatch(EndSession())
     assert shown(station).stage is BattleStage.OVER
     result = shown(station).result
@@ -203,6 +227,7 @@ def test_a_battle_that_is_stopped_has_no_winner_and_is_kept(line: Line, station:
 
 def test_closing_the_window_keeps_the_battle(line: Line, station: Controller, tmp_path: Path) -> None:
     begun(line, station)
+    strikes(line, station)
     assert kept(tmp_path) == []
     station.close()
     assert len(kept(tmp_path)) == 1
@@ -210,8 +235,9 @@ def test_closing_the_window_keeps_the_battle(line: Line, station: Controller, tm
 
 def test_an_engine_that_dies_ends_it_with_what_was_played(line: Line, station: Controller, tmp_path: Path) -> None:
     begun(line, station)
+    strikes(line, station)
     line.dead = True
-    station.update(2 * NS_PER_S)
+    station.update(7 * NS_PER_S)
     assert station.view().toast
     assert shown(station).stage is BattleStage.OVER
     assert len(kept(tmp_path)) == 1

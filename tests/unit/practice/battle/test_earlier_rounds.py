@@ -7,13 +7,16 @@ import pytest
 from station.practice.battle.records.battle_folder import DOCUMENT_NAME
 from station.practice.battle.records.earlier_rounds import expected_of
 
+SCORES = '"scores": [{"name": "Ann", "drummer": false, "device": %s}]'
 TURN = '{"kind": "answer", "name": "Ann", "won": null, "marks": {"points": %s}}'
 
 
-def leave(sessions: Path, points: str) -> None:
+def leave(sessions: Path, points: str, device: str = '"TD-17"') -> None:
     folder = sessions / "Ann" / "2026-01-01T10-00-00_battle-steady"
     folder.mkdir(parents=True)
-    (folder / DOCUMENT_NAME).write_text('{"rounds": [{"step": null, "turns": [' + TURN % points + "]}]}")
+    (folder / DOCUMENT_NAME).write_text(
+        '{"rounds": [{"step": null, "turns": [' + TURN % points + "]}], " + SCORES % device + "}"
+    )
 
 
 @pytest.mark.parametrize("points", ["1e999", "-1e999", "NaN", "101", "-1", '"inf"', '"x"'])
@@ -25,3 +28,14 @@ def test_points_that_no_turn_has_say_nothing(points: str, tmp_path: Path) -> Non
 def test_points_of_a_turn_are_read(tmp_path: Path) -> None:
     leave(tmp_path, "95")
     assert expected_of(tmp_path, "Ann").points == pytest.approx((7 * 55 + 95) / 8)  # by hand: filled up to 8 turns
+
+
+def test_a_virtual_player_of_a_name_is_not_the_person_of_that_name(tmp_path: Path) -> None:
+    leave(tmp_path, "95", '"virtual player 1"')
+    assert expected_of(tmp_path, "Ann") == expected_of(tmp_path, "nobody")
+    assert expected_of(tmp_path, "Ann", virtual=True).points == pytest.approx((7 * 55 + 95) / 8)
+
+
+def test_a_battle_in_which_nothing_of_theirs_was_heard_says_nothing(tmp_path: Path) -> None:
+    leave(tmp_path, "0", "null")
+    assert expected_of(tmp_path, "Ann") == expected_of(tmp_path, "nobody")
