@@ -42,11 +42,23 @@ def headline(view: BattleView) -> str:
         Doing.WAITING: "It begins at once",
         Doing.COUNT_IN: "Count-in",
         Doing.CALL: f"Listen to {in_a_sentence(name)}" if repeats else f"{name} plays",
-        Doing.ANSWER: f"{whose}: play it back" if repeats else f"{whose}: the bars are yours",
+        Doing.ANSWER: f"{whose}: play it back" if repeats else f"{whose}: {_in_the_bars(view, turn)}",
         Doing.CHANGEOVER: f"Change seats: {name} is next",
         Doing.PAUSED: "Paused",
         Doing.OVER: "Over",
     }[view.doing]
+
+
+def _in_the_bars(view: BattleView, turn: TurnView | None) -> str:
+    """What to do in one's own bars; the last asks for the stroke after it (`judging.time_kept`)."""
+    share = None if turn is None else _share(view, turn)
+    if turn is None or share is None or share < max(1.0 - 1.0 / turn.bars, LAND_FROM):
+        return "the bars are yours"
+    return "land on one"
+
+
+LAND_FROM = 0.5
+"""Of a turn of one bar the second half is its last (our choice)."""
 
 
 def in_a_sentence(title: str) -> str:

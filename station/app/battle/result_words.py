@@ -8,6 +8,7 @@ from station.practice.battle.battle_result import BattleResult, JudgedTurn, is_l
 from station.practice.battle.battle_rules import DRUMMER, FINAL_WEIGHT, BattleMode, BattleRules
 from station.practice.battle.judging.improvisation_marks import Component, ImprovisationMarks
 from station.practice.battle.records.battle_advice import advice_lines
+from station.practice.battle.records.handicap_words import handicap_words
 from station.practice.battle.repeating.answer_marks import AnswerMarks
 
 _NOBODY = "—"
@@ -25,9 +26,16 @@ def result_of(result: BattleResult, folder: str = "") -> BattleResultShown:
         folder,
         "" if failed is None else _failed_words(failed),
         judged_as=rules.level if rules.mode is BattleMode.REPEAT and result.is_played else None,
-        told="" if result.is_played else "Nobody has played a stroke: the battle is not kept",
+        told=_told(result),
         advice=advice_lines(result),
     )
+
+
+def _told(result: BattleResult) -> str:
+    """What is to be known of the whole: that it is not kept, or what decides it."""
+    if not result.is_played:
+        return "Nobody has played a stroke: the battle is not kept"
+    return handicap_words(result) if result.is_complete and result.rules.has_handicap else ""
 
 
 def compared_sides(rules: BattleRules) -> tuple[int, ...]:
@@ -42,7 +50,15 @@ def winner_words(result: BattleResult) -> str:
         return "A draw" if result.is_complete else "Stopped: nobody has won"
     if winner == DRUMMER:
         return f"{names[DRUMMER]} wins this time"
-    return f"You win against {in_a_sentence(names[DRUMMER])}" if result.rules.is_solo else f"{names[winner]} wins"
+    return (
+        f"You win against {in_a_sentence(names[DRUMMER])}"
+        if result.rules.is_solo
+        else _among_players(result, names[winner])
+    )
+
+
+def _among_players(result: BattleResult, name: str) -> str:
+    return f"{name} wins on the handicap" if result.rules.has_handicap else f"{name} wins"
 
 
 # --- the table -------------------------------------------------------------------------------------------------------

@@ -14,7 +14,8 @@ from station.devices.device_ports import no_device
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
 from station.practice.battle.battle import Battle
-from station.practice.battle.battle_rules import BattleRules
+from station.practice.battle.battle_rules import BattleMode, BattleRules
+from station.practice.battle.battle_words import LANDING_WORDS
 from station.practice.battle.drummed import drummed
 from station.practice.headless.battle_text import BattleText
 from station.practice.headless.end_signals import end_asked
@@ -26,6 +27,12 @@ from station.practice.session.device_latency import latency_of
 
 KIT_WAIT_S = 5.0
 """How long to look for kits before giving up (as in practice)."""
+
+
+def how_it_counts(rules: BattleRules) -> str:
+    """What to know before the count-in, in a few lines."""
+    lines = [level_words(rules.level), LEGEND]
+    return "\n".join([*lines, LANDING_WORDS] if rules.mode is BattleMode.IMPROVISE else lines)
 
 
 def battle_in_terminal(rules: BattleRules, settings: Settings, capture: Path, until_saved: ExitStack) -> LiveBattle:
@@ -46,7 +53,7 @@ def battle_in_terminal(rules: BattleRules, settings: Settings, capture: Path, un
         if absent:
             here = ", ".join(battle.heard.devices)
             raise DeviceError(f"{absent[0].name} has no kit: {absent[0].device!r} is not among {here}")
-        telling.attempt(say, f"\n{level_words(rules.level)}\n{LEGEND}", end="")
+        telling.attempt(say, f"\n{how_it_counts(rules)}", end="")
         setup = BattleSetup(engine, clock, text.show, telling)
         setup = replace(setup, asked=until_saved.enter_context(end_asked()))
         return battle_live(setup, battle, capture)

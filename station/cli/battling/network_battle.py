@@ -15,6 +15,7 @@ from station.core.settings import Settings
 from station.engine.engine_config import EngineConfig
 from station.engine.supervisor import EngineSupervisor
 from station.practice.battle.battle_rules import BattleMode, BattleRules
+from station.practice.battle.battle_words import LANDING_WORDS
 from station.practice.battle.drummed import drummed
 from station.practice.battle.link.link_socket import address_of, own_address
 from station.practice.battle.link.linked_battle import LinkedBattle
@@ -66,6 +67,8 @@ def play_over_network(asked: NetworkBattle) -> StationError | None:
         if met is None:
             return None
         say(_agreed_words(met.agreed))
+        if met.agreed.rules.mode is BattleMode.IMPROVISE:
+            say(LANDING_WORDS)
         battle = LinkedBattle(met.agreed, station.line, drummed, latency_of(asked.settings, load_calibration()))
         if isinstance(engine, VirtualPartner):
             engine.battle = battle

@@ -10,6 +10,10 @@ def round_words(rules: BattleRules, number: int) -> str:
     return "the final" if rules.is_final(number) else f"round {number} of {rules.rounds}"
 
 
+LANDING_WORDS = "Land on one: the stroke on the downbeat after your bars is a quarter of what your time is worth."
+"""Said before improvised turns (`judging.time_kept`)."""
+
+
 def message_of(rules: BattleRules, doing: Doing, turn: PlannedTurn | None) -> str:
     """The line to read now; empty where there is nothing to say."""
     if doing is Doing.CHANGEOVER and turn is not None:

@@ -9,6 +9,7 @@ from station.practice.battle.battle_words import round_words
 from station.practice.battle.judging.improvisation_marks import ImprovisationMarks
 from station.practice.battle.records.battle_advice import advice_lines
 from station.practice.battle.records.battle_document import side_name
+from station.practice.battle.records.handicap_words import handicap_words
 from station.practice.battle.repeating.answer_marks import AnswerMarks
 from station.practice.battle.turn_marks import TurnMarks
 
@@ -47,6 +48,8 @@ def _competing(result: BattleResult) -> tuple[int, ...]:
 
 
 def _outcome(result: BattleResult) -> str:
+    if result.is_complete and result.rules.has_handicap:
+        return handicap_words(result)
     if result.winner is not None:
         return f"Won by {side_name(result.rules, result.winner)}"
     return "A draw" if result.is_complete else "Stopped early: nobody has won"
@@ -57,11 +60,10 @@ def _score(result: BattleResult, side: int) -> str:
     parts = [f"{standing.rounds_won} rounds won"]
     if side != DRUMMER or rules.mode is BattleMode.IMPROVISE:
         parts.insert(0, f"{standing.points:.0f} points")
-    if standing.handicapped is not None:
-        parts.append(f"{standing.handicapped:.0f} against what was expected (50: as ever)")
     if standing.lives is not None:
         parts.append(f"{standing.lives} of {rules.lives} lives left")
-    return f"{side_name(rules, side)}: {', '.join(parts)}"
+    played = " as played" if standing.handicapped is not None else ""
+    return f"{side_name(rules, side)}{played}: {', '.join(parts)}"
 
 
 def _round(result: BattleResult, turns: Iterable[JudgedTurn]) -> Iterator[str]:
