@@ -208,14 +208,17 @@ class LessonList:
         room = imgui.get_content_region_avail().x - (0.0 if progress is None else mark_width())
         high, at = imgui.calc_text_size(words, False, room).y, imgui.get_cursor_screen_pos()
         pressed, _ = imgui.selectable(f"###{card.name}", chosen, 0, imgui.ImVec2(0, high))
+        if not imgui.is_item_visible():
+            if chosen and self._is_chosen_anew:
+                imgui.set_scroll_here_y()
+            return card if pressed else None
         brush, ink = imgui.get_window_draw_list(), imgui.get_color_u32(imgui.Col_.text)
         brush.add_text(imgui.get_font(), imgui.get_font_size(), at, ink, words, room)
-        if chosen and self._is_chosen_anew and not imgui.is_item_visible():
-            imgui.set_scroll_here_y()
         mark(progress, today)
-        facts = f"{bars_of(card)}, {card.meter}, {card.beats_a_minute:g} bpm"
-        far = [] if progress is None else [progress.words(today)]
-        theme.tooltip("\n".join([card.title, card.about, facts, *selection.first_words(card), *far]))
+        if imgui.is_item_hovered():
+            facts = f"{bars_of(card)}, {card.meter}, {card.beats_a_minute:g} bpm"
+            far = [] if progress is None else [progress.words(today)]
+            theme.tooltip("\n".join([card.title, card.about, facts, *selection.first_words(card), *far]))
         return card if pressed else None
 
 
