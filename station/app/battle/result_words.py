@@ -50,15 +50,9 @@ def winner_words(result: BattleResult) -> str:
         return "A draw" if result.is_complete else "Stopped: nobody has won"
     if winner == DRUMMER:
         return f"{names[DRUMMER]} wins this time"
-    return (
-        f"You win against {in_a_sentence(names[DRUMMER])}"
-        if result.rules.is_solo
-        else _among_players(result, names[winner])
-    )
-
-
-def _among_players(result: BattleResult, name: str) -> str:
-    return f"{name} wins on the handicap" if result.rules.has_handicap else f"{name} wins"
+    if result.rules.is_solo:
+        return f"You win against {in_a_sentence(names[DRUMMER])}"
+    return f"{names[winner]} wins{' on the handicap' if result.rules.has_handicap else ''}"
 
 
 # --- the table -------------------------------------------------------------------------------------------------------

@@ -19,11 +19,8 @@ def handicap_words(result: BattleResult) -> str:
     are_told_apart = len({f"{one:.0f}" for one in worth.values()}) == len(worth)
     told = [f"{worth[side]:{'.0f' if are_told_apart else '.1f'}}" for side in order]
     names = [rules.player_of(side).name for side in order]
-    unknown = [
-        rules.player_of(side).name
-        for side in rules.player_sides
-        if not _is_known(rules.expectations[side - 1], rules.mode)
-    ]
+    players = zip(rules.players, rules.expectations, strict=True)
+    unknown = [player.name for player, expected in players if not _is_known(expected, rules.mode)]
     foretold = f"what their own earlier battles foretell ({AS_EVER})"
     if len(unknown) == len(names):
         foretold = f"what is usual ({AS_EVER})"
