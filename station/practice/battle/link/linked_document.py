@@ -18,7 +18,8 @@ def linked_result(battle: LinkedBattle) -> BattleResult:
         first_bar = 0 if planned is None else planned.first_bar
         turns.append(replace(turn, planned=replace(turn.planned, first_bar=first_bar)))
     devices: list[str | None] = [None, None, None]
-    devices[battle.agreed.our_side] = battle.heard.devices[-1] if battle.heard.devices else None
+    our_side = battle.agreed.our_side
+    devices[our_side] = battle.ear.strokes.device_of(battle.rules.player_of(our_side))
     is_complete = battle.ended is LinkEnd.COMPLETE
     return BattleResult(battle.rules, tuple(turns), is_complete, battle.latency, battle.heard.output, tuple(devices))
 

@@ -6,6 +6,7 @@ from functools import cache
 import msgspec
 import pytest
 
+from station.core.events import DeviceFound
 from station.core.pieces import Piece
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.practice.battle.battle_rules import BattleMode, BattleRules
@@ -210,6 +211,20 @@ def test_who_vanishes_ends_the_battle_for_the_other_and_what_stands_is_kept(mode
     assert kept == claims(guest.battle)[: len(kept)]
     assert network_fields(host)["agree"] is False  # nobody said what they have
     assert not linked_result(host).is_complete
+
+
+def test_who_has_played_nothing_has_no_device_in_the_record() -> None:
+    stations = TwoStations(
+        rules(BattleMode.IMPROVISE, 1), Network(), (PLAYERS[BattleMode.IMPROVISE][0], lambda turn, chance: ())
+    )
+    stations.run(5)
+    battles(stations)[1].handle(DeviceFound(stations.now_ns, "a kit"))
+    stations.run(300)
+    host, guest = (linked_result(battle) for battle in battles(stations))
+    assert host.devices[1] is not None
+    assert guest.devices == (None, None, None), "a kit that is plugged in is no stroke"
+    assert host.is_played
+    assert guest.is_played, "the other's strokes came over the line"
 
 
 def test_who_leaves_says_so(mode: BattleMode) -> None:
