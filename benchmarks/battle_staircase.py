@@ -17,12 +17,14 @@ from station.practice.battle.phrase import Phrase, Turn
 from station.practice.battle.repeating.answer_marks import answer_marks
 from station.practice.battle.repeating.demands import MOST_STEP
 from station.practice.battle.repeating.phrase_to_repeat import phrase_to_repeat, strokes_per_s
-from station.practice.battle.repeating.staircase import TARGET, USUAL_FIRST_STEP, Answered, Staircase
+from station.practice.battle.repeating.staircase import TARGET, Answered, Staircase
 from station.scoring.matching.hit_windows import Level
 from station.simulation.student_spec import parse_spec
 from station.simulation.virtual_student import VirtualStudent
 
 ROUNDS, NEAR, WON = 8, 2, 0.9
+FIRST_STEP = 8
+"""A third of the way up: eight rounds reach both ends."""
 PHRASES_A_STEP = 12
 GROUND = Ground(92)
 LIMITS_HZ = (3.0, 4.5, 6.0, 7.5)
@@ -33,7 +35,7 @@ Wins = Callable[[int, np.random.Generator], bool]
 
 def battle(wins: Wins, rng: np.random.Generator) -> int:
     """The step after eight rounds."""
-    staircase, answered = Staircase(MOST_STEP, USUAL_FIRST_STEP), list[Answered]()
+    staircase, answered = Staircase(MOST_STEP, FIRST_STEP), list[Answered]()
     for _ in range(ROUNDS):
         step = staircase.next_step(answered)
         answered.append(Answered(step, wins(step, rng)))

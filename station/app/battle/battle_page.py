@@ -35,7 +35,7 @@ from station.app.sessions.battle_session import BattleSession, battle_here
 from station.app.sessions.linked_session import LinkedSession, battle_linked
 from station.app.sessions.screen_choice import ScreenChoice
 from station.app.sessions.session_control import SessionControl
-from station.app.settings.chosen_battle import ChosenBattle, chosen_rules, port_of, with_handicap
+from station.app.settings.chosen_battle import ChosenBattle, chosen_rules, port_of
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput, DeviceError
 from station.core.settings import setting_source
@@ -43,7 +43,10 @@ from station.practice.battle.battle_result import BattleResult
 from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.link.linked_rules import Agreed
 from station.practice.battle.link.linked_station import LinkedStation
+from station.practice.battle.records.battle_report import played_on_words
+from station.practice.battle.records.earlier_rounds import after_earlier
 from station.practice.battle.vocabulary.lesson_bars import lesson_bars
+from station.practice.records.memory import LevelMemory
 from station.practice.session.cues.click_options import parse_click
 from station.practice.session.cues.listening import Listening
 from station.scoring.matching.hit_windows import Level
@@ -78,6 +81,7 @@ class BattlePage:
         self._setup = ChosenBattle()
         self._is_open = False
         self._leaf = 0
+        self._level_of = ""  # the student by whose level is judged
         self._told: tuple[BattleResult, BattleResultShown] | None = None
         self._replay: Listening | None = None
         self._friend = FriendLine(self._begin_linked, around.meeting)
@@ -162,7 +166,9 @@ class BattlePage:
         if practice.is_playing and not practice.is_battle:
             self._is_open = False
         stage = self.stage
-        if stage is not BattleStage.CHOOSING and self._friend.waits:
+        if stage is BattleStage.CHOOSING:
+            self._follow_student()
+        elif self._friend.waits:
             self._friend.call_off()
         looks = stage is BattleStage.CHOOSING and self._setup.is_guest
         self._friend.advance(now_ns, looks, stage is BattleStage.PLAYING)
@@ -205,6 +211,14 @@ class BattlePage:
         self._sessions.look()
         self._is_open, self._leaf = True, 0
         self._read_ahead()
+        self._follow_student()
+
+    def _follow_student(self) -> None:
+        """Judge by the student's level until they choose another here."""
+        now = self._store.now
+        if self._level_of != now.student:
+            level = LevelMemory.of(now.sessions_dir, now.student).usual()
+            self._level_of, self._setup = now.student, replace(self._setup, level=level)
 
     def _read_ahead(self) -> None:
         """Have the bars read that the phrases may come from, which takes seconds at first."""
@@ -218,7 +232,7 @@ class BattlePage:
         if self._setup.is_linked:
             self._ask_friend()
             return
-        rules = with_handicap(self._setup, self._rules(), self._store.now.sessions_dir)
+        rules = after_earlier(self._rules(), self._store.now.sessions_dir, self._setup.is_fair)
         self._around.make_ready()
         self._sessions.battle(battle_here(rules))
         self._is_open, self._leaf = True, 0
@@ -227,7 +241,7 @@ class BattlePage:
         """Host, or join: the battle begins once a friend is there."""
         if self._friend.waits or self.stage is BattleStage.PLAYING:
             return
-        rules = self._rules()
+        rules = after_earlier(self._rules(), self._store.now.sessions_dir, has_handicap=False)
         self._around.make_ready()
         if self.stage is BattleStage.OVER:
             self._sessions.leave_battle()
@@ -281,6 +295,8 @@ class BattlePage:
         was, judged = winner_words(battle.outcome), battle.judged_as(level)
         now = winner_words(judged)
         told = f"Judged as {level.words}: {'the same side wins' if now == was else f'{now}; it was: {was}'}"
+        if judged.played_on_after is not None:
+            told += f". {played_on_words(judged)}"
         best = self._result(battle).best
         self._told = battle.outcome, replace(result_of(judged, str(battle.folder)), told=told, best=best)
         return ""

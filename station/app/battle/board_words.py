@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from station.app.battle.battle_shown import BoardShown, Evidence, Verdict
 from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.battle_view import BattleView, Doing, TurnView
+from station.practice.battle.battle_words import points_words as points_in_words
 from station.practice.battle.judging.improvisation_marks import ImprovisationMarks
 from station.practice.battle.opponents.opponent import find_opponent
 from station.practice.battle.repeating.answer_marks import AnswerMarks
@@ -87,15 +88,10 @@ def verdict_of(rules: BattleRules, side: int, marks: TurnMarks | None) -> Verdic
 def points_words(marks: TurnMarks, target: float) -> str:
     """What a turn was given; of a repeated phrase whether that was enough."""
     if isinstance(marks, ImprovisationMarks):
-        return f"{marks.points:.1f} points"
+        return points_in_words(marks.points)
     if marks.accuracy is None:
         return "not heard"
-    return f"{_percent(marks.accuracy)} % right, {'won' if marks.is_won(target) else 'not enough'}"
-
-
-def _percent(accuracy: float) -> int:
-    """Rounded down, so that a round that is lost never reads as the target."""
-    return int(100 * accuracy + 1e-9)
+    return f"{marks.percent} % right, {'won' if marks.is_won(target) else 'not enough'}"
 
 
 def evidence_of(marks: TurnMarks) -> tuple[Evidence, ...]:

@@ -6,10 +6,11 @@ from station.app.battle.battle_shown import BattleResultShown, Evidence, RoundRo
 from station.app.battle.board_words import in_a_sentence, names_of, verdict_of
 from station.practice.battle.battle_result import BattleResult, JudgedTurn, is_lost, standings
 from station.practice.battle.battle_rules import DRUMMER, FINAL_WEIGHT, BattleMode, BattleRules
+from station.practice.battle.battle_words import points_words as points_in_words
 from station.practice.battle.judging.improvisation_marks import Component, ImprovisationMarks
 from station.practice.battle.records.battle_advice import advice_lines
 from station.practice.battle.records.handicap_words import handicap_words
-from station.practice.battle.repeating.answer_marks import AnswerMarks
+from station.practice.battle.repeating.answer_marks import AnswerMarks, percent_of
 
 _NOBODY = "—"
 
@@ -83,7 +84,7 @@ def _total(result: BattleResult, side: int) -> str:
     if stand.handicapped is not None:
         return f"{stand.handicapped:.0f} of 100 by their own measure, {won}"
     is_caller = side == DRUMMER and rules.mode is BattleMode.REPEAT
-    return won if is_caller else f"{stand.points:.1f} points, {won}"
+    return won if is_caller else f"{points_in_words(stand.points)}, {won}"
 
 
 def _round(result: BattleResult, number: int, shown: Sequence[int]) -> RoundRow:
@@ -120,7 +121,7 @@ def _means(result: BattleResult, side: int) -> Verdict | None:
     improvised = [each for each in marks if isinstance(each, ImprovisationMarks)]
     if improvised:
         points = sum(each.points for each in improvised) / len(improvised)
-        return Verdict(name, f"{points:.0f} points a turn", tuple(_mean_parts(improvised)))
+        return Verdict(name, f"{points_in_words(points)} a turn", tuple(_mean_parts(improvised)))
     answers = [each for each in marks if isinstance(each, AnswerMarks)]
     return _answers(name, answers) if answers else None
 
@@ -134,7 +135,7 @@ def _mean_parts(turns: Sequence[ImprovisationMarks]) -> Iterable[Evidence]:
 def _answers(name: str, answers: Sequence[AnswerMarks]) -> Verdict:
     right, known = sum(each.right for each in answers), sum(each.known for each in answers)
     accuracy = [each.accuracy for each in answers if each.accuracy is not None]
-    words = f"{100 * sum(accuracy) / len(accuracy):.0f} % of a phrase" if accuracy else "nothing was heard"
+    words = f"{percent_of(sum(accuracy) / len(accuracy))} % of a phrase" if accuracy else "nothing was heard"
     return Verdict(name, words, (Evidence("Notes", None, f"{right} of {known} notes right"),))
 
 
@@ -152,4 +153,4 @@ def _accuracy(turn: JudgedTurn) -> float:
 
 
 def _failed_words(turn: JudgedTurn) -> str:
-    return f"The phrase of round {turn.planned.round}: {100 * _accuracy(turn):.0f} % right"
+    return f"The phrase of round {turn.planned.round}: {percent_of(_accuracy(turn))} % right"

@@ -3,16 +3,21 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from pathlib import Path
 
 from station.core.errors import BadInput
-from station.practice.battle.battle_rules import BattleMode, BattleRules
+from station.practice.battle.battle_rules import (
+    USUAL_BARS,
+    USUAL_LIVES,
+    USUAL_ROUNDS,
+    USUAL_TARGET,
+    BattleMode,
+    BattleRules,
+)
 from station.practice.battle.ground import Ground
 from station.practice.battle.link.link_discovery import DEFAULT_PORT
 from station.practice.battle.link.link_socket import MOST_PORT
 from station.practice.battle.opponents.opponent import OPPONENTS, USUAL_OPPONENT, Opponent, find_opponent
 from station.practice.battle.people.player import Player
-from station.practice.battle.records.earlier_rounds import expected_of
 from station.practice.exam.exam_sitting import drawn_seed
 from station.practice.session.cues.click_pattern import SILENT, ClickPattern
 from station.scoring.matching.hit_windows import Level
@@ -51,13 +56,13 @@ class ChosenBattle:
     mode: BattleMode = BattleMode.REPEAT
     opponent: str = USUAL_OPPONENT
     ground: Ground = field(default_factory=lambda: OPPONENTS[USUAL_OPPONENT].ground)
-    bars: int = 2
-    rounds: int = 6
-    target: int = 90
+    bars: int = USUAL_BARS
+    rounds: int = USUAL_ROUNDS
+    target: int = round(100 * USUAL_TARGET)
     people: People = People.ALONE
     friend: str = ""
-    lives: int = 3
-    level: Level = Level.INTERMEDIATE
+    lives: int = USUAL_LIVES
+    level: Level = Level.BEGINNER
     is_clicked: bool = True
     keeps_time: bool = True
     is_fair: bool = False
@@ -89,13 +94,6 @@ class ChosenBattle:
 
 FRIEND = "Friend"
 """What the other person is called who gave no name."""
-
-
-def with_handicap(setup: ChosenBattle, rules: BattleRules, sessions: Path) -> BattleRules:
-    """The rules with what is expected of each player by earlier battles in `sessions`, where that was chosen."""
-    if not setup.is_fair or rules.is_solo:
-        return rules
-    return replace(rules, expectations=tuple(expected_of(sessions, player.name) for player in rules.players))
 
 
 def chosen_rules(setup: ChosenBattle, student: str, kits: Sequence[str], click: ClickPattern) -> BattleRules:

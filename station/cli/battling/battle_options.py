@@ -23,12 +23,23 @@ from station.cli.options.sound_options import SoundOptions
 from station.cli.options.virtual_students import virtual_name
 from station.core.errors import BadInput
 from station.core.settings import Settings, setting_source
-from station.practice.battle.battle_rules import TURN_BARS, BattleMode, BattleRules
+from station.practice.battle.battle_rules import (
+    TURN_BARS,
+    USUAL_BARS,
+    USUAL_LIVES,
+    USUAL_ROUNDS,
+    USUAL_TARGET,
+    BattleMode,
+    BattleRules,
+)
 from station.practice.battle.ground import Feel, Ground
 from station.practice.battle.opponents.opponent import OPPONENTS, USUAL_OPPONENT, find_opponent
 from station.practice.battle.people.player import Player, virtual_device
-from station.practice.battle.records.earlier_rounds import expected_of
+from station.practice.battle.records.earlier_rounds import after_earlier
+from station.practice.battle.repeating.answer_marks import ACCURACY_WORDS
 from station.practice.battle.repeating.demands import MOST_STEP
+from station.practice.battle.repeating.staircase import FIRST_STEPS
+from station.practice.records.memory import LevelMemory
 from station.practice.session.cues.click_options import parse_click
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 
@@ -73,24 +84,42 @@ class BattleOptions:
     meter: tuple[int, int] | None = option("N/U", "such as 4/4 or 7/8 (as the opponent likes it)", _meter, None)
     feel: Feel | None = choice(_FEELS, "how a beat is divided (as the opponent likes it)", None)
     style: str | None = option("WORD", "such as rock or jazz (as the opponent likes it)", str, None)
-    bars: int = option("N", f"bars of an improvised turn: {', '.join(map(str, TURN_BARS))} (4)", whole_number, 4)
-    rounds: int = option("N", "rounds before the final (8)", whole_number, 8)
+    bars: int = option(
+        "N", f"bars of an improvised turn: {', '.join(map(str, TURN_BARS))} ({USUAL_BARS})", whole_number, USUAL_BARS
+    )
+    rounds: int = option("N", f"rounds before the final ({USUAL_ROUNDS})", whole_number, USUAL_ROUNDS)
     no_final: bool = flag("no final after the rounds")
-    lives: int = option("N", "lost rounds until one is out, in repeat mode (3)", whole_number, 3)
-    target: float = option("PERCENT", "accuracy that wins a round, in repeat mode (90%)", _percent, 0.9)
+    lives: int = option(
+        "N", f"lost rounds until one is out, in repeat mode ({USUAL_LIVES}); none with --handicap", whole_number,
+        USUAL_LIVES,
+    )  # fmt: skip
+    target: float = option(
+        "PERCENT", f"accuracy that wins a round, in repeat mode ({USUAL_TARGET:.0%}): {ACCURACY_WORDS}", _percent,
+        USUAL_TARGET,
+    )  # fmt: skip
     first_step: int | None = option(
-        "N", f"how hard the first phrase to repeat is, 0 to {MOST_STEP} (8)", whole_number, None
+        "N",
+        f"how hard the first phrase to repeat is, 0 to {MOST_STEP} (as earlier battles ask, else by the level: "
+        f"{', '.join(f'{level} {step}' for level, step in FIRST_STEPS.items())}); with --handicap for each player",
+        whole_number,
+        None,
     )
     keep_time: bool | None = switch("the drummer keeps time under your turns (on when you improvise)")
     seed: int = option("N", "which battle: the same number and strokes are the same battle (1)", whole_number, 1)
-    level: Level | None = choice(OUR_LEVELS, "how strictly is judged (intermediate; judged again: as it was)", None)
+    level: Level | None = choice(
+        OUR_LEVELS,
+        "how strictly is judged (as your lessons on the whole, beginner where there are none; judged again: as it was)",
+        None,
+    )
     players: tuple[Player, ...] = option(
         "NAME[=PORT],…",
         "people who play each other: each on a kit of their own by part of its port's name, or in turn on one",
         _players,
         (),
     )
-    handicap: bool = flag("players are measured against what they did in earlier battles")
+    handicap: bool = flag(
+        "each player gets phrases of their own step, and is measured against their own earlier battles; no lives"
+    )
     device: tuple[str, ...] = devices_option()
     virtual_student: tuple[str, ...] = repeated(
         "SPEC", "who plays instead of a person, such as pro,seed=3; once for each player"
@@ -118,25 +147,25 @@ def battle_rules(options: BattleOptions, settings: Settings, specs: Sequence[str
         raise BadInput("--handicap", "", "it is for two players or more; name them with --players")
     if options.first_step is not None and not 0 <= options.first_step <= MOST_STEP:
         raise BadInput("--first-step", f"{options.first_step}", f"expected 0 to {MOST_STEP}")
-    return BattleRules(
+    players = _who(options, settings, specs)
+    level = options.level or LevelMemory.of(settings.sessions_dir, players[0].name).usual()
+    rules = BattleRules(
         ground=_ground(options),
         mode=options.mode,
         opponent=find_opponent(options.opponent).name,
-        players=_who(options, settings, specs),
+        players=players,
         rounds=options.rounds,
         has_final=not options.no_final,
         bars=options.bars,
         lives=options.lives,
         target=options.target,
-        level=options.level or Level.INTERMEDIATE,
+        level=level,
         first_step=options.first_step,
         seed=options.seed,
         click=parse_click(settings.click_pattern, setting_source("click_pattern")),
         keeps_time=keeps_time,
-        expectations=tuple(expected_of(settings.sessions_dir, player.name, bool(specs)) for player in options.players)
-        if options.handicap
-        else (),
     )
+    return after_earlier(rules, settings.sessions_dir, options.handicap, bool(specs))
 
 
 def _who(options: BattleOptions, settings: Settings, specs: Sequence[str]) -> tuple[Player, ...]:

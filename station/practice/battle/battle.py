@@ -31,9 +31,7 @@ from station.practice.battle.records.battle_log import (
     TurnsCut,
     battle_text,
 )
-from station.practice.battle.repeating.demands import MOST_STEP
 from station.practice.battle.repeating.live_answer import LiveAnswer
-from station.practice.battle.repeating.staircase import USUAL_FIRST_STEP, Staircase
 from station.practice.battle.turn_judging import ARRIVES_NS, judged_at_ns, judged_turn, result_of
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.battle.view_building import Moment, view_of
@@ -65,8 +63,6 @@ class Battle(HeardBattle):
         self._judged: list[JudgedTurn] = []  # the turns that are over, in order
         self._live: dict[int, LiveAnswer] = {}  # answers by the indices of their turns, as they are shown
         self._is_last_chosen = self._is_complete = False
-        first_step = USUAL_FIRST_STEP if rules.first_step is None else rules.first_step
-        self._staircase = Staircase(MOST_STEP, min(first_step, MOST_STEP))
 
     # --- commands ---------------------------------------------------------------------------------------------------
 
@@ -194,7 +190,7 @@ class Battle(HeardBattle):
     def _choose(self) -> Sequence[Command]:
         """Lay out the next part, where there is one."""
         before = so_far(self.rules, self._plan, self._judged, self.ear, self._heard_ns)
-        turns = next_turns(before, self._drum, self._staircase)
+        turns = next_turns(before, self._drum)
         if not turns:
             self._is_last_chosen = True
             return ()

@@ -11,21 +11,16 @@ In improvise mode a turn earns the points of its marks, the drummer's too, and m
 `FINAL_WEIGHT` times. Equal points are a draw. A battle that was stopped has no winner unless all but one were out.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
 from station.practice.battle.battle_rules import DRUMMER, BattleMode, BattleRules
 from station.practice.battle.phrase import Turn
 from station.practice.battle.repeating.answer_marks import AnswerMarks
-from station.practice.battle.repeating.demands import MOST_STEP
-from station.practice.battle.repeating.staircase import USUAL_FIRST_STEP, Staircase
 from station.practice.battle.turn_marks import TurnMarks
 from station.practice.battle.turn_plan import PlannedTurn
 from station.practice.session.device_latency import Latency
-
-STAIRCASE = Staircase(MOST_STEP, USUAL_FIRST_STEP)
-"""What is expected of a player goes by it, whatever step a battle begins with."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,11 +54,11 @@ def standings(rules: BattleRules, turns: Sequence[JudgedTurn]) -> tuple[Standing
     """Every side's standing, the drummer's first."""
     sides = (DRUMMER, *rules.player_sides)
     won = _rounds_won(rules, turns)
-    lost = {side: sum(is_lost(rules, turn) for turn in turns if turn.planned.side == side) for side in sides}
+    lives = _lives(rules, turns)
     return tuple(
         Standing(
             sum(_points(rules, turn) or 0.0 for turn in turns if turn.planned.side == side),
-            max(rules.lives - lost[side], 0) if rules.has_lives and side != DRUMMER else None,
+            lives.get(side),
             won.count(side),
             handicapped_points(rules, turns, side) if rules.has_handicap and side != DRUMMER else None,
         )
@@ -78,10 +73,37 @@ def is_lost(rules: BattleRules, turn: JudgedTurn) -> bool:
 
 def is_decided(rules: BattleRules, turns: Sequence[JudgedTurn]) -> bool:
     """Whether nothing that is still to come can count: too few are left to play on."""
+    return _is_decided_by(rules, _lives(rules, turns))
+
+
+def decided_in(rules: BattleRules, turns: Sequence[JudgedTurn]) -> int | None:
+    """The round after which too few were left and yet another was played; None where there was none.
+
+    A battle ends there while it is played. Judged again by stricter windows it may have been played on.
+    """
+    answered = [turn for turn in turns if turn.marks is not None]
+    lives = dict.fromkeys(rules.player_sides, rules.lives) if rules.has_lives else {}
+    for number, group in groupby(answered, key=lambda turn: turn.planned.round):
+        if _is_decided_by(rules, lives):
+            return int(number) - 1
+        for turn in group:
+            if is_lost(rules, turn) and turn.planned.side in lives:
+                lives[turn.planned.side] -= 1
+    return None
+
+
+def _is_decided_by(rules: BattleRules, lives: Mapping[int, int]) -> bool:
+    left = sum(one > 0 for one in lives.values())
+    return bool(lives) and (left == 0 or (left == 1 and not rules.is_solo))
+
+
+def _lives(rules: BattleRules, turns: Sequence[JudgedTurn]) -> dict[int, int]:
+    """The lives that each player has left, of rounds that were played on after the end none; empty without lives."""
     if not rules.has_lives:
-        return False
-    left = sum(side.is_in for side in standings(rules, turns)[1:])
-    return left == 0 or (left == 1 and not rules.is_solo)
+        return {}
+    last = decided_in(rules, turns)
+    lost = [turn.planned.side for turn in turns if is_lost(rules, turn) and (not last or turn.planned.round <= last)]
+    return {side: max(rules.lives - lost.count(side), 0) for side in rules.player_sides}
 
 
 def winner_of(rules: BattleRules, turns: Sequence[JudgedTurn], is_complete: bool) -> int | None:
@@ -110,21 +132,16 @@ def _most_points(rules: BattleRules, sides: Sequence[Standing]) -> int | None:
 
 
 def handicapped_points(rules: BattleRules, turns: Sequence[JudgedTurn], side: int) -> float:
-    """The mean worth of a player's turns against what is expected of them, 0–100; 50 where none counts.
-
-    Of the calls that were to be repeated those count that were as hard as this player needs them.
-    """
+    """The mean worth of a player's turns against what is expected of them, 0–100; 50 where none counts."""
     counted: list[tuple[int, float]] = []
     expected = rules.expectations[side - 1]
     for turn in turns:
         planned, marks = turn.planned, turn.marks
         if planned.side != side or marks is None or marks.points is None:
             continue
-        if not isinstance(marks, AnswerMarks):
-            counted.append((rules.weight(planned.round), expected.of_improvisation(marks.points)))
-        elif planned.step is not None and rules.owner(planned.round) == side:
-            worth = expected.of_answer(planned.step, not is_lost(rules, turn), STAIRCASE)
-            counted.append((rules.weight(planned.round), worth))
+        is_answer = isinstance(marks, AnswerMarks)
+        worth = expected.of_answer(marks.points) if is_answer else expected.of_improvisation(marks.points)
+        counted.append((rules.weight(planned.round), worth))
     weight = sum(weight for weight, _ in counted)
     return sum(weight * worth for weight, worth in counted) / weight if weight else 50.0
 
@@ -181,6 +198,11 @@ class BattleResult:
     def standings(self) -> tuple[Standing, ...]:
         """Every side's standing, the drummer's first."""
         return standings(self.rules, self.turns)
+
+    @property
+    def played_on_after(self) -> int | None:
+        """The round after which it would have ended by these rules, None where it ended there or later."""
+        return decided_in(self.rules, self.turns)
 
     @property
     def winner(self) -> int | None:

@@ -14,6 +14,8 @@ from station.music.score import MAX_LATE_MS
 from station.practice.battle.ground import Ground
 from station.practice.battle.people.handicap import Expectation
 from station.practice.battle.people.player import Player, check_players, is_hot_seat
+from station.practice.battle.repeating.demands import MOST_STEP
+from station.practice.battle.repeating.staircase import FIRST_STEPS, Staircase
 from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
 from station.scoring.matching.hit_windows import Level
 
@@ -25,6 +27,9 @@ MOST_ROUNDS, MOST_LIVES = 32, 9
 """Our choice: longer than anybody plays without a rest."""
 MOST_SEED = (1 << 62) - 1
 """The largest whole number that is read again from a capture (`log_values.whole`), and a message can carry it."""
+USUAL_ROUNDS, USUAL_BARS, USUAL_LIVES, USUAL_TARGET = 6, 2, 3, 0.9
+"""What a battle is of where nobody chooses, in the window and in a terminal: rounds before the final, bars of an
+improvised turn, lives, and the accuracy that wins a round (our choice: two or three minutes)."""
 FINAL_WEIGHT = 2
 """The final counts so many times (our choice: it can turn a battle, and not by itself win one)."""
 CHANGEOVER_S = 8.0
@@ -49,7 +54,8 @@ class BattleRules:
 
     `opponent` is a name of `opponents`; `rounds` come before the final (`has_final`); `bars` are those of an improvised
     turn, a phrase to repeat has its own. In repeat mode a round is won by `target` accuracy at the windows of `level`,
-    a lost one costs one of the `lives`, and `first_step` is how hard the first phrase is, None for the usual one.
+    a lost one costs one of the `lives`, and `first_step` is how hard the first phrase is; None: as the players' earlier
+    answers ask where there is a handicap, else as `level` does.
     `keeps_time`: the drummer keeps time under the players' turns. With `expectations`, one for each of several players,
     they are measured against themselves (`people.handicap`): then no lives are lost. Raises `BadInput` for what nobody
     can play.
@@ -59,11 +65,11 @@ class BattleRules:
     mode: BattleMode = BattleMode.REPEAT
     opponent: str = "steady"
     players: tuple[Player, ...] = (Player("student"),)
-    rounds: int = 8
+    rounds: int = USUAL_ROUNDS
     has_final: bool = True
-    bars: int = 4
-    lives: int = 3
-    target: float = 0.9
+    bars: int = USUAL_BARS
+    lives: int = USUAL_LIVES
+    target: float = USUAL_TARGET
     level: Level = Level.INTERMEDIATE
     first_step: int | None = None
     seed: int = 1
@@ -102,6 +108,12 @@ class BattleRules:
         return bool(self.expectations)
 
     @property
+    def staircase(self) -> Staircase:
+        """By which the next step is found."""
+        first_step = FIRST_STEPS[self.level] if self.first_step is None else self.first_step
+        return Staircase(MOST_STEP, min(first_step, MOST_STEP))
+
+    @property
     def has_lives(self) -> bool:
         """Whether a lost round costs a life."""
         return self.mode is BattleMode.REPEAT and not self.has_handicap
@@ -121,10 +133,6 @@ class BattleRules:
         return tuple(range(1, len(self.players) + 1))
 
     # --- rounds -----------------------------------------------------------------------------------------------------
-
-    def owner(self, number: int) -> int:
-        """The player for whom the call of round `number` is as hard as they need it, while all are in."""
-        return self.player_sides[(number - 1) % len(self.players)]
 
     @property
     def rounds_in_all(self) -> int:

@@ -26,3 +26,8 @@ def message_of(rules: BattleRules, doing: Doing, turn: PlannedTurn | None) -> st
 
 
 _WORDS = {Doing.PAUSED: "paused", Doing.OVER: "the battle is over", Doing.ANSWER: "your turn"}
+
+
+def points_words(points: float) -> str:
+    """Points as they are told everywhere: to a tenth, as whoever is ahead by less is not ahead to anybody's eye."""
+    return f"{points:.1f} points"

@@ -14,7 +14,7 @@ from station.practice.battle.phrase import Phrase
 from station.practice.battle.phrase_as_turn import phrase_as_turn
 from station.practice.battle.phrase_request import Asked, Drum, PhraseRequest
 from station.practice.battle.repeating.answer_marks import answer_well_ended
-from station.practice.battle.repeating.staircase import Answered, Staircase
+from station.practice.battle.repeating.staircase import Answered
 from station.practice.battle.turn_plan import Part, PlannedTurn, TurnKind, parts_of_round, with_changeovers
 
 
@@ -66,7 +66,7 @@ def _running(rules: BattleRules, planned: PlannedTurn, ear: BattleEar, heard_ns:
     return JudgedTurn(planned, played, answer_well_ended(planned.phrase, played, rules.level.windows, until_ns))
 
 
-def next_turns(before: SoFar, drum: Drum, staircase: Staircase) -> tuple[PlannedTurn, ...]:
+def next_turns(before: SoFar, drum: Drum) -> tuple[PlannedTurn, ...]:
     """The turns of the next part, none where the battle ends with what is planned."""
     rules, number = before.rules, max(before.last_round, 1)
     part = _rest_of_round(before, number)
@@ -78,7 +78,7 @@ def next_turns(before: SoFar, drum: Drum, staircase: Staircase) -> tuple[Planned
     if rules.is_hot_seat:
         seated = [turn.side for turn in before.plan if turn.kind is TurnKind.ANSWER]
         part = with_changeovers(part, seated[-1] if seated else None)
-    return _laid_out(before, number, part, drum, staircase)
+    return _laid_out(before, number, part, drum)
 
 
 def _rest_of_round(before: SoFar, number: int) -> Part | None:
@@ -90,10 +90,10 @@ def _rest_of_round(before: SoFar, number: int) -> Part | None:
     return next((part for part in parts if planned.isdisjoint(side for _, side in part)), None)
 
 
-def _laid_out(before: SoFar, number: int, part: Part, drum: Drum, staircase: Staircase) -> tuple[PlannedTurn, ...]:
+def _laid_out(before: SoFar, number: int, part: Part, drum: Drum) -> tuple[PlannedTurn, ...]:
     rules, turns = before.rules, list[PlannedTurn]()
     call: PlannedTurn | None = None
-    for kind, side in part:
+    for place, (kind, side) in enumerate(part):
         last = [*before.plan, *turns][-1:]
         turn = PlannedTurn(
             index=len(before.plan) + len(turns),
@@ -104,22 +104,25 @@ def _laid_out(before: SoFar, number: int, part: Part, drum: Drum, staircase: Sta
             bars=rules.changeover_bars if kind is TurnKind.CHANGEOVER else rules.bars,
         )
         if kind is TurnKind.CALL:
-            turn = call = _called(before, turn, drum, staircase)
+            first = next(other for what, other in part[place:] if what is TurnKind.ANSWER)
+            turn = call = _called(before, turn, drum, step_for(before, turn.round, first))
         elif kind is TurnKind.ANSWER:
             turn = _answered(before, turn, call, drum)
         turns.append(turn)
     return tuple(turns)
 
 
-def _called(before: SoFar, turn: PlannedTurn, drum: Drum, staircase: Staircase) -> PlannedTurn:
-    """The drummer's call: on one kit everybody hears the same one in a round."""
+def _called(before: SoFar, turn: PlannedTurn, drum: Drum, step: int) -> PlannedTurn:
+    """The drummer's call, of a `step` where it is to be repeated.
+
+    On one kit everybody hears the same one in a round, but for a handicap.
+    """
     rules = before.rules
     if rules.mode is BattleMode.IMPROVISE:
         return _with_phrase(turn, drum(_request(before, turn, Asked.TO_ANSWER)))
     same = [other for other in before.plan if other.round == turn.round and other.kind is TurnKind.CALL]
-    if same and same[0].phrase is not None:
+    if same and same[0].phrase is not None and not rules.has_handicap:
         return replace(_with_phrase(turn, same[0].phrase), step=same[0].step)
-    step = step_of_round(before, turn.round, staircase)
     request = replace(_request(before, turn, Asked.TO_REPEAT), step=step)
     return replace(_with_phrase(turn, drum(request)), step=step)
 
@@ -151,12 +154,25 @@ def _request(before: SoFar, turn: PlannedTurn, asked: Asked) -> PhraseRequest:
     )
 
 
-def step_of_round(before: SoFar, number: int, staircase: Staircase) -> int:
-    """How hard the call of round `number` is: as whoever's turn it is needs it, the final as hard as was ever won."""
+def step_for(before: SoFar, number: int, side: int) -> int:
+    """How hard the call of round `number` is that the player on `side` answers first.
+
+    With a handicap it is of that player's own step, the final too.
+    """
+    rules = before.rules
+    if not rules.has_handicap:
+        return step_of_round(before, number)
+    now = before.answers(side)
+    if not now and rules.first_step is not None:
+        return rules.first_step
+    return rules.staircase.next_step([*rules.expectations[side - 1].answered, *now])
+
+
+def step_of_round(before: SoFar, number: int) -> int:
+    """How hard a call for all is: as whoever's turn it is needs it, the final as hard as was ever won."""
     rules = before.rules
     owner = before.sides_in[(number - 1) % len(before.sides_in)]
     won = [answer.step for side in rules.player_sides for answer in before.answers(side) if answer.is_won]
-    if rules.is_final(number) and won and not rules.has_handicap:
+    if rules.is_final(number) and won:
         return max(won)
-    earlier = rules.expectations[owner - 1].answered if rules.has_handicap else ()
-    return staircase.next_step([*earlier, *before.answers(owner)])
+    return rules.staircase.next_step(before.answers(owner))

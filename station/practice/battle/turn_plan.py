@@ -57,12 +57,13 @@ def parts_of_round(rules: BattleRules, number: int, sides: Collection[int]) -> t
     """The parts of round `number`, from 1, for the players' `sides` that are still in; change-overs apart.
 
     Where a call is repeated the players begin in turn, so that nobody always hears the others first; on one kit each
-    hears the call anew, and whoever has just played begins. Who trades keeps to the order.
+    hears the call anew, and whoever has just played begins. With a handicap each has a call of their own step. Who
+    trades keeps to the order.
     """
     order = [side for side in rules.player_sides if side in sides]
     if rules.mode is BattleMode.IMPROVISE and not rules.is_solo:
         return (tuple((TurnKind.ANSWER, side) for side in order),)
-    if not rules.is_hot_seat:
+    if not (rules.is_hot_seat or rules.has_handicap):
         answers = ((TurnKind.ANSWER, side) for side in _rotated(order, number - 1))
         return (((TurnKind.CALL, DRUMMER), *answers),)
     ordered = order if number % 2 else order[::-1]

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from station.practice.battle.battle import Battle
 from station.practice.battle.battle_view import BattleView, Doing, TurnView
-from station.practice.battle.battle_words import round_words
+from station.practice.battle.battle_words import points_words, round_words
 from station.practice.battle.repeating.answer_marks import AnswerMarks
 from station.practice.battle.turn_plan import TurnKind
 from station.practice.headless.live_text import mark_of
@@ -67,9 +67,10 @@ def worth_words(view: BattleView, turn: TurnView) -> str:
     if marks is None or marks.points is None:
         return f"{side.name}: not heard, not counted"
     if not isinstance(marks, AnswerMarks):
-        return f"{side.name}: {marks.points:.0f} points"
+        return f"{side.name}: {points_words(marks.points)}"
+    lives = "" if side.lives is None else f"; lives {side.lives}"
     won = "won" if marks.is_won(view.rules.target) else "lost"
-    return f"{side.name}: {marks.accuracy or 0.0:.0%}, {won}; lives {side.lives}"
+    return f"{side.name}: {marks.percent} %, {won}{lives}"
 
 
 def _who(view: BattleView, turn: TurnView) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from station.practice.battle.battle_view import BattleView, Doing
-from station.practice.battle.battle_words import round_words
+from station.practice.battle.battle_words import points_words, round_words
 from station.practice.battle.link.linked_battle import LinkedBattle
 from station.practice.battle.link.linked_record import SharedTurn
 from station.practice.battle.link.linked_view import linked_view
@@ -58,5 +58,5 @@ def _worth(shared: SharedTurn, view: BattleView) -> str:
     if marks is None or marks.points is None:
         return "not heard, not counted"
     if not isinstance(marks, AnswerMarks):
-        return f"{marks.points:.0f} points"
-    return f"{marks.accuracy or 0.0:.0%}, {'won' if marks.is_won(view.rules.target) else 'lost'}"
+        return points_words(marks.points)
+    return f"{marks.percent} %, {'won' if marks.is_won(view.rules.target) else 'lost'}"

@@ -79,6 +79,19 @@ class LevelMemory:
         kept, fault = recalled(self.path, _levels_from, "levels begin anew")
         return {state.item.name: state.level for state in _all_in(self.path.parent)} | (kept or {}), fault
 
+    def usual(self) -> Level:
+        """The level of what is no lesson: the middle one of the student's lessons, of two the wider.
+
+        It is a beginner's where there are none. What cannot be read says nothing.
+        """
+        try:
+            kept = _levels_from(kept_document(self.path), str(self.path))
+        except BadInput:
+            kept = {}
+        levels = {state.item.name: state.level for state in _all_in(self.path.parent)} | kept
+        in_order = sorted(levels.values(), key=lambda level: level.rank)
+        return in_order[(len(in_order) - 1) // 2] if in_order else Level.BEGINNER
+
     def keep(self, lesson: str, level: Level) -> None:
         """Judge `lesson` at `level` from now on; raises `DeviceError`, and then all stays as it was."""
         kept, _ = recalled(self.path, _levels_from, "levels begin anew")

@@ -2,6 +2,7 @@
 
 from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.battle_view import BattleView, Doing, SideView
+from station.practice.battle.battle_words import points_words as points_in_words
 from station.practice.battle.battle_words import round_words
 from station.practice.battle.opponents.opponent import find_opponent
 from station.render.snapshot import Hud, ScoreLine, SideLine
@@ -35,7 +36,7 @@ def name_of(rules: BattleRules, side: SideView) -> str:
 
 def points_words(rules: BattleRules, side: SideView) -> str:
     """Points and rounds of a side in words; a drummer who does not compete for them is who is repeated."""
-    points = None if side.points is None else f"{side.points:.0f} points"
+    points = None if side.points is None else points_in_words(side.points)
     is_counted = rules.mode is BattleMode.REPEAT or side.rounds_won
     won = f"{side.rounds_won} won" if is_counted else None
     return " · ".join(filter(None, (points, won)))

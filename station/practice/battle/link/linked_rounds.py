@@ -13,7 +13,7 @@ from typing import NamedTuple
 from station.core.errors import BadInput
 from station.music.performance import Performance
 from station.practice.battle.battle_result import is_decided
-from station.practice.battle.battle_rules import DRUMMER, BattleMode, BattleRules
+from station.practice.battle.battle_rules import DRUMMER, BattleMode
 from station.practice.battle.link.heard_bar import bar_of, heard_bar
 from station.practice.battle.link.link_line import WHO
 from station.practice.battle.link.link_messages import (
@@ -37,8 +37,6 @@ from station.practice.battle.link.linked_rules import Agreed
 from station.practice.battle.next_turns import SoFar, step_of_round
 from station.practice.battle.phrase import Phrase, Turn
 from station.practice.battle.phrase_request import Asked, Drum, PhraseRequest
-from station.practice.battle.repeating.demands import MOST_STEP
-from station.practice.battle.repeating.staircase import USUAL_FIRST_STEP, Staircase
 from station.practice.battle.turn_marks import TurnMarks
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.scoring.matching.unheard import Span
@@ -65,7 +63,6 @@ class LinkedRounds:
         rounds = range(1, self.rules.rounds_in_all + 1)
         self.shared = SharedTurns(((one, side) for one in rounds for side in agreed.order), agreed.as_bytes)
         self._drum = drum
-        self._staircase = Staircase(MOST_STEP, _first_step(self.rules))
         self._called: dict[int, tuple[int, Phrase]] = {}
         self._bars: dict[int, list[_HeardBar]] = {}
         self._awaits_claim: dict[Slot, tuple[Turn, tuple[Span, ...]]] = {}  # own turns that are not judged yet
@@ -161,7 +158,7 @@ class LinkedRounds:
     def call(self) -> None:
         """Choose the call of the next round and say it; it may take the drummer a part of a second."""
         number = self._round
-        step = step_of_round(SoFar(self.rules, (), self.shared.judged()), number, self._staircase)
+        step = step_of_round(SoFar(self.rules, (), self.shared.judged()), number)
         phrase = self._drum(PhraseRequest(self.rules, number, Asked.TO_REPEAT, self.rules.bars, step))
         said = called(phrase, number, step)
         self._called[number] = (step, phrase_of(said, self.rules.ground, "our own call"))  # as the other end has it
@@ -289,7 +286,3 @@ class LinkedRounds:
         """Whether every turn stands, or nothing that could come would count."""
         standing = len(self.shared.standing())
         return standing == len(self.shared.slots) or (standing == len(self.shared.turns) and self._is_decided)
-
-
-def _first_step(rules: BattleRules) -> int:
-    return USUAL_FIRST_STEP if rules.first_step is None else rules.first_step

@@ -16,7 +16,7 @@ from types import MappingProxyType
 from station.drills.library import LessonRow, lesson_rows
 from station.practice.battle.battle_result import BattleResult, JudgedTurn, is_lost
 from station.practice.battle.judging.improvisation_marks import Component, ImprovisationMarks
-from station.practice.battle.repeating.answer_marks import AnswerMarks
+from station.practice.battle.repeating.answer_marks import AnswerMarks, percent_of
 from station.practice.battle.repeating.demands import demand_at
 from station.practice.battle.vocabulary.asked_of_limbs import Coordination, Dynamics, coordination_of, dynamics_of
 from station.scoring.matching.hit_windows import Level
@@ -120,7 +120,7 @@ def _weakest_answer(result: BattleResult, turns: Iterable[JudgedTurn]) -> tuple[
     if not lost:
         return None
     worst = min(lost, key=lambda one: (fmean(accuracies[one]), list(_KINDS).index(one)))
-    return worst, f"{fmean(accuracies[worst]):.0%} accuracy where phrases asked for it"
+    return worst, f"{percent_of(fmean(accuracies[worst]))} % accuracy where phrases asked for it"
 
 
 def _weakest_component(turns: Iterable[JudgedTurn]) -> tuple[Enum, str] | None:

@@ -27,6 +27,7 @@ def battle_document(result: BattleResult) -> dict[str, Json]:
         "schema": SCHEMA,
         "rules": rules_fields(rules),
         "complete": result.is_complete,
+        "played_on_after": result.played_on_after,
         "winner": None if winner is None else side_name(rules, winner),
         "winner_side": winner,
         "scores": [_score(result, side, standing) for side, standing in enumerate(result.standings)],
@@ -66,7 +67,7 @@ def _round(result: BattleResult, number: int, turns: list[JudgedTurn]) -> dict[s
         "round": number,
         "final": rules.is_final(number),
         "weight": rules.weight(number),
-        "step": steps[0] if steps else None,
+        "step": steps[0] if len(set(steps)) == 1 else None,
         "turns": [_turn(rules, turn) for turn in turns],
     }
 
@@ -84,6 +85,7 @@ def _turn(rules: BattleRules, turn: JudgedTurn) -> dict[str, Json]:
         "bars": planned.bars,
         "starts_s": round(rules.ground.ns_of_bars(planned.first_bar) / NS_PER_S, _PLACES),
         "answers": planned.call,
+        "step": planned.step,
         "phrase": planned.phrase.words if planned.phrase is not None else None,
         "strokes": None if turn.played is None else len(turn.played.played),
         "won": not is_lost(rules, turn) if is_answer and is_repeat else None,

@@ -5,7 +5,7 @@ from itertools import groupby
 
 from station.practice.battle.battle_result import BattleResult, JudgedTurn, is_lost
 from station.practice.battle.battle_rules import DRUMMER, BattleMode
-from station.practice.battle.battle_words import round_words
+from station.practice.battle.battle_words import points_words, round_words
 from station.practice.battle.judging.improvisation_marks import ImprovisationMarks
 from station.practice.battle.records.battle_advice import advice_lines
 from station.practice.battle.records.battle_document import side_name
@@ -31,6 +31,8 @@ def _lines(result: BattleResult) -> Iterator[str]:
     yield _outcome(result)
     for side in _competing(result):
         yield _score(result, side)
+    if result.played_on_after is not None:
+        yield played_on_words(result)
     answered = [turn for turn in result.turns if turn.marks is not None]
     for number, turns in groupby(answered, key=lambda turn: turn.planned.round):
         yield ""
@@ -47,6 +49,11 @@ def _competing(result: BattleResult) -> tuple[int, ...]:
     return (*sides, DRUMMER) if result.rules.drummer_competes else sides
 
 
+def played_on_words(result: BattleResult) -> str:
+    """That it went on although it was decided by the windows of now."""
+    return f"By these windows it would have ended after round {result.played_on_after}; it was played on."
+
+
 def _outcome(result: BattleResult) -> str:
     if result.is_complete and result.rules.has_handicap:
         return handicap_words(result)
@@ -59,7 +66,7 @@ def _score(result: BattleResult, side: int) -> str:
     standing, rules = result.standings[side], result.rules
     parts = [f"{standing.rounds_won} rounds won"]
     if side != DRUMMER or rules.mode is BattleMode.IMPROVISE:
-        parts.insert(0, f"{standing.points:.0f} points")
+        parts.insert(0, points_words(standing.points))
     if standing.lives is not None:
         parts.append(f"{standing.lives} of {rules.lives} lives left")
     played = " as played" if standing.handicapped is not None else ""
@@ -76,13 +83,13 @@ def _round(result: BattleResult, turns: Iterable[JudgedTurn]) -> Iterator[str]:
 
 def _marks(result: BattleResult, turn: JudgedTurn, marks: TurnMarks) -> str:
     if not isinstance(marks, AnswerMarks):
-        return f"{marks.points:.0f} points"
+        return points_words(marks.points)
     if marks.accuracy is None:
         return "not heard, not counted"
     won = "lost" if is_lost(result.rules, turn) else "won"
     faults = [f"{marks.extras} extra" if marks.extras else "", f"{marks.wrong_pieces} on a wrong piece"]
     told = ", ".join(filter(None, (faults[0], faults[1] if marks.wrong_pieces else "")))
-    return f"{marks.accuracy:.0%}, {won}: {marks.right} of {marks.known} right{', ' if told else ''}{told}"
+    return f"{marks.percent} %, {won}: {marks.right} of {marks.known} right{', ' if told else ''}{told}"
 
 
 def _evidence(marks: TurnMarks) -> Iterator[str]:

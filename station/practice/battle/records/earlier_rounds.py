@@ -2,15 +2,15 @@
 
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 from station.core.errors import BadInput
-from station.practice.battle.battle_result import STAIRCASE
-from station.practice.battle.people.handicap import Expectation, expectation
+from station.practice.battle.battle_rules import BattleMode, BattleRules
+from station.practice.battle.people.handicap import Earlier, Expectation, expectation
 from station.practice.battle.people.player import is_virtual
 from station.practice.battle.records.battle_folder import DOCUMENT_NAME
 from station.practice.battle.repeating.demands import MOST_STEP
-from station.practice.battle.repeating.staircase import Answered
 from station.practice.records.kept_json import kept_document
 from station.practice.session.log_values import rows_in, table_in, whole
 
@@ -27,42 +27,63 @@ def expected_of(sessions: Path, name: str, virtual: bool = False) -> Expectation
     What `virtual` players have done under a name tells of them alone, and of no person. A document that cannot be read
     tells nothing, nor does a battle in which no stroke of theirs was heard.
     """
-    answered: list[Answered] = []
+    answers: list[Earlier] = []
     points: list[float] = []
     documents = sorted(sessions.glob(f"*/*/{DOCUMENT_NAME}"), key=lambda path: path.parent.name)
     for path in documents[-MOST_READ:]:
         with suppress(BadInput, ValueError, TypeError, KeyError, AttributeError):
-            document = kept_document(path)
+            document = table_in(kept_document(path))
             if not _has_played(document, name, virtual):
                 continue
             turns = list(_turns(document, name))
-            answered += [Answered(step, is_won) for step, is_won, _ in turns if step is not None and is_won is not None]
-            points += [one for step, _, one in turns if step is None]
-    return expectation(answered, points, STAIRCASE)
+            answers += [turn for turn in turns if isinstance(turn, Earlier)]
+            points += [turn for turn in turns if isinstance(turn, float)]
+    return expectation(answers, points)
 
 
-def _has_played(document: object, name: str, virtual: bool) -> bool:
+def after_earlier(rules: BattleRules, sessions: Path, has_handicap: bool, virtual: bool = False) -> BattleRules:
+    """The rules as the players' earlier battles ask: what is expected of each for a handicap, else the first step.
+
+    A first step that `rules` have stays. Without a handicap it is the lowest of the players' own, so that nobody is
+    out before a phrase comes that they can play.
+    """
+    expected = [expected_of(sessions, player.name, virtual) for player in rules.players]
+    if has_handicap and not rules.is_solo:
+        return replace(rules, expectations=tuple(expected))
+    if rules.first_step is not None or rules.mode is not BattleMode.REPEAT:
+        return rules
+    return replace(rules, first_step=min(rules.staircase.next_step(one.answered) for one in expected))
+
+
+def _has_played(document: dict[str, object], name: str, virtual: bool) -> bool:
     """Whether strokes of the player were heard, and a virtual player's only where such are asked for."""
-    scores = map(table_in, rows_in(table_in(document)["scores"]))
+    scores = map(table_in, rows_in(document["scores"]))
     devices = [score["device"] for score in scores if score["name"] == name and score["drummer"] is False]
     return any(isinstance(device, str) and is_virtual(device) is virtual for device in devices)
 
 
-def _turns(document: object, name: str) -> Iterator[tuple[int | None, bool | None, float]]:
-    """Of each turn of a player its step, whether it was won (both None of an improvised one), and its points."""
-    for kept in rows_in(table_in(document)["rounds"]):
+def _turns(document: dict[str, object], name: str) -> Iterator[Earlier | float]:
+    """A player's turns: answers to what was to be repeated, and the points of improvised ones.
+
+    A phrase was of their own step where they played alone, the final apart, or with a handicap.
+    """
+    rules = table_in(document["rules"])
+    is_fair = bool(rows_in(rules["expectations"]))
+    is_alone = len(rows_in(rules["players"])) == 1
+    for kept in rows_in(document["rounds"]):
         each = table_in(kept)
         for turn in map(table_in, rows_in(each["turns"])):
             marks = turn["marks"]
             if turn["kind"] != "answer" or turn["name"] != name or marks is None:
                 continue
-            points, step, won = table_in(marks)["points"], each["step"], turn["won"]
-            if points is not None:
-                yield (
-                    None if step is None else min(max(whole(step), 0), MOST_STEP),
-                    won if isinstance(won, bool) else None,
-                    _points(points),
-                )
+            points, step, won = table_in(marks)["points"], turn["step"], turn["won"]
+            if points is None:
+                continue
+            if step is None:
+                yield _points(points)
+            elif isinstance(won, bool):
+                is_own = is_fair or (is_alone and each["final"] is not True)
+                yield Earlier(min(max(whole(step), 0), MOST_STEP), won, _points(points), is_own)
 
 
 def _points(value: object) -> float:

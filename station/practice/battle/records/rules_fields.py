@@ -42,7 +42,7 @@ def rules_fields(rules: BattleRules) -> dict[str, Json]:
 def _expectation_fields(expected: Expectation) -> dict[str, Json]:
     return {
         "answered": [[answer.step, answer.is_won] for answer in expected.answered],
-        "eased": expected.eased,
+        "had": list(expected.had),
         "points": float(expected.points),
         "spread": float(expected.spread),
     }
@@ -77,10 +77,13 @@ def rules_of(fields: dict[str, object]) -> BattleRules:
 def _expectation(fields: dict[str, object]) -> Expectation:
     answered = [rows_in(answer) for answer in rows_in(fields["answered"])]
     points, spread = float(str(fields["points"])), float(str(fields["spread"]))
-    if len(answered) > MEMORY or not (0 <= points <= 100 and 0 < spread <= 100):
+    had = tuple(sorted(float(str(one)) for one in rows_in(fields["had"])))
+    if len(answered) > MEMORY or not 1 <= len(had) <= MEMORY or not all(0 <= one <= 100 for one in (*had, points)):
+        raise ValueError
+    if not 0 < spread <= 100:  # also refuses NaN
         raise ValueError
     steps = tuple(Answered(_step(step), is_won is True) for step, is_won in answered)
-    return Expectation(steps, _step(fields["eased"]), points, spread)
+    return Expectation(steps, had, points, spread)
 
 
 def _step(value: object) -> int:

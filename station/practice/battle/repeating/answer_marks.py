@@ -1,11 +1,16 @@
 """How well a phrase was repeated: the station's one alignment, and its one answer to which notes are right.
 
-    accuracy = right / known notes · (answered / (answered + extras + wrong pieces))²
+    accuracy = right / (known notes + extras)
 
-as the score weighs what was not asked (`scoring.analysis.points`). A note is known unless nobody could hear whether it
-was played. A battle has one time: whoever answers a beat late, or begins again, has answered late, so that each stroke
-is measured where it was played. The phrase's landing on the next downbeat may be played and need not be: it counts
-neither as a note nor as an extra, nor does any stroke after the bars' end.
+the share of notes right among all that was asked or struck besides (the index of Jaccard 1901). So a note that is
+missed, or played late or on another piece, costs 1 / notes, and a stroke too many 1 / (notes + 1): a fifth in a phrase
+of four notes, one in twenty of nineteen. Who hammers every pad on every 16th of a bar of 13 notes has 115 extras, and
+10 %. A note is known unless nobody could hear whether it was played. A lesson's score takes the square of its precision
+(`scoring.analysis.points`), for it is of many bars; a phrase of four notes would lose 36 points by a stray stroke.
+
+A battle has one time: whoever answers a beat late, or begins again, has answered late, so that each stroke is measured
+where it was played. The phrase's landing on the next downbeat may be played and need not be: it counts neither as a
+note nor as an extra, nor does any stroke after the bars' end.
 
 A lean is told of the right notes alone, and where the report of a session would tell one: where there are as many as an
 interval asks for (`technique.estimates`), and it leaves out 0.
@@ -29,6 +34,10 @@ from station.scoring.matching.hit_windows import Windows
 from station.scoring.matching.right import right_notes
 from station.scoring.matching.unheard import Span, notes_within, with_unknown
 
+ACCURACY_WORDS = "notes right of those asked and those too many"
+"""What accuracy is, in a line."""
+_ROUNDING = 1e-9
+"""100 · 0.29 is a little less than 29."""
 _UNASKED = (Label.EXTRA, Label.PLAYED_AGAIN)
 
 
@@ -53,9 +62,12 @@ class AnswerMarks:
         """As the module's head says."""
         if not self.known:
             return None
-        heard = self.answered + self.extras + self.wrong_pieces
-        precision = self.answered / heard if heard else 0.0
-        return self.right / self.known * precision**2
+        return self.right / (self.known + self.extras)
+
+    @property
+    def percent(self) -> int | None:
+        """It in percent, as it is told everywhere: rounded down, so that what is lost never reads as the target."""
+        return None if self.accuracy is None else percent_of(self.accuracy)
 
     @property
     def points(self) -> float | None:
@@ -65,6 +77,11 @@ class AnswerMarks:
     def is_won(self, target: float) -> bool | None:
         """Whether the target was reached; None where nothing is known."""
         return None if self.accuracy is None else self.accuracy >= target
+
+
+def percent_of(accuracy: float) -> int:
+    """An accuracy, or a mean of some, in whole percent, rounded down."""
+    return int(100.0 * accuracy + _ROUNDING)
 
 
 def answer_marks(phrase: Phrase, turn: Turn, windows: Windows, unheard: Sequence[Span] = ()) -> AnswerMarks:

@@ -10,19 +10,26 @@ slopes are multiplied by what they foretold; the next phrase stands at the mean 
 in any order, so that a verdict which a late stroke changes changes the estimate as if it had been so from the start.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from math import log
+from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from station.scoring.matching.hit_windows import Level
+
 TARGET = 0.75
 """Our choice: three of four phrases are won, which players call fun and learn by (TEACHING: 70 to 85 % success)."""
-USUAL_FIRST_STEP = 8
-"""Where a player begins of whom nothing is known (our choice: a third of the way up; eight rounds reach both ends)."""
+FIRST_STEPS: Mapping[Level, int] = MappingProxyType(
+    {Level.BEGINNER: 1, Level.ELEMENTARY: 3, Level.INTERMEDIATE: 6, Level.ADVANCED: 10, Level.STUDIO: 15}
+)
+"""Where a player begins of whom no battle is known, by the level at which they are judged (our choice, by `demands`): a
+beginner with a bar for the hands alone, then with the kick, with accents, with two bars over the kit, with four limbs
+and four bars. Each is low for its level, so that the first battle begins with a phrase that goes."""
 LAPSE = 0.03
 """So often is an answer lost, or won, whatever the step (our choice)."""
 SLOPES = (0.5, 1.0, 2.0, 3.0)

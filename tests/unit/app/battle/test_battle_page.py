@@ -170,7 +170,7 @@ def test_whoever_plays_all_back_wins_and_it_is_kept(line: Line, station: Control
     assert result is not None
     assert result.headline == "You win against the steady one"
     assert result.failed == ""
-    assert result.best == "student, bar 2 of round 2", "the final was the hardest"
+    assert result.best == "student, bar 1 of round 2", "the final was the hardest"
     station.dispatch(ReplayBest())
     assert shown(station).replays
     assert not shown(station).covers_picture, "the stage is seen"

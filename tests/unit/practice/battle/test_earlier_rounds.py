@@ -8,14 +8,21 @@ from station.practice.battle.records.battle_folder import DOCUMENT_NAME
 from station.practice.battle.records.earlier_rounds import expected_of
 
 SCORES = '"scores": [{"name": "Ann", "drummer": false, "device": %s}]'
-TURN = '{"kind": "answer", "name": "Ann", "won": null, "marks": {"points": %s}}'
+TURN = '{"kind": "answer", "name": "Ann", "step": null, "won": null, "marks": {"points": %s}}'
+RULES = '{"players": [{"name": "Ann"}], "expectations": []}'
 
 
 def leave(sessions: Path, points: str, device: str = '"TD-17"') -> None:
     folder = sessions / "Ann" / "2026-01-01T10-00-00_battle-steady"
     folder.mkdir(parents=True)
     (folder / DOCUMENT_NAME).write_text(
-        '{"rounds": [{"step": null, "turns": [' + TURN % points + "]}], " + SCORES % device + "}"
+        '{"rules": '
+        + RULES
+        + ', "rounds": [{"final": false, "turns": ['
+        + TURN % points
+        + "]}], "
+        + SCORES % device
+        + "}"
     )
 
 

@@ -80,7 +80,7 @@ def test_words_of_standings_count_and_end() -> None:
     assert counting.hud.standings is not None
     left, right = counting.hud.standings.sides
     assert (left.name, right.name) == (OPPONENTS["pocket"].title, "Robin")
-    assert (right.points, right.lives, right.most_lives) == ("180 points · 0 won", 2, 3)
+    assert (right.points, right.lives, right.most_lives) == ("180.0 points · 0 won", 2, 3)
     over = shown(8 * BAR_NS + NS_PER_S, scene)
     assert over.hud.halt == "Robin wins"
     assert over.rival is not None
