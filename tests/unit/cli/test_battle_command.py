@@ -48,6 +48,30 @@ def test_people_are_measured_against_themselves(tmp_path: Path, capsys: pytest.C
     assert all(0 <= score["handicapped"] <= 100 for score in said["scores"][1:])
 
 
+def test_with_a_handicap_each_has_phrases_of_their_own_step_to_the_end(capsys: pytest.CaptureFixture[str]) -> None:
+    """Of two battles of one history: whoever misses all goes down, whoever plays all goes up, the final with them."""
+    words = ["--players", "Ann,Ben", "--handicap", "--headless", "--rounds", "2", "--tempo", "150"]
+    words += ["--virtual-student", "miss_pct=60,seed=1", "--virtual-student", "sd_ms=1,miss_pct=0,seed=2"]
+    document(capsys, *words)
+    final = document(capsys, *words)["rounds"][-1]
+    assert final["final"]
+    steps = {turn["name"]: turn["step"] for turn in final["turns"] if turn["kind"] == "answer"}
+    assert steps["Ann"] <= 1
+    assert steps["Ben"] >= 4
+
+
+def test_a_battle_begins_at_the_step_of_earlier_battles_else_of_the_level(capsys: pytest.CaptureFixture[str]) -> None:
+    words = [*SHORT, "--student", "Cleo", "--virtual-student", "sd_ms=1,miss_pct=0,seed=1"]
+    first = document(capsys, *words, "--rounds", "5")
+    assert first["rules"]["level"] == "beginner"
+    assert first["rounds"][0]["step"] == 1
+    second = document(capsys, *words)
+    assert second["rounds"][0]["step"] >= first["rounds"][-1]["step"] - 1 >= 3
+    assert document(capsys, *words, "--first-step", "0")["rounds"][0]["step"] == 0
+    others = [document(capsys, *SHORT, "--level", level)["rounds"][0]["step"] for level in ("intermediate", "studio")]
+    assert 1 < others[0] < others[1]
+
+
 def test_a_battle_that_was_cut_off_is_recovered(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     first = document(capsys, *SHORT, "--report", str(tmp_path))
     (tmp_path / "battle.json").unlink()

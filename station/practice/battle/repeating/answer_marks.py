@@ -3,10 +3,11 @@
     accuracy = right / (known notes + extras)
 
 the share of notes right among all that was asked or struck besides (the index of Jaccard 1901). So a note that is
-missed, or played late or on another piece, costs 1 / notes, and a stroke too many 1 / (notes + 1): a fifth in a phrase
-of four notes, one in twenty of nineteen. Who hammers every pad on every 16th of a bar of 13 notes has 115 extras, and
-10 %. A note is known unless nobody could hear whether it was played. A lesson's score takes the square of its precision
-(`scoring.analysis.points`), for it is of many bars; a phrase of four notes would lose 36 points by a stray stroke.
+missed or played on another piece costs 1 / notes, and a stroke too many 1 / (notes + 1): a fifth in a phrase of four
+notes, one in twenty of nineteen. A stroke so late that it answers no note is both. Who hammers every pad on every 16th
+of a bar of 13 notes has 115 extras, and 10 %. A note is known unless nobody could hear whether it was played. A
+lesson's score takes the square of its precision (`scoring.analysis.points`), for it is of many bars; a phrase of four
+notes would lose 36 points by a stray stroke.
 
 A battle has one time: whoever answers a beat late, or begins again, has answered late, so that each stroke is measured
 where it was played. The phrase's landing on the next downbeat may be played and need not be: it counts neither as a
