@@ -21,10 +21,11 @@ if hasattr(signal, "SIGHUP"):
 
 @pytest.fixture(scope="session", autouse=True)
 def _nobodys_settings(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """No test reads or writes the settings and kits of whoever runs it (where XDG says where they are)."""
+    """No test reads or writes the settings, kits and sessions of whoever runs it (where XDG says where they are)."""
     with pytest.MonkeyPatch.context() as patch:
         for kind in ("CONFIG", "DATA"):
             patch.setenv(f"XDG_{kind}_HOME", str(tmp_path_factory.mktemp(kind.lower())))
+        patch.setenv("XDG_DOCUMENTS_DIR", str(tmp_path_factory.mktemp("documents")))
         yield
 
 
