@@ -25,14 +25,22 @@ from station.app.battle.battle_shown import BattleShown, BattleStage
 from station.app.controller import Controller
 from station.app.room_state import Stage
 from station.app.sessions.launch import Launch
-from station.app.settings.chosen_battle import ChosenBattle, People
+from station.app.settings.chosen_battle import ChosenBattle, People, chosen_rules
+from station.cli.battling.battle_options import BattleOptions, battle_rules
+from station.cli.battling.battle_video import FilmOptions
+from station.cli.battling.network_options import NetworkOptions
+from station.cli.options.sound_options import SoundOptions
 from station.core.events import DeviceFound, Hit
 from station.core.pieces import Piece, Zone
+from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import AddCues, Play, RecordCapture, Started
 from station.practice.battle.battle_rules import BattleMode
+from station.practice.battle.records.earlier_rounds import after_earlier
 from station.practice.battle.turn_plan import TurnKind
+from station.practice.records.memory import LevelMemory
+from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.scoring.matching.hit_windows import Level
 from tests.fakes.stations import Line, station_on, store_with
@@ -148,6 +156,34 @@ def test_two_kits_need_two(line: Line, station: Controller) -> None:
     battle = station.parts.sessions.practice.battle
     assert battle is not None
     assert [player.device for player in battle.rules.players] == ["one kit", "another kit"]
+
+
+def test_a_battle_is_judged_by_the_level_of_the_students_lessons_and_begins_low_for_it(
+    line: Line, station: Controller, tmp_path: Path
+) -> None:
+    assert shown(station).setup.level is Level.BEGINNER, "of whom no lesson is known"
+    levels = LevelMemory.of(tmp_path, "Cleo")
+    for lesson, level in (("rock-1", Level.ADVANCED), ("rock-2", Level.STUDIO), ("rock-3", Level.ELEMENTARY)):
+        levels.keep(lesson, level)
+    station.dispatch(PlayAs("Cleo"))
+    station.update(2)
+    station.dispatch(OpenBattle())
+    setup = shown(station).setup
+    assert setup.level is Level.ADVANCED, "the middle one of three"
+    begun(line, station, setup)
+    battle = station.parts.sessions.practice.battle
+    assert battle is not None
+    assert battle.rules.first_step == 10
+
+
+def test_what_nobody_chose_is_the_same_in_the_window_and_in_a_terminal(tmp_path: Path) -> None:
+    settings = Settings(student="Ann", sessions=str(tmp_path))
+    options = BattleOptions(network=NetworkOptions(), video=FilmOptions(), sound=SoundOptions())
+    typed = battle_rules(options, settings)
+    chosen = after_earlier(chosen_rules(ChosenBattle(seed=1), "Ann", (), PLAIN), tmp_path, has_handicap=False)
+    for rules in (typed, chosen):
+        assert (rules.rounds, rules.bars, rules.lives, rules.target) == (6, 2, 3, 0.9)
+        assert (rules.level, rules.first_step) == (Level.BEGINNER, 1)
 
 
 def test_fair_play_measures_two_against_themselves(line: Line, station: Controller) -> None:
