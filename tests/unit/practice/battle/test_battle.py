@@ -13,6 +13,7 @@ from station.practice.battle.battle import Battle
 from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.battle_view import Doing
 from station.practice.battle.ground import Ground
+from station.practice.battle.people.handicap import Earlier, expectation
 from station.practice.battle.people.player import Player
 from station.practice.battle.phrase import Phrase
 from station.practice.battle.phrase_request import PhraseRequest
@@ -247,6 +248,21 @@ def test_on_two_kits_each_is_judged_by_their_own_device() -> None:
     result = battle.result()
     assert [side.points for side in result.standings] == [0, 200, 0]
     assert result.winner == 1
+
+
+@pytest.mark.parametrize("devices", [("", ""), ("TD-17", "nitro")])
+def test_with_a_handicap_each_is_called_phrases_of_their_own_step_the_final_too(devices: tuple[str, str]) -> None:
+    players = (Player("Kid", devices[0]), Player("Mum", devices[1]))
+    known = [expectation([Earlier(step, True, 95.0), Earlier(step + 2, False, 70.0)] * 10, []) for step in (1, 15)]
+    rules = replace(RULES, players=players, expectations=tuple(known), has_final=True)
+    played = PlayedBattle(Battle(rules, by_step), device=lambda turn: devices[turn.side - 1] or "kit")
+    plan = [turn for turn in played.until().battle.plan if turn.kind is not TurnKind.CHANGEOVER]
+    assert [turn.kind for turn in plan] == [TurnKind.CALL, TurnKind.ANSWER] * 6
+    assert [turn.side for turn in plan[1::2]] == [1, 2, 2, 1, 1, 2]
+    for call, answer in zip(plan[::2], plan[1::2], strict=True):
+        assert answer.phrase is call.phrase
+        assert abs((answer.step or 0) - (1, 15)[answer.side - 1]) <= 2
+    assert [worth.handicapped for worth in played.battle.result().standings[1:]] == [100, 100], "all right beats 95"
 
 
 def test_a_player_alone_with_lives_has_won_when_the_round_is_over() -> None:
