@@ -43,7 +43,7 @@ WORST = 1.5
 FALL_SPREADS = 0.5
 """Our choice, after the caps on how far a golfer's handicap may rise above the year's lowest (rule 5.8): half of what
 separates a good day from a usual one."""
-FALLEN_SPREADS, LEAST_FALLEN = 1.0, 4.0
+FALLEN_SPREADS, LEAST_FALLEN = 1.5, 4.0
 """Spreads, and points at the least: the mean of twenty honest answers strays by a quarter of a spread (our choice)."""
 _PLACES = 3
 """Of points, as a battle's document keeps them: equal answers are to be equal."""
