@@ -3,6 +3,8 @@
 import os
 import signal
 from collections.abc import Iterator
+from itertools import count
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
@@ -21,12 +23,24 @@ if hasattr(signal, "SIGHUP"):
 
 @pytest.fixture(scope="session", autouse=True)
 def _nobodys_settings(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """No test reads or writes the settings, kits and sessions of whoever runs it (where XDG says where they are)."""
+    """No test reads or writes the settings and kits of whoever runs it (where XDG says where they are)."""
     with pytest.MonkeyPatch.context() as patch:
         for kind in ("CONFIG", "DATA"):
             patch.setenv(f"XDG_{kind}_HOME", str(tmp_path_factory.mktemp(kind.lower())))
-        patch.setenv("XDG_DOCUMENTS_DIR", str(tmp_path_factory.mktemp("documents")))
         yield
+
+
+@pytest.fixture(scope="session")
+def _documents(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Folders that are not there yet, another one each time."""
+    base = tmp_path_factory.mktemp("documents")
+    return (base / f"{number}" for number in count())
+
+
+@pytest.fixture(autouse=True)
+def _nobodys_sessions(_documents: Iterator[Path], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every test begins without any session, and keeps none among the documents of whoever runs it."""
+    monkeypatch.setenv("XDG_DOCUMENTS_DIR", str(next(_documents)))
 
 
 LONGEST = ("tests/gui", "tests/e2e", "tests/render", "tests/unit/motion")
