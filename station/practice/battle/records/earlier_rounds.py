@@ -44,13 +44,14 @@ def expected_of(sessions: Path, name: str, virtual: bool = False) -> Expectation
 def after_earlier(rules: BattleRules, sessions: Path, has_handicap: bool, virtual: bool = False) -> BattleRules:
     """The rules as the players' earlier battles ask: what is expected of each for a handicap, else the first step.
 
-    A first step that `rules` have stays. Without a handicap it is the lowest of the players' own, so that nobody is
-    out before a phrase comes that they can play.
+    A first step that `rules` have stays, and `virtual` players begin at their level's, so that their battle is the same
+    for the same seed. Else it is the lowest of the players' own, so that nobody is out before a phrase comes that they
+    can play.
     """
     expected = [expected_of(sessions, player.name, virtual) for player in rules.players]
     if has_handicap and not rules.is_solo:
         return replace(rules, expectations=tuple(expected))
-    if rules.first_step is not None or rules.mode is not BattleMode.REPEAT:
+    if virtual or rules.first_step is not None or rules.mode is not BattleMode.REPEAT:
         return rules
     return replace(rules, first_step=min(rules.staircase.next_step(one.answered) for one in expected))
 

@@ -1,25 +1,32 @@
 """Documents of earlier battles that somebody has edited or damaged say nothing of what to expect."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from station.practice.battle.battle_rules import BattleMode, BattleRules
+from station.practice.battle.ground import Ground
+from station.practice.battle.people.player import Player
 from station.practice.battle.records.battle_folder import DOCUMENT_NAME
-from station.practice.battle.records.earlier_rounds import expected_of
+from station.practice.battle.records.earlier_rounds import after_earlier, expected_of
+from station.scoring.matching.hit_windows import Level
 
 SCORES = '"scores": [{"name": "Ann", "drummer": false, "device": %s}]'
-TURN = '{"kind": "answer", "name": "Ann", "step": null, "won": null, "marks": {"points": %s}}'
+TURN = '{"kind": "answer", "name": "Ann", "step": %s, "won": %s, "marks": {"points": %s}}'
 RULES = '{"players": [{"name": "Ann"}], "expectations": []}'
 
 
-def leave(sessions: Path, points: str, device: str = '"TD-17"') -> None:
-    folder = sessions / "Ann" / "2026-01-01T10-00-00_battle-steady"
+def leave(
+    sessions: Path, points: str, device: str = '"TD-17"', step: str = "null", won: str = "null", hour: int = 10
+) -> None:
+    folder = sessions / "Ann" / f"2026-01-01T{hour}-00-00_battle-steady"
     folder.mkdir(parents=True)
     (folder / DOCUMENT_NAME).write_text(
         '{"rules": '
         + RULES
         + ', "rounds": [{"final": false, "turns": ['
-        + TURN % points
+        + TURN % (step, won, points)
         + "]}], "
         + SCORES % device
         + "}"
@@ -46,3 +53,15 @@ def test_a_virtual_player_of_a_name_is_not_the_person_of_that_name(tmp_path: Pat
 def test_a_battle_in_which_nothing_of_theirs_was_heard_says_nothing(tmp_path: Path) -> None:
     leave(tmp_path, "0", "null")
     assert expected_of(tmp_path, "Ann") == expected_of(tmp_path, "nobody")
+
+
+def test_a_battle_begins_where_earlier_battles_of_theirs_have_led(tmp_path: Path) -> None:
+    rules = BattleRules(Ground(100), BattleMode.REPEAT, players=(Player("Ann"),), level=Level.BEGINNER)
+    assert after_earlier(rules, tmp_path, has_handicap=False).staircase.next_step(()) == 1, "as the level"
+    for hour in range(10, 22):
+        leave(tmp_path, "100", step=f"{hour - 4}", won="true", hour=hour)
+    led = after_earlier(rules, tmp_path, has_handicap=False).staircase.next_step(())
+    assert led >= 16, "they won step 17 last"
+    asked = replace(rules, first_step=2)
+    assert after_earlier(asked, tmp_path, has_handicap=False) == asked
+    assert after_earlier(rules, tmp_path, has_handicap=False, virtual=True) == rules
