@@ -16,7 +16,7 @@ import pytest
 from station.core.pieces import Limb
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
-from station.devices.capture.capture import read_capture
+from station.devices.capture.capture import RecordKind, read_capture
 from station.devices.mapping.stick_file import save_stick
 from station.drills.library import find_lesson
 from station.practice.records.recovery import recovered
@@ -74,13 +74,17 @@ def test_the_report_names_the_hands_that_struck(tmp_path: Path) -> None:
     assert station.returncode == 0, said
     document = json.loads(out)
 
-    result = judge_again(read_capture(report / CAPTURE_NAME))[-1].result()
+    capture = read_capture(report / CAPTURE_NAME)
+    result = judge_again(capture)[-1].result()
     hits = result.performance.hits
     truth = played.truth[played.pad_truth]
     assert len(hits) == len(truth)
     limbs, at_s = hits["limb"], truth["at_s"] - START_S
     named = limbs != Limb.UNKNOWN
-    both_there = (at_s < AWAY_S[0] - 0.1) | (at_s > AWAY_S[1] + 2.0)  # a port is found again within a second
+    # the port is looked for once a second, later on a busy machine
+    (found_ns,) = (record.at_ns for record in capture.records if record.kind == RecordKind.FOUND)
+    found_s = (found_ns - zero_ns - plan.passes_start_ns) / NS_PER_S
+    both_there = (at_s < AWAY_S[0] - 0.1) | (at_s > found_s + 1.0)
     assert np.mean(limbs[named] == truth["limb"][named]) >= 0.99
     assert named[both_there].mean() >= 0.95
 
