@@ -81,17 +81,16 @@ def test_the_report_names_the_hands_that_struck(tmp_path: Path) -> None:
     assert len(hits) == len(truth)
     limbs, at_s = hits["limb"], truth["at_s"] - START_S
     named = limbs != Limb.UNKNOWN
+    # a port is looked for once a second, and a sensor needs a second to be followed
     (found_ns,) = (record.at_ns for record in capture.records if record.kind == RecordKind.FOUND)
     found_s = (found_ns - zero_ns - plan.passes_start_ns) / NS_PER_S
-    is_before, is_left = at_s < AWAY_S[0] - 0.1, truth["limb"] == Limb.LEFT_HAND
+    both_there = (at_s < AWAY_S[0] - 0.1) | (at_s > found_s + 1.0)
     assert np.mean(limbs[named] == truth["limb"][named]) >= 0.99
-    assert named[is_before].mean() >= 0.95
-    assert named[~is_before & ~is_left].mean() >= 0.8  # a busy machine may hear a stroke too late to be named
-    assert named[is_left & (at_s > found_s)].any(), "it is followed again, at times only after seconds"
+    assert named[both_there].mean() >= 0.95
 
     counted = np.flatnonzero(named & np.isin(np.arange(len(hits)), result.alignment.hit_of_note))
-    wrong = np.isin(counted, WRONG_ROWS)
-    assert wrong.sum() >= 2, "those before a sensor went away, at least"
+    wrong = np.isin(counted, WRONG_ROWS)  # a busy machine may hear a stroke too late to count
+    assert wrong.sum() >= len(WRONG_ROWS) - 1
     assert document["sticking"]["wrong"] == wrong.sum()
     assert document["sticking"]["right"] == np.sum(~wrong)
     assert document["phase"]["locked_share"] > 0.3  # one sensor is away for a while, four strokes are the other hand's

@@ -34,6 +34,9 @@ CALM_S = 0.05
 MISSED_SHARE = 0.3
 """What a gyro at its limit may miss, as a share of that limit: a stroke of 30 rad/s at ± 1000 °/s loses 4° in 16 ms of
 the simulator's. Neither its acceleration nor the rate before tells how much: guesses were worse than none."""
+MOST_MISSED_RAD = 1.0
+"""More makes no difference: the inclination may be any. So it may where samples begin, perhaps in the middle of a
+stroke."""
 LOST_RAD = 0.05
 """A stick that may have missed more has lost its inclination; our choice: one stroke well beyond the limit."""
 LOOSE_G, LOOSE_RAD_S = 1.0, 10.0
@@ -79,8 +82,9 @@ class StickOrientation:
         self._turned, self._accelerated = np.zeros(3), np.zeros(3)  # for VQF: numpy's arrays are slow to make
         self._calm_s = 0.0
         self._limit = GyroLimit()
-        self._missed_rad = 0.0
+        self._missed_rad = MOST_MISSED_RAD
         self._is_lost = False
+        self._begins = True  # until calm has told how it is held, or acceleration for long enough
 
     @property
     def rate_hz(self) -> float | None:
@@ -120,7 +124,7 @@ class StickOrientation:
         rate = sample.rate_rad_s if sample.rate_rad_s is not None else _derived(before, sample, dt_s)
         is_clipped = sample.rate_rad_s is not None and self._limit.is_reached(rate)
         if is_clipped:
-            self._missed_rad = min(self._missed_rad + MISSED_SHARE * max(map(abs, rate)) * dt_s, 1.0)
+            self._missed_rad = min(self._missed_rad + MISSED_SHARE * max(map(abs, rate)) * dt_s, MOST_MISSED_RAD)
         self._update(vqf, rate, sample, dt_s)
         self._before, self._rate = sample, rate
         if sample.rate_rad_s is None:
@@ -143,7 +147,7 @@ class StickOrientation:
     def _afresh(self, before: VQF) -> VQF:
         """A filter that knows nothing but the bias of the one before."""
         self._filter, self._calm_s = VQF(self._interval_s), 0.0
-        self._missed_rad, self._is_lost = 0.0, False
+        self._missed_rad, self._is_lost, self._begins = MOST_MISSED_RAD, False, True
         bias, sigma = before.getBiasEstimate()
         self._filter.setBiasEstimate(bias, sigma)
         return self._filter
@@ -164,10 +168,12 @@ class StickOrientation:
         turning = p * p + q * q + r * r
         is_calm = off < CALM_G * STANDARD_GRAVITY_M_S2 and turning < CALM_RAD_S * CALM_RAD_S
         self._calm_s = self._calm_s + dt_s if is_calm else 0.0
-        if self._missed_rad > 0.0:
+        if self._begins and self._calm_s > CALM_S:
+            self._missed_rad = 0.0  # VQF begins with the mean of what it is told
+        if self._begins or self._missed_rad > 0.0:
             self._find_again(vqf)
         is_slow = self._is_lost and off < LOOSE_G * STANDARD_GRAVITY_M_S2 and turning < LOOSE_RAD_S * LOOSE_RAD_S
-        if is_slow or self._calm_s > CALM_S or self._before is None:
+        if is_slow or self._calm_s > CALM_S:
             acceleration = self._accelerated
             acceleration[0], acceleration[1], acceleration[2] = x, y, z
             vqf.updateAcc(acceleration)
@@ -177,6 +183,7 @@ class StickOrientation:
     def _find_again(self, vqf: VQF) -> None:
         """Trust acceleration more, and learn no bias of it, while the gyro has missed much; until it is made good."""
         is_lost = self._missed_rad > (LOST_RAD / 4 if self._is_lost else LOST_RAD)
+        self._begins = self._begins and is_lost
         if is_lost is not self._is_lost:
             self._is_lost = is_lost
             vqf.setTauAcc(LOST_S if is_lost else VQF_S)

@@ -143,6 +143,18 @@ def test_what_a_hand_stops_is_no_stroke(rate_hz: float, angle: Array) -> None:
     assert found(measured(angle, Sensor(rate_hz))) == []
 
 
+@pytest.mark.parametrize("rate_hz", [100, 200, 400])
+def test_a_sensor_that_comes_in_the_middle_of_the_playing_is_followed_within_a_second(rate_hz: float) -> None:
+    """As one that was unplugged and plugged in again: nobody holds the stick still for it."""
+    angle, onsets_s, _ = strokes_by_angle([Stroke()] * 24)
+    samples = measured(angle, Sensor(rate_hz))
+    for begin_s in np.arange(onsets_s[4], onsets_s[6], 0.03):
+        heard = [one.at_ns / 1e9 for one in found([one for one in samples if one.at_ns / 1e9 > begin_s])]
+        wanted = [at_s for at_s in onsets_s if at_s > begin_s + 1.0]
+        late_s = 0.003 if rate_hz > 100 else 0.005
+        assert heard[-len(wanted) :] == pytest.approx(wanted, abs=late_s), f"from {begin_s - onsets_s[4]:.2f} s on"
+
+
 def test_lost_samples_lose_no_other_stroke() -> None:
     angle, onsets_s, _ = strokes_by_angle([Stroke()] * 6)
     samples = measured(angle, Sensor(400))
