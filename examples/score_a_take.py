@@ -4,7 +4,7 @@ Run it with `python examples/score_a_take.py`. Everything here is the core: it n
 """
 
 from station.drills.library import find_lesson
-from station.practice.records.session_report import assessment_text
+from station.practice.records.report.session_report import assessment_text
 from station.scoring.align import align
 from station.scoring.analysis.summary import summarise
 from station.scoring.report.assessment_document import assessment

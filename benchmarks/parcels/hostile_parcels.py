@@ -42,8 +42,8 @@ from station.practice.exchange.parcel import Kind
 from station.practice.exchange.return_file import AssignmentWord, Return, ReturnedSession, return_bytes
 from station.practice.exchange.session_figures import report_figures
 from station.practice.headless.virtual_session import practise_virtually
-from station.practice.records.session_pairs import session_pairs_csv
-from station.practice.records.session_report import practice_document
+from station.practice.records.report.session_pairs import session_pairs_csv
+from station.practice.records.report.session_report import practice_document
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.scoring.matching.hit_windows import Level
 from station.simulation.student_spec import parse_spec

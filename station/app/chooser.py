@@ -17,7 +17,7 @@ from station.core.errors import BadInput
 from station.drills.daily.daily_items import DailyItem
 from station.drills.library import lessons_dir, read_any
 from station.practice.control.tap_tempo import TapTempo as Taps
-from station.practice.records.next_steps import NextStep, StepKind
+from station.practice.records.report.next_steps import NextStep, StepKind
 
 
 class Chooser:

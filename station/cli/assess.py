@@ -47,7 +47,7 @@ class AssessOptions:
 def run(options: AssessOptions) -> int:
     """Align, sum up, print."""
     from station.app.music_files.find_own_lesson import find_any_lesson
-    from station.practice.records.session_report import assessment_text, feel_of, kit_facts, session_view
+    from station.practice.records.report.session_report import assessment_text, feel_of, kit_facts, session_view
     from station.practice.session.cues.click_pattern import silences
     from station.scoring.align import align
     from station.scoring.analysis.summary import SummaryView, summarise

@@ -22,8 +22,8 @@ from station.practice.records.earlier_lags import fair_session
 from station.practice.records.lesson_order import first_words, followed_course, shipped_title
 from station.practice.records.memory import Memory, Remembered, following_lesson
 from station.practice.records.recovery import offer, recovered
+from station.practice.records.report.session_report import practice_document, with_truth
 from station.practice.records.save_session import SessionFolder, save
-from station.practice.records.session_report import practice_document, with_truth
 from station.practice.records.student_progress import student_progress
 from station.practice.records.teachers_wishes import wishes_of
 

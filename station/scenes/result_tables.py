@@ -7,7 +7,7 @@ import numpy as np
 from station.core.units import NS_PER_S
 from station.music.judgement import Label
 from station.practice.now.tempo_now import tempi_in_words
-from station.practice.records.stick_words import stick_lines
+from station.practice.records.report.stick_words import stick_lines
 from station.practice.session.session import SessionResult
 from station.render.report.result_facts import ResultFacts, ResultWords, result_facts
 from station.scoring.matching.hit_windows import Level

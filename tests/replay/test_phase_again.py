@@ -9,7 +9,7 @@ import pytest
 from station.core.settings import Settings
 from station.devices.capture.capture import read_capture
 from station.practice.records.rejudge import judge_again
-from station.practice.records.session_report import practice_document, report_text
+from station.practice.records.report.session_report import practice_document, report_text
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.runner import SessionRunner

@@ -24,7 +24,7 @@ from station.engine.messages import Command, RecordCapture
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.practice.records.rejudge import judge_again
-from station.practice.records.session_report import practice_document, report_text
+from station.practice.records.report.session_report import practice_document, report_text
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.session import LEAD_IN_NS, Session
 from station.scenes.result_tables import session_facts

@@ -22,7 +22,7 @@ from station.app.actions.today_actions import StartBlock
 from station.app.room_state import Stage
 from station.app.station_parts import StationParts
 from station.core.errors import DeviceError
-from station.practice.records.next_steps import StepKind, block_step
+from station.practice.records.report.next_steps import StepKind, block_step
 
 
 def choose(parts: StationParts, action: ChoiceAction) -> None:

@@ -18,7 +18,7 @@ from station.app.settings.settings_store import SettingsStore
 from station.core.errors import StationError
 from station.core.events import Hit
 from station.engine.messages import EngineEvent
-from station.practice.records.next_steps import NextStep
+from station.practice.records.report.next_steps import NextStep
 from station.practice.session.self_estimate import SelfEstimate
 from station.render.snapshot import Snapshot
 from station.sound.track import PreparedTrack

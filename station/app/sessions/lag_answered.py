@@ -8,10 +8,10 @@ from station.core.errors import StationError
 from station.core.settings import Settings
 from station.practice.lag.fair_judgement import FairResult, as_it_came
 from station.practice.lag.session_lag import LagAnswer
-from station.practice.records.next_steps import steps_in
+from station.practice.records.report.next_steps import steps_in
+from station.practice.records.report.session_report import practice_document
+from station.practice.records.report.what_next import table_in
 from station.practice.records.save_session import SessionFolder
-from station.practice.records.session_report import practice_document
-from station.practice.records.what_next import table_in
 from station.practice.session.device_latency import Latency
 
 _KEPT = ("mastery",)

@@ -17,7 +17,7 @@ from station.practice.demonstration.compare_by_ear import (
     previous_tempo,
     students_bar,
 )
-from station.practice.records.next_steps import NextStep
+from station.practice.records.report.next_steps import NextStep
 from station.practice.session.cues.listening import Listening
 from station.practice.session.self_estimate import QUESTION, SelfEstimate, answered, is_worth_asking
 from station.render.snapshot import Snapshot

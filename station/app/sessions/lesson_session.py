@@ -30,10 +30,10 @@ from station.practice.lag.first_groove import FIRST_GROOVE
 from station.practice.now.whereabouts import place_of
 from station.practice.records.earlier_lags import fair_session
 from station.practice.records.memory import following_lesson
-from station.practice.records.next_steps import steps_in
 from station.practice.records.previous_session import find_previous
+from station.practice.records.report.next_steps import steps_in
+from station.practice.records.report.session_report import practice_document
 from station.practice.records.save_session import SessionFolder, SessionRecord, save
-from station.practice.records.session_report import practice_document
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Phase, Plan
 from station.practice.session.runner import SessionRunner, Update

@@ -6,8 +6,8 @@ from station.app.room_state import ShownResult
 from station.core.errors import StationError
 from station.drills.exam.rubric import Marks
 from station.practice.lag.fair_judgement import FairResult
-from station.practice.records.next_steps import NextStep, with_block
 from station.practice.records.previous_session import NONE_KEPT, PreviousSession
+from station.practice.records.report.next_steps import NextStep, with_block
 from station.practice.session.session import SessionResult
 from station.scenes.heat_map import heat_map
 from station.scenes.hit_table import every_hit

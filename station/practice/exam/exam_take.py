@@ -12,7 +12,7 @@ from station.drills.exam.exam_piece import ExamPiece
 from station.drills.exam.rubric import Criterion, Marks, Rubric, rubric_of
 from station.drills.mastery.feedback_fading import Feedback
 from station.engine.engine import KEYBOARD
-from station.practice.records.session_report import feel_of
+from station.practice.records.report.session_report import feel_of
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
 from station.practice.session.leading_hand import hands_of

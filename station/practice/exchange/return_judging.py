@@ -19,7 +19,7 @@ from station.practice.exchange.return_file import Return, ReturnedSession, sessi
 from station.practice.exchange.session_figures import SessionFigures, length_s, report_figures
 from station.practice.lag.fair_judgement import judged_as_told
 from station.practice.records.recovery import session_of
-from station.practice.records.session_report import practice_document
+from station.practice.records.report.session_report import practice_document
 from station.practice.session.plan import MAX_TEMPO_BPM, MIN_TEMPO_BPM
 from station.practice.session.session import SessionResult
 from station.scoring.report.assessment_document import Json

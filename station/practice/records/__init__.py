@@ -1,6 +1,6 @@
 """What a session leaves behind: folder, report, pairs, memory of a student.
 
 In: a session's result. Out: files; and from them an earlier session, or the same judgements once more.
-`session_report` makes the report, `memory` remembers a student and a lesson, `rejudge` judges a capture again.
+`report` says how it went, `memory` remembers a student and a lesson, `rejudge` judges a capture again.
 Read `session_files` first.
 """

@@ -11,7 +11,7 @@ from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import Play, Started
-from station.practice.records.next_steps import block_step
+from station.practice.records.report.next_steps import block_step
 from station.practice.session.plan import PlanOptions, plan_practice
 from tests.fakes.stations import Line, room, station_on, store_with
 

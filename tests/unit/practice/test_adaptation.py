@@ -19,8 +19,8 @@ from station.drills.mastery.practice_steps import PassKind
 from station.music.judgement import Judgement, Label
 from station.music.score import NOTE_DTYPE
 from station.practice.headless.virtual_session import practise_adaptively
-from station.practice.records.mastery_report import with_mastery
-from station.practice.records.session_report import practice_document, report_text, with_truth
+from station.practice.records.report.mastery_report import with_mastery
+from station.practice.records.report.session_report import practice_document, report_text, with_truth
 from station.practice.records.virtual_practice import VirtualSession
 from station.practice.session.adaptation import SILENT_TO_STOP, Adaptation, ScoreRow
 from station.practice.session.plan import PlanOptions, plan_practice

@@ -24,7 +24,7 @@ from station.motion.style.style import Style
 from station.music.judgement import Label
 from station.music.tempo_words import tempo_words
 from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
-from station.practice.records.session_report import practice_document
+from station.practice.records.report.session_report import practice_document
 from station.practice.records.virtual_practice import VirtualSession
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.cues.click_pattern import PLAIN, ClickPattern

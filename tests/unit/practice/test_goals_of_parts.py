@@ -10,7 +10,7 @@ from station.core.settings import Settings
 from station.drills.lesson import Lesson
 from station.drills.reading.lesson_file import parse_lesson
 from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
-from station.practice.records.session_report import practice_document, report_text
+from station.practice.records.report.session_report import practice_document, report_text
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.scoring.report.assessment_document import Json

@@ -12,7 +12,7 @@ from station.core.units import NS_PER_MS
 from station.devices.mapping.device_file import own_kit_path, save_kit
 from station.devices.mapping.device_map import Pad
 from station.devices.mapping.presets import preset_named
-from station.practice.records.session_report import kit_facts
+from station.practice.records.report.session_report import kit_facts
 
 SETTINGS = Settings(thresholds="snare=20 tom_1=15", mask_ms=7.0)
 

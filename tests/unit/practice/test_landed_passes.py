@@ -20,7 +20,7 @@ from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
 from station.practice.records.rejudge import judge_again
-from station.practice.records.session_report import practice_document
+from station.practice.records.report.session_report import practice_document
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.lesson_places import places_of
 from station.practice.session.plan import Phase, PlanOptions, plan_practice

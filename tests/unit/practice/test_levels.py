@@ -15,10 +15,10 @@ from station.drills.mastery.practice_steps import PassKind
 from station.music.judgement import Judgement, Label
 from station.practice.headless.live_text import LiveText
 from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
-from station.practice.records.mastery_report import mastery_words, with_mastery
 from station.practice.records.memory import LevelMemory, Memory, Remembered
 from station.practice.records.recovery import recovered
-from station.practice.records.session_report import practice_document, report_text
+from station.practice.records.report.mastery_report import mastery_words, with_mastery
+from station.practice.records.report.session_report import practice_document, report_text
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.session import Session

@@ -12,10 +12,18 @@ from station.drills.mastery.agenda import Turn
 from station.drills.mastery.pass_measures.pass_facts import PassResult
 from station.drills.mastery.practice_steps import item_of
 from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
-from station.practice.records.mastery_report import with_mastery
-from station.practice.records.next_steps import MOST, NextStep, StepKind, block_step, next_steps, steps_in, with_block
-from station.practice.records.session_report import practice_document
-from station.practice.records.what_next import what_next
+from station.practice.records.report.mastery_report import with_mastery
+from station.practice.records.report.next_steps import (
+    MOST,
+    NextStep,
+    StepKind,
+    block_step,
+    next_steps,
+    steps_in,
+    with_block,
+)
+from station.practice.records.report.session_report import practice_document
+from station.practice.records.report.what_next import what_next
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.scoring.matching.hit_windows import Level

@@ -9,7 +9,7 @@ import pytest
 from station.core.events import PhaseEstimate, StickStroke
 from station.core.pieces import Limb
 from station.drills.library import find_lesson
-from station.practice.records.phase_words import phase_document, phase_lines
+from station.practice.records.report.phase_words import phase_document, phase_lines
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import PlanOptions, plan_practice

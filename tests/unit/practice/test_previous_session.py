@@ -20,7 +20,7 @@ from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.practice.demonstration.compare_by_ear import previous_bar, previous_tempo
 from station.practice.records.previous_session import NONE_KEPT, PreviousSession, day_in_words, find_previous
-from station.practice.records.session_pairs import SESSION_COLUMNS, session_pairs_csv
+from station.practice.records.report.session_pairs import SESSION_COLUMNS, session_pairs_csv
 from station.practice.session.plan import TAIL_NS, PlanOptions, plan_practice
 from station.practice.session.session import Session, SessionResult
 from station.scoring.report.pairs_table import COLUMNS

@@ -13,7 +13,7 @@ from station.devices.capture.capture import read_capture
 from station.drills.library import find_lesson
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.records.rejudge import judge_again
-from station.practice.records.session_report import practice_document, report_text
+from station.practice.records.report.session_report import practice_document, report_text
 from station.practice.session.cues.click_options import parse_click
 from station.practice.session.cues.click_pattern import PLAIN, ClickPattern
 from station.practice.session.cues.quiet_bars import Gap, RandomGap, drawn, gap_of, gap_words

@@ -17,7 +17,7 @@ from station.engine.messages import Bus
 from station.music.performance import Performance
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.records.rejudge import judge_again
-from station.practice.records.session_report import practice_document, report_text
+from station.practice.records.report.session_report import practice_document, report_text
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.practice.session.rising_tempo import Rise, rise_of
 from station.scoring.align import align

@@ -6,7 +6,7 @@ import pytest
 
 from station.drills.library import lesson_names
 from station.music.judgement import Label
-from station.practice.records.session_report import feel_of
+from station.practice.records.report.session_report import feel_of
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.scoring.align import align
 from station.scoring.analysis.summary import SummaryView, summarise

@@ -13,7 +13,7 @@ from station.core.units import NS_PER_S
 from station.drills.library import find_lesson
 from station.engine.messages import Bus, Started
 from station.practice.headless.virtual_session import practise_virtually
-from station.practice.records.session_report import practice_document
+from station.practice.records.report.session_report import practice_document
 from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.plan import Phase, Plan, PlanOptions, plan_practice
 from station.practice.session.session import Session

@@ -10,7 +10,7 @@ from station.cli.input.read_scores import bars_of_gap
 from station.core.settings import Settings
 from station.drills.library import find_lesson
 from station.practice.headless.virtual_session import practise_virtually
-from station.practice.records.session_report import practice_document
+from station.practice.records.report.session_report import practice_document
 from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.cues.quiet_bars import Gap, QuietBars
 from station.practice.session.plan import PlanOptions, plan_practice

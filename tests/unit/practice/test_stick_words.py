@@ -2,7 +2,7 @@
 
 from station.core.events import Hit, StickStroke
 from station.core.pieces import Limb, Piece, Zone
-from station.practice.records.stick_words import AT_LIMIT, stick_lines, sticks_document, sticks_text
+from station.practice.records.report.stick_words import AT_LIMIT, stick_lines, sticks_document, sticks_text
 from station.scoring.report.assessment_document import Json
 
 HANDS = (Limb.RIGHT_HAND, Limb.LEFT_HAND)

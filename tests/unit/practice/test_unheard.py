@@ -28,8 +28,8 @@ from station.music.judgement import Judgement, Label
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.practice.records.rejudge import judge_again
-from station.practice.records.session_pairs import session_pairs_csv
-from station.practice.records.session_report import practice_document, report_text
+from station.practice.records.report.session_pairs import session_pairs_csv
+from station.practice.records.report.session_report import practice_document, report_text
 from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import TAIL_NS, Plan, PlanOptions, plan_practice

@@ -12,8 +12,8 @@ from station.drills.mastery.pass_measures.asked_parts import Part
 from station.drills.mastery.pass_measures.part_facts import PartResult
 from station.drills.mastery.pass_measures.pass_facts import PassResult
 from station.practice.headless.virtual_session import practise_virtually
-from station.practice.records.session_report import practice_document, report_text, with_truth
-from station.practice.records.what_next import what_next
+from station.practice.records.report.session_report import practice_document, report_text, with_truth
+from station.practice.records.report.what_next import what_next
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.scoring.matching.hit_windows import Level
 from station.scoring.report.assessment_document import Json

@@ -7,7 +7,7 @@ import pytest
 from station.core.settings import Settings
 from station.drills.library import find_lesson
 from station.practice.headless.virtual_session import practise_virtually
-from station.practice.records.session_report import practice_document, report_text, with_truth
+from station.practice.records.report.session_report import practice_document, report_text, with_truth
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.simulation.student_spec import parse_spec
 

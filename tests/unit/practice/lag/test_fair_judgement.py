@@ -19,7 +19,7 @@ from station.practice.lag.fair_judgement import FairResult, as_it_came, judged_a
 from station.practice.lag.lag_document import lag_document, runs_in
 from station.practice.lag.lag_words import lag_text
 from station.practice.lag.session_lag import LagAnswer, LagTarget
-from station.practice.records.session_report import practice_document, report_text
+from station.practice.records.report.session_report import practice_document, report_text
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.practice.session.rising_tempo import Rise

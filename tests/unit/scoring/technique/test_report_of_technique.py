@@ -11,7 +11,7 @@ from station.core.pieces import Articulation, Ornament, Piece
 from station.core.units import PPQ
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
-from station.practice.records.session_report import assessment_text
+from station.practice.records.report.session_report import assessment_text
 from station.scoring.analysis.summary import SummaryView, summarise
 from station.scoring.report.assessment_document import assessment
 from station.scoring.report.technique_table import plain

@@ -23,13 +23,13 @@ from station.engine.engine import KEYBOARD
 from station.practice.lag.lag_document import lag_document
 from station.practice.lag.session_lag import LagAnswer, SessionLag
 from station.practice.records.assigned_lessons import assigned_by
-from station.practice.records.mastery_report import passes_text
-from station.practice.records.next_steps import next_steps, steps_document
-from station.practice.records.phase_words import phase_document, phase_lines
-from station.practice.records.stick_words import sticking_lines, sticks_document, sticks_text
-from station.practice.records.tempo_report import clean_up_to, tempo_rows, tempo_text
-from station.practice.records.unheard_words import unheard_rows, unheard_text
-from station.practice.records.what_next import advice_of, measured_session, missed_document, table_in, what_next
+from station.practice.records.report.mastery_report import passes_text
+from station.practice.records.report.next_steps import next_steps, steps_document
+from station.practice.records.report.phase_words import phase_document, phase_lines
+from station.practice.records.report.stick_words import sticking_lines, sticks_document, sticks_text
+from station.practice.records.report.tempo_report import clean_up_to, tempo_rows, tempo_text
+from station.practice.records.report.unheard_words import unheard_rows, unheard_text
+from station.practice.records.report.what_next import advice_of, measured_session, missed_document, table_in, what_next
 from station.practice.session.cues.quiet_bars import gap_of, gap_words
 from station.practice.session.lesson_places import written_hands
 from station.practice.session.session import SessionResult

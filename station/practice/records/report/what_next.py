@@ -13,8 +13,8 @@ from station.drills.mastery.goals_missed import Miss, missed_goals
 from station.drills.mastery.pass_measures.pass_facts import PassResult, PassView, measure_pass
 from station.drills.mastery.rules import Rules
 from station.engine.engine import KEYBOARD
-from station.practice.records.next_steps import SAME_TEMPO, NextStep, StepKind, next_steps, title_of
-from station.practice.records.said_already import says_so
+from station.practice.records.report.next_steps import SAME_TEMPO, NextStep, StepKind, next_steps, title_of
+from station.practice.records.report.said_already import says_so
 from station.practice.session.plan import Plan
 from station.practice.session.session import SessionResult
 from station.scoring.report.assessment_document import Json

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 from station.core.events import Hit, StickStroke
 from station.core.pieces import word
-from station.practice.records.phase_words import phase_lines
-from station.practice.records.what_next import table_in
+from station.practice.records.report.phase_words import phase_lines
+from station.practice.records.report.what_next import table_in
 from station.scoring.analysis.fault_table import Asked
 from station.scoring.report.assessment_document import Json
 from station.sync.strokes.stick_remarks import StickFigures, StickRemark, stick_report

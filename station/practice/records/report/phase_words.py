@@ -1,7 +1,7 @@
 """What the phase of the sticks adds to a session's report: the key `phase`, and lines of text."""
 
 from station.core.pieces import word
-from station.practice.records.what_next import table_in
+from station.practice.records.report.what_next import table_in
 from station.practice.session.played_phase import PlayedPhase
 from station.scoring.analysis.fault_table import Asked
 from station.scoring.report.assessment_document import Json

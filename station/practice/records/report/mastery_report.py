@@ -4,8 +4,8 @@ from station.drills.mastery.agenda import Turn
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.practice_steps import PracticeItem, PracticeStep
 from station.drills.mastery.rules import Rules
-from station.practice.records.next_steps import NextStep, StepKind, followed_steps, steps_document
-from station.practice.records.what_next import MOST_STEPS, advice_of
+from station.practice.records.report.next_steps import NextStep, StepKind, followed_steps, steps_document
+from station.practice.records.report.what_next import MOST_STEPS, advice_of
 from station.practice.session.adaptation import Adaptation, PlayedPass, held_words
 from station.scoring.report.assessment_document import Json
 
