@@ -12,12 +12,14 @@ from window_sizes import USUAL, main, run, shot
 
 from tests.gui.battle_scenario import battle
 from tests.gui.drive import Drive
+from tests.gui.friend_scenario import friend
 
 KEPT = {
     "chosen": "chosen",
     "repeat board": "repeat",
     "replay": "replay",
     "improvised": "improvised",
+    "join chosen": "join",
 }
 """What of a battle is kept, and what it is called; in other sizes than the usual one the page of the choice alone."""
 
@@ -34,6 +36,8 @@ def draw(folder: Path, size: tuple[int, int]) -> None:
                     shot(drive, ctx, folder / f"battle-{KEPT[name]}-{size[0]}.png")
 
             battle(drive, ctx, look)
+            if size == USUAL:
+                friend(drive, ctx, look)
 
         run(drive, scenario)
 
