@@ -10,7 +10,7 @@ set -eu
 
 RUN_PACKAGES='libportaudio2 libegl1 libgl1 libgl1-mesa-dri libxrandr2 libxinerama1 libxcursor1 libxi6 libxkbcommon0'
 BUILD_PACKAGES='g++ pkg-config libasound2-dev libjack-jackd2-dev'
-TEST_PACKAGES='xvfb jackd2'
+TEST_PACKAGES='xvfb jackd2 postgresql chromium chromium-driver'
 
 missing_of() {
     for package in $1; do
