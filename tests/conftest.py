@@ -11,6 +11,8 @@ from hypothesis import settings
 from xdist.remote import Producer
 from xdist.scheduler import LoadGroupScheduling
 
+from tests.fakes.browser import Browser, chromium
+
 # On a shared machine a stall of any length may fall into any example: time belongs in benchmarks, not in properties.
 # The same examples in every run, so that a red test means a change; `SEARCH=1` looks for new ones.
 settings.register_profile("station", deadline=None, derandomize=not os.environ.get("SEARCH"))
@@ -43,6 +45,13 @@ def _nobodys_sessions(_documents: Iterator[Path], monkeypatch: pytest.MonkeyPatc
     monkeypatch.setenv("XDG_DOCUMENTS_DIR", str(next(_documents)))
 
 
+@pytest.fixture(scope="session")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    """One Chromium for all tests that open pages: none is begun before the first of them."""
+    with chromium(tmp_path_factory.mktemp("chromium")) as begun:
+        yield begun
+
+
 LONGEST = ("tests/gui", "tests/e2e", "tests/render", "tests/unit/motion")
 """Their modules take longest: begun first, in this order, they leave no worker alone at the end."""
 
@@ -54,10 +63,15 @@ def _place(item: pytest.Item) -> int:
 
 @pytest.hookimpl(tryfirst=True)  # xdist reads the groups in the same hook
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Tests with a JACK server go to one worker: libjack keeps one state a process and one registry a user."""
+    """Tests with a JACK server go to one worker: libjack keeps one state a process and one registry a user.
+
+    So do tests with a browser, which takes seconds to begin.
+    """
     for item in items:
         if item.get_closest_marker("jack"):
             item.add_marker(pytest.mark.xdist_group("jack"))
+        if "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.xdist_group("browser"))
     items.sort(key=_place)  # the rest stays in random order
 
 
