@@ -43,7 +43,8 @@ from station.practice.exchange.return_judging import judge_returned
 from station.practice.exchange.student_store import keep_note, take
 from station.practice.exchange.teacher_store import receive
 from station.practice.records.assigned_lessons import Taken, write_taken
-from station.practice.records.session_files import folder_name, write_document
+from station.core.disk.file_names import folder_name
+from station.practice.records.session_files import write_document
 
 LIMIT_S, LIMIT_MB = 1.0, 300
 _JUDGED, _KEPT = 0.1, 0.05

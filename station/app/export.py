@@ -21,6 +21,7 @@ from station.app.music_files.named_parts import load_part
 from station.app.music_files.part_export import bars_of, write_part
 from station.app.settings.view_settings import ViewSettings
 from station.app.worker_process import StartWork, Work, WorkerProcess
+from station.core.disk.file_names import folder_name
 from station.core.disk.files import growing, write_whole
 from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
@@ -29,7 +30,7 @@ from station.drills.lesson import BarCue, Lesson
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_text import plain, show
 from station.drills.writing.lesson_writer import write_lesson
-from station.practice.records.session_files import folder_name, student_folder
+from station.practice.records.session_files import student_folder
 
 FOLDER = "take-along"
 _PAPER = "a4"

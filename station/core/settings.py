@@ -9,7 +9,7 @@ from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from types import MappingProxyType
 
-from platformdirs import user_config_path, user_documents_path
+from platformdirs import user_config_path, user_data_path, user_documents_path
 
 from station.core.disk.files import NoSuchFile, write_whole
 from station.core.errors import BadInput
@@ -71,7 +71,8 @@ class Settings:
     `track_stretched` whether it is played at the tempo that is practised, not at its own,
     `guide` whether the demonstration plays along in the passes, `band_drums` whether the drums of a song's own
     recording are heard, `midi_out` part of the name of a MIDI output that gets
-    it, empty for none; `own_sound` false where the kit's module sounds itself and the strokes of the student stay
+    it, empty for none; `history` the URL of the database that remembers sessions, empty for a file of the user's;
+    `own_sound` false where the kit's module sounds itself and the strokes of the student stay
     silent; latencies in milliseconds, subtracted from every hit (input) and added to every written time (output) on
     devices that nobody has measured (`core.measured_latency`). `thresholds` says of pads the least velocity that they
     send, as measured (`snare=20 tom_1=15`), `mask_ms` how long after a stroke a pad hears no other. `ask_first` whether
@@ -116,6 +117,7 @@ class Settings:
     track_stretched: bool = True
     midi_out: str = ""
     sessions: str = ""
+    history: str = ""
     thresholds: str = ""
     mask_ms: float = 9.0
     ask_first: bool = True
@@ -182,6 +184,11 @@ class Settings:
     def styles_dir(self) -> Path:
         """Where the user's own styles are kept."""
         return self.sessions_dir / "styles"
+
+
+def data_folder() -> Path:
+    """Where this user's data live that are no documents."""
+    return user_data_path(APP_NAME, appauthor=False)
 
 
 def settings_path() -> Path:

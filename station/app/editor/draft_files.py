@@ -11,10 +11,10 @@ from station.app.editor.open_draft import DraftFile, OpenDraft, text_bytes
 from station.app.editor.read_draft import NEW_LESSON
 from station.app.music_files.lesson_import import ENDING, place_in
 from station.app.settings.settings_store import SettingsStore
+from station.core.disk.file_names import folder_name
 from station.core.errors import BadInput
 from station.drills.editing.edit_history import EditHistory
 from station.drills.library import lesson_names
-from station.practice.records.session_files import folder_name
 
 _NEW = "new-lesson"
 

@@ -13,12 +13,12 @@ from pathlib import Path
 from threading import Event, Thread
 
 from station.core.disk.file_lock import lock
+from station.core.disk.file_names import folder_name
 from station.core.disk.files import read_regular
 from station.core.errors import DeviceError, StationError
 from station.core.join_timeout import ends_within
 from station.drills.editing.draft_records import DraftRecords, change_record, read_records, start_record
 from station.drills.editing.text_change import change_between
-from station.practice.records.session_files import folder_name
 
 DRAFTS = ".drafts"
 """The folder of journals, in that of the teacher's own lessons."""

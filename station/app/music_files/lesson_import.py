@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from station.app.music_files.named_parts import existing, is_lesson, load_part, song_file
+from station.core.disk.file_names import folder_name
 from station.core.disk.files import write_whole
 from station.core.errors import BadInput
 from station.drills.library import lesson_names, read_lesson
@@ -14,7 +15,7 @@ from station.drills.songs.song_folder import sounds_beside
 from station.drills.transcription.transcribe import transcribe
 from station.music.formats.format_table import endings
 from station.music.formats.groovescribe.groove_formats import is_groove_url
-from station.practice.records.session_files import CAPTURE_NAME, folder_name
+from station.practice.records.session_files import CAPTURE_NAME
 
 ENDING = ".toml"
 _LINK_NAME = "groove"

@@ -26,6 +26,7 @@ from station.app.settings.settings_store import SettingsStore
 from station.app.songs.opened_song import OpenedSong, opened_song
 from station.app.songs.song_sync import PointOff, SyncedSong, points_off, synced_score
 from station.app.worker_process import StartWork, Work, WorkerProcess
+from station.core.disk.file_names import folder_name
 from station.core.disk.files import write_whole
 from station.core.errors import BadInput, StationError
 from station.core.events import Hit
@@ -34,7 +35,6 @@ from station.drills.songs.song import Song, SongPoint, band_time
 from station.drills.songs.song_file import SONG_ENDING, song_text
 from station.drills.songs.tapped_points import tapped_points
 from station.engine.messages import EngineEvent
-from station.practice.records.session_files import folder_name
 from station.practice.session.cues.click_pattern import click_cues
 from station.practice.session.cues.listening import Listening, cues_between
 from station.sound.track import PreparedTrack

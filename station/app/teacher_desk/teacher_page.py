@@ -29,6 +29,7 @@ from station.app.teacher_desk.open_take import OpenedTake, opened_take
 from station.app.teacher_desk.parcel_out import parcel_path
 from station.app.teacher_desk.returns_desk import LessonRow, Looked, ReturnsDesk, SessionKey, looked
 from station.app.worker_process import StartWork, WorkerProcess
+from station.core.disk.file_names import folder_name
 from station.core.disk.files import write_whole
 from station.core.errors import BadInput, StationError
 from station.drills.lesson import Lesson
@@ -39,7 +40,6 @@ from station.practice.exchange.parcel import Kind
 from station.practice.exchange.parcel_json import meaning
 from station.practice.exchange.plain_words import due_day
 from station.practice.exchange.teacher_store import Received, keep_given, keep_note_on, teacher_of
-from station.practice.records.session_files import folder_name
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -13,6 +13,7 @@ from station.cli.exchange.keyed_words import goals_in, verdict_in
 from station.cli.exchange.student_verbs import check_out, settings_of
 from station.cli.options.option_fields import argument, arguments, flag, option, repeated, required, unread
 from station.core.counts import counted
+from station.core.disk.file_names import folder_name
 from station.core.disk.files import write_whole
 from station.core.errors import BadInput, StationError
 from station.core.settings import Settings
@@ -32,7 +33,6 @@ from station.practice.exchange.teacher_store import (
     received,
     teacher_of,
 )
-from station.practice.records.session_files import folder_name
 
 SCHEMA = "drum-station/returns/1"
 

@@ -10,6 +10,7 @@ from datetime import date, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from station.core.disk.file_names import alike
 from station.core.errors import BadInput
 from station.core.toml.schema import Field, Fields, Reader, list_of, needed, record, shown, text, whole
 from station.core.toml.toml_faults import wrong
@@ -26,7 +27,6 @@ from station.practice.exchange.plain_words import (
     or_none,
     words,
 )
-from station.practice.records.session_files import alike
 
 if TYPE_CHECKING:
     from station.drills.lesson import Lesson

@@ -6,12 +6,12 @@ A lesson's name becomes a file's on the student's disk: it is one that every fil
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
+from station.core.disk.file_names import folder_name
 from station.core.errors import BadInput
 from station.core.toml.schema import shown
 from station.core.toml.toml_faults import refused, wrong
 from station.practice.exchange.parcel import Parcel
 from station.practice.exchange.plain_words import line
-from station.practice.records.session_files import folder_name
 
 if TYPE_CHECKING:
     from station.drills.lesson import Lesson

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from datetime import date, datetime
 from pathlib import Path
 
+from station.core.disk.file_names import alike, folder_name
 from station.core.disk.files import read_regular, write_whole
 from station.core.errors import BadInput
 from station.core.settings import Settings
@@ -26,7 +27,7 @@ from station.practice.exchange.parcel import Kind
 from station.practice.exchange.parcel_json import MOST_JSON_BYTES, read_json
 from station.practice.exchange.return_file import Return
 from station.practice.records.assigned_lessons import Taken, all_taken, assignments_folder, write_taken
-from station.practice.records.session_files import alike, folder_name, write_document
+from station.practice.records.session_files import write_document
 
 _FILE_NAME = f"assignment{Kind.ASSIGNMENT.ending}"
 _ID_LETTERS = 8

@@ -8,6 +8,7 @@ same name, the teacher's `.drum-note`. No file is called by what a stranger's fi
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from station.core.disk.file_names import folder_name
 from station.core.disk.files import read_regular, write_whole
 from station.core.errors import BadInput
 from station.core.settings import Settings
@@ -17,7 +18,6 @@ from station.practice.exchange.note_file import Note, SessionVerdict, note_bytes
 from station.practice.exchange.parcel import Kind
 from station.practice.exchange.return_file import Return, parse_return, read_return
 from station.practice.exchange.student_store import stem_of
-from station.practice.records.session_files import folder_name
 
 GIVEN_FOLDER, RETURNS_FOLDER = "assignments", "returns"
 

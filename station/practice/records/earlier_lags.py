@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Any
 
+from station.core.disk.file_names import folder_name
 from station.core.errors import BadInput, StationError
 from station.core.measured_latency import load_calibration
 from station.core.settings import Settings
@@ -11,7 +12,7 @@ from station.practice.lag.fair_judgement import FairResult, judged_fairly
 from station.practice.lag.lag_document import runs_in
 from station.practice.lag.session_lag import LagAnswer
 from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import DOCUMENT_NAME, folder_name
+from station.practice.records.session_files import DOCUMENT_NAME
 from station.practice.session.session import SessionResult
 from station.scoring.analysis.device_lag import LagRun
 

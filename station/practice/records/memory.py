@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
+from station.core.disk.file_names import folder_name
 from station.core.errors import BadInput
 from station.core.settings import Settings
 from station.drills.course import Course
@@ -23,7 +24,7 @@ from station.drills.mastery.rules import DEFAULT_RULES
 from station.practice.records.kept_json import kept_document, recalled
 from station.practice.records.lesson_order import ahead_of, followed_course
 from station.practice.records.lesson_progress import progress_of
-from station.practice.records.session_files import folder_name, student_folder, write_document
+from station.practice.records.session_files import student_folder, write_document
 from station.practice.records.teachers_wishes import NO_WISHES, Wishes, wishes_of
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions

@@ -5,11 +5,10 @@ the capture, append-only.
 """
 
 import json
-import re
 from datetime import datetime
 from pathlib import Path
-from unicodedata import normalize
 
+from station.core.disk.file_names import folder_name
 from station.core.disk.files import write_whole
 from station.core.errors import DeviceError
 
@@ -21,26 +20,10 @@ PAIRS_NAME = "pairs.csv"
 PICTURE_NAME = "report.png"
 DRUMMER_NAME = "drummer.png"
 
-_LONGEST = 80
-"""Our choice: two such names and a date stay far below every file system's 255 bytes, even of four-byte letters."""
 OWN_FOLDERS = frozenset({"assignments", "courses", "lessons", "returns", "styles"})
 """What lies beside the students' folders: given and returned parcels, what the user has written."""
 VIRTUAL_STUDENT = "virtual student"
 """Whose a session is that a virtual student plays who was given no name: nobody's who practises here."""
-_RESERVED = {"CON", "PRN", "AUX", "NUL", *(f"{port}{n}" for port in ("COM", "LPT") for n in range(10))}
-"""Names that Windows keeps for itself."""
-_UNSAFE = re.compile(r"[^\w.-]+")
-
-
-def folder_name(text: str) -> str:
-    """`text` as a name that every file system takes."""
-    name = _UNSAFE.sub("-", text).strip("-.")[:_LONGEST] or "unnamed"
-    return f"{name}_" if name.split(".")[0].upper() in _RESERVED else name
-
-
-def alike(name: str) -> str:
-    """What two names share that a file system or a reader may take for one."""
-    return normalize("NFKC", name).casefold()
 
 
 def student_folder(sessions: Path, student: str) -> Path:

@@ -5,16 +5,10 @@ from dataclasses import dataclass
 from datetime import date, datetime
 from pathlib import Path
 
+from station.core.disk.file_names import alike, folder_name
 from station.core.errors import BadInput
 from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import (
-    DOCUMENT_NAME,
-    OWN_FOLDERS,
-    VIRTUAL_STUDENT,
-    alike,
-    folder_name,
-    student_folder,
-)
+from station.practice.records.session_files import DOCUMENT_NAME, OWN_FOLDERS, VIRTUAL_STUDENT, student_folder
 
 _SESSIONS = "????-??-??T??-??-??_*"
 _MARKS = ("mastery", "book")

@@ -10,12 +10,12 @@ from station.app.room_state import Stage
 from station.app.teacher_desk.assigned_page import AssignedRow
 from station.app.teacher_desk.parcel_out import proposed_path
 from station.app.window_state import State
+from station.core.disk.file_names import folder_name
 from station.gui import theme
 from station.gui.panels.teacher.save_row import SaveRow
 from station.practice.exchange.assigned_work import LessonWork
 from station.practice.exchange.parcel import Kind
 from station.practice.exchange.plain_words import LONGEST_WORDS
-from station.practice.records.session_files import folder_name
 
 ASSIGNMENTS = "Assignments"
 ABOUT = "What your teacher gave you: what is due, what is done, and what goes back"

@@ -9,12 +9,12 @@ from station.app.actions.action import Action
 from station.app.actions.teacher_actions import Give, NewAssignment
 from station.app.teacher_desk.parcel_out import proposed_path
 from station.app.window_state import State
+from station.core.disk.file_names import folder_name
 from station.gui import theme
 from station.gui.panels.teacher.save_row import SaveRow
 from station.music.tempo import MAX_BPM, MIN_BPM
 from station.practice.exchange.lesson_goals import LessonGoals
 from station.practice.exchange.parcel import Kind
-from station.practice.records.session_files import folder_name
 from station.scoring.matching.hit_windows import OUR_LEVELS
 
 ADD_LABEL, GIVE_LABEL, REMOVE_LABEL = "Add the chosen lesson##give", "Write the assignment##give", "Remove"

@@ -13,6 +13,7 @@ from station.app.teacher_desk.returns_desk import LessonRow
 from station.app.teacher_desk.stroke_lines import StrokeLine
 from station.app.teacher_desk.teacher_page import Answer, TeacherView
 from station.app.window_state import State
+from station.core.disk.file_names import folder_name
 from station.gui import theme
 from station.gui.panels.playback_row import PlaybackRow
 from station.gui.panels.teacher.save_row import SaveRow
@@ -20,7 +21,6 @@ from station.gui.widgets.flow_row import FlowRow
 from station.practice.exchange.note_file import MOST_STROKES, SessionVerdict, StrokeVerdict
 from station.practice.exchange.parcel import Kind
 from station.practice.exchange.plain_words import LONGEST_WORDS
-from station.practice.records.session_files import folder_name
 
 WORDS_LABEL, NEXT_LABEL, ABOUT_LABEL = "##note-words", "##note-next", "##take-words"
 NAME_LABEL, SCORE_LABEL, WRITE_LABEL = "##note-teacher", "My score##take", "Write the note##note"
