@@ -20,6 +20,7 @@ _COMMANDS = {
     "practice": "practise a lesson",
     "today": "show the plan of the day",
     "book": "show the lesson book: planned, practised, and what returns",
+    "history": "list and show what was practised, take it away, delete and copy it",
     "battle": "repeat what the drummer plays, or trade improvised phrases, until somebody has won",
     "exam": "one take of a piece, prepared or unseen, marked by a rubric",
     "assess": "align and score a recorded performance against a score",

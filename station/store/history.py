@@ -9,6 +9,7 @@ from datetime import datetime
 from station.store import memory_rows, sessions, students
 from station.store.database import Database
 from station.store.rows import (
+    FigureRow,
     JudgementRow,
     KeptSession,
     MasteryRow,
@@ -113,6 +114,11 @@ class History:
         with self.database.reading() as connection:
             return sessions.document_in(connection, number, name)
 
+    def document_names(self, number: int) -> list[str]:
+        """What the files of the session with that id are called, by the alphabet."""
+        with self.database.reading() as connection:
+            return sessions.document_names(connection, number)
+
     def documents(self, student: str, name: str, most: int | None = None) -> list[tuple[SessionRow, bytes]]:
         """The files of that name of a student's sessions, the newest session first, `most` of them (None: all)."""
         with self.database.reading() as connection:
@@ -132,6 +138,11 @@ class History:
         """Figures by limb and piece of a student's sessions from `since` on, in the order in which these began."""
         with self.database.reading() as connection:
             return sessions.figures_of(connection, student_key(student), since)
+
+    def session_figures(self, number: int) -> list[FigureRow]:
+        """Figures by limb and piece of the session with that id."""
+        with self.database.reading() as connection:
+            return sessions.session_figures(connection, number)
 
     # --- what is remembered of a student -----------------------------------------------------------------------------
 

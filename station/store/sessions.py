@@ -145,6 +145,11 @@ def document_in(connection: Connection, number: int, name: str) -> bytes | None:
     return None if body is None else zlib.decompress(body)
 
 
+def document_names(connection: Connection, number: int) -> list[str]:
+    """What the files of a session are called, by the alphabet."""
+    return sorted(connection.execute(select(DOCUMENTS.c.name).where(DOCUMENTS.c.session_id == number)).scalars())
+
+
 def documents_of(connection: Connection, key: str, name: str, most: int | None) -> list[tuple[SessionRow, bytes]]:
     """The files of that name of a student's sessions, the newest session first, `most` of them (None: all)."""
     wanted = _all().add_columns(DOCUMENTS.c.body).join(DOCUMENTS, DOCUMENTS.c.session_id == SESSIONS.c.id)
@@ -175,13 +180,21 @@ def figures_of(connection: Connection, key: str, since: datetime | None) -> list
         .where(STUDENTS.c.key == key)
     )
     wanted = wanted if since is None else wanted.where(SESSIONS.c.started >= since)
-    names = [each.name for each in fields(FigureRow) if each.name != "part"]
+    ordered = wanted.order_by(SESSIONS.c.started, SESSIONS.c.id)
     return [
-        TimedFigure(
-            each.started, each.session_id, each.lesson, FigureRow(Part(each.part), *(getattr(each, n) for n in names))
-        )
-        for each in connection.execute(wanted.order_by(SESSIONS.c.started, SESSIONS.c.id))
+        TimedFigure(each.started, each.session_id, each.lesson, _figure(each)) for each in connection.execute(ordered)
     ]
+
+
+def session_figures(connection: Connection, number: int) -> list[FigureRow]:
+    """The figures of a session, limbs before pieces."""
+    wanted = select(FIGURES).where(FIGURES.c.session_id == number).order_by(FIGURES.c.part, FIGURES.c.name)
+    return [_figure(each) for each in connection.execute(wanted)]
+
+
+def _figure(found: Row[Any]) -> FigureRow:
+    values = {each.name: getattr(found, each.name) for each in fields(FigureRow)}
+    return FigureRow(**(values | {"part": Part(found.part)}))
 
 
 def _row(found: Row[Any]) -> SessionRow:

@@ -11,7 +11,7 @@ from station.app.teacher_desk.judge_worker import hear
 from station.cli.console import print_json, say, write
 from station.cli.exchange.keyed_words import goals_in, verdict_in
 from station.cli.exchange.student_verbs import check_out, settings_of
-from station.cli.options.option_fields import argument, arguments, flag, option, repeated, required, unread
+from station.cli.options.option_fields import argument, arguments, day, flag, option, repeated, required
 from station.core.counts import counted
 from station.core.disk.file_names import folder_name
 from station.core.disk.files import write_whole
@@ -37,13 +37,6 @@ from station.practice.exchange.teacher_store import (
 SCHEMA = "drum-station/returns/1"
 
 
-def _day(text: str) -> date:
-    try:
-        return date.fromisoformat(text)
-    except ValueError:
-        raise unread("a day such as 2026-12-01", text) from None
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NewOptions:
     """What is given, to whom, until when."""
@@ -54,7 +47,7 @@ class NewOptions:
     )
     song: tuple[str, ...] = repeated("LESSON:NAME", "the song that a lesson is played to, by its name alone")
     title: str = option("TEXT", "what it is called", str, "")
-    due: date | None = option("DAY", "until when, such as 2026-12-01", _day, None)
+    due: date | None = option("DAY", "until when, such as 2026-12-01", day, None)
     words: str = option("TEXT", "what you say to the student", str, "")
     teacher: str = option("NAME", "who gives it (you)", str, "")
     group: str = option("--class NAME", "the class that it is for", str, "")

@@ -12,6 +12,7 @@ What is not said keeps the field's default. argparse reads the words; its namesp
 import argparse
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
+from datetime import date
 from typing import Any, Generic, NoReturn, TypeVar
 
 from station.core.did_you_mean import did_you_mean, nearest
@@ -130,6 +131,14 @@ def whole_number(text: str) -> int:
         raise unread("a whole number", text) from None
 
 
+def day(text: str) -> date:
+    """A day."""
+    try:
+        return date.fromisoformat(text)
+    except ValueError:
+        raise unread("a day such as 2026-12-01", text) from None
+
+
 def unread(expected: str, text: str) -> argparse.ArgumentTypeError:
     """The error of a value that cannot be read, which argparse reports with the option's name."""
     return argparse.ArgumentTypeError(f"expected {expected}, found {text!r}")
@@ -188,18 +197,23 @@ class Command(Generic[_T]):
 
 @dataclass(frozen=True, slots=True)
 class Verbs:
-    """A command whose next word says what to do: that word, its summary and its command, a row each."""
+    """A command whose next word says what to do: that word, its summary and its command, a row each.
+
+    Without such a word it does what is `usual`, where anything is.
+    """
 
     table: tuple[tuple[str, str, Command[Any]], ...]
+    usual: str = ""
 
     def main(self, name: str, about: str, words: Sequence[str]) -> int:
         """Run the one that the first of the words names; raises `BadInput`."""
         menu = Parser(prog=name, description=about)
-        verb = chosen(menu, "VERB", {verb: summary for verb, summary, _ in self.table}, words)
-        if verb is None:
+        said = chosen(menu, "VERB", {verb: summary for verb, summary, _ in self.table}, words)
+        verb = said or self.usual
+        if not verb:
             menu.error(f"say what to do: {', '.join(verb for verb, _, _ in self.table)}")
         summary, command = next((summary, command) for known, summary, command in self.table if known == verb)
-        return command.main(f"{name} {verb}", sentence(summary), words[1:])
+        return command.main(f"{name} {verb}", sentence(summary), words[1:] if said else words)
 
 
 def sentence(summary: str) -> str:

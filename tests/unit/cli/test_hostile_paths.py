@@ -68,7 +68,7 @@ def commands() -> Iterator[tuple[tuple[str, ...], type[Any]]]:
 
 
 WORDS = [word for command, options in commands() for word in words_of(command, options)]
-READ = {"LESSON", "SCORE", "PERFORMANCE", "PATH", "SOURCE", "SONG", "MODEL", "SIGNAL", "EXEMPLAR"}
+READ = {"LESSON", "SCORE", "PERFORMANCE", "PATH", "SOURCE", "SONG", "MODEL", "SIGNAL", "EXEMPLAR", "SESSION"}
 """What such a word names is read."""
 NO_FILES = {
     *(
@@ -169,7 +169,7 @@ SAMPLES: dict[str, str] = {
         "SOURCE": "good.mid",
         "PATH": "good.mid",
     },
-    **{"ID": "nothing", "RETURN": "nothing"},
+    **{"ID": "nothing", "RETURN": "nothing", "SESSION": "nothing"},
 }
 
 
