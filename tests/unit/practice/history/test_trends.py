@@ -1,0 +1,126 @@
+"""Trends hold the truth as often as they say, and claim no progress where there is none."""
+
+from datetime import timedelta
+
+import numpy as np
+import pytest
+
+from station.practice.history.trends import Measure, Verdict, lessons_practised, trend_of, trend_words, trends_of
+from station.store.rows import SessionKind
+from tests.unit.practice.history.students_told import BEGIN, Story, climbing, row, slowing, told, wandering
+
+_STUDENTS = 400
+_STORIES = {
+    "six days": Story(6),
+    "twelve days, better": Story(12, a_day=0.4),
+    "sixty days": Story(60),
+    "tempo wanders": Story(20, a_day=0.2, tempo=wandering),
+    "tempo climbs": Story(40, a_day=0.2, tempo=climbing),
+    "ever slower": Story(25, tempo=slowing),
+    "heavy tails": Story(15, is_heavy=True),
+    "telephone rings": Story(20, a_day=0.2, interrupted=0.05),
+    "long holiday": Story(12, holiday=40),
+    "form persists": Story(30, persists=0.4),
+    "days alike": Story(20, day_sd=0.5),
+    "days differ much": Story(20, day_sd=12.0),
+}
+
+
+@pytest.mark.parametrize("name", _STORIES)
+def test_intervals_hold_the_truth(name: str) -> None:
+    random = np.random.default_rng(15)
+    held = false = 0
+    for _ in range(_STUDENTS):
+        sessions, truth = told(_STORIES[name], random)
+        trend = trend_of(Measure.SCORE, sessions)
+        assert trend.change is not None
+        _, low, high = trend.change
+        held += low <= truth <= high
+        false += trend.verdict is Verdict.BETTER and truth <= 0.0
+    assert 0.92 <= held / _STUDENTS <= 0.98
+    assert false / _STUDENTS <= 0.05
+
+
+def test_real_progress_is_seen() -> None:
+    random = np.random.default_rng(3)
+    verdicts = [trend_of(Measure.SCORE, told(Story(40, a_day=0.25), random)[0]).verdict for _ in range(60)]
+    assert verdicts.count(Verdict.BETTER) >= 55  # 20 points in 12 weeks, with a day's SD of 5
+
+
+def test_plain_line_through_slower_and_slower_sessions_would_claim_progress() -> None:
+    """What the comparison of like with like is for: the same sessions, taken as if tempo were nothing."""
+    random = np.random.default_rng(5)
+    claimed = {True: 0, False: 0}
+    for _ in range(60):
+        sessions, _ = told(Story(60, tempo=slowing), random)
+        for is_told_of_tempo in claimed:
+            rows = sessions if is_told_of_tempo else [row(each.score or 0.0, 80.0, each.started) for each in sessions]
+            claimed[is_told_of_tempo] += trend_of(Measure.SCORE, rows).verdict is Verdict.BETTER
+    assert claimed[False] >= 25
+    assert claimed[True] <= 4
+
+
+def test_sessions_of_one_day_are_one_day() -> None:
+    sessions = [row(50.0 + n, 80.0, BEGIN + timedelta(minutes=n)) for n in range(40)]
+    trend = trend_of(Measure.SCORE, sessions)
+    assert (trend.verdict, trend.days, trend.change) == (Verdict.TOO_FEW, 1, None)
+    assert "cannot be told from 1 day" in trend_words(trend)
+
+
+def test_line_of_days_is_least_squares_where_nothing_is_off() -> None:
+    """Slope and standard error are those of numpy's fit; Student's t for 4 degrees of freedom is a table's."""
+    scores = [61.0, 62.0, 62.0, 63.0, 65.0, 65.0]
+    trend = trend_of(Measure.SCORE, [row(each, 80.0, BEGIN + timedelta(days=n)) for n, each in enumerate(scores)])
+    (slope, _), covariance = np.polyfit(range(6), scores, 1, cov=True)
+    assert trend.change is not None
+    assert trend.change[0] == pytest.approx(5 * slope)
+    assert trend.change[2] - trend.change[0] == pytest.approx(5 * 2.776445 * covariance[0, 0] ** 0.5, rel=1e-5)  # t, 4
+
+
+def test_harder_level_and_another_kit_are_no_step_back() -> None:
+    before = [row(80.0 + n % 2, 80.0, BEGIN + timedelta(days=n), level="easy") for n in range(10)]
+    after = [row(60.0 + n % 2, 80.0, BEGIN + timedelta(days=n), level="strict") for n in range(10, 20)]
+    assert trend_of(Measure.SCORE, before + after).verdict is Verdict.STEADY
+    plain = [row(each.score or 0.0, 80.0, each.started) for each in before + after]
+    assert trend_of(Measure.SCORE, plain).verdict is Verdict.WORSE
+
+
+def test_time_that_went_with_the_kit_cannot_be_told() -> None:
+    sessions = [row(60.0, 80.0, BEGIN + timedelta(days=n), device=f"kit {n}") for n in range(8)]
+    trend = trend_of(Measure.SCORE, sessions)
+    assert trend.verdict is Verdict.TANGLED
+    assert "changed along with time" in trend_words(trend)
+
+
+def test_lean_is_better_where_it_comes_closer_to_the_beat() -> None:
+    def leaning(first: float, last: float) -> Verdict:
+        at = np.linspace(first, last, 12) + np.tile([0.5, -0.5], 6)
+        rows = [row(60.0, 80.0, BEGIN + timedelta(days=n), mean_ms=float(each)) for n, each in enumerate(at)]
+        return trend_of(Measure.LEAN, rows).verdict
+
+    assert leaning(-25.0, -8.0) is Verdict.BETTER
+    assert leaning(25.0, 8.0) is Verdict.BETTER
+    assert leaning(-5.0, 20.0) is Verdict.WORSE
+
+
+def test_tempo_is_told_without_praise() -> None:
+    rows = [row(60.0, 60.0 + 2 * n + n % 2, BEGIN + timedelta(days=n)) for n in range(12)]
+    trend = trend_of(Measure.TEMPO, rows)
+    assert trend.verdict is Verdict.CHANGED
+    assert "faster" in trend_words(trend)
+
+
+def test_sessions_of_a_few_strokes_say_nothing() -> None:
+    rows = [row(60.0, 80.0, BEGIN + timedelta(days=n), strokes=5, notes=5) for n in range(12)]
+    assert all(each.verdict is Verdict.TOO_FEW and not each.points for each in trends_of("rock-1", rows).trends)
+
+
+def test_lessons_come_by_their_last_day_and_takes_are_none() -> None:
+    rows = [
+        row(60.0, 80.0, BEGIN, lesson="old"),
+        row(60.0, 80.0, BEGIN + timedelta(days=1), lesson="new"),
+        row(60.0, 80.0, BEGIN + timedelta(days=2), lesson="", kind=SessionKind.TAKE),
+        row(60.0, 80.0, BEGIN + timedelta(days=3), lesson="old"),
+    ]
+    assert {lesson: len(each) for lesson, each in lessons_practised(rows).items()} == {"old": 2, "new": 1}
+    assert list(lessons_practised(rows)) == ["old", "new"]
