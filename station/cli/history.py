@@ -1,6 +1,6 @@
 """`station history`: what was practised, and what a user may do with it."""
 
-from station.cli.history_verbs import list_sessions, show_session
+from station.cli.history_verbs import delete_student, export_student, list_sessions, show_session
 from station.cli.options.option_fields import Command, Verbs
 
 COMMAND = Verbs(
@@ -14,6 +14,16 @@ COMMAND = Verbs(
             "show",
             "what is kept of a session, and where its files are",
             Command(show_session.ShowOptions, show_session.run),
+        ),
+        (
+            "export",
+            "write everything that a student owns as CSV, JSON and captures",
+            Command(export_student.ExportOptions, export_student.run),
+        ),
+        (
+            "delete",
+            "delete everything of a student: history, folder, settings",
+            Command(delete_student.DeleteOptions, delete_student.run),
         ),
     ),
     usual="list",

@@ -21,6 +21,7 @@ from station.store.rows import (
     TimedFigure,
 )
 from station.store.schema_version import make_ready
+from station.store.scrubbing import overwrite_deleted, scrub
 from station.store.student_names import student_key
 
 
@@ -184,6 +185,11 @@ class History:
             return students.students_known(connection)
 
     def delete_student(self, student: str) -> bool:
-        """Forget a student and all that is theirs; whether there was anything."""
+        """Forget a student and all that is theirs; whether there was anything. `scrub` overwrites what that leaves."""
         with self.database.writing() as connection:
+            overwrite_deleted(connection)
             return students.delete_student(connection, student)
+
+    def scrub(self) -> str | None:
+        """Leave nothing of what was deleted in the database's files; why that could not be done, None if it was."""
+        return scrub(self.database)

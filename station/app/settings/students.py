@@ -12,7 +12,7 @@ from station.app.settings.first_start import LONGEST_NAME
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import BadInput
 from station.core.settings import Settings, StudentSettings
-from station.practice.records.students import KnownStudent, known_students, sharing
+from station.practice.records.students import KnownStudent, known_students, shares_folder, sharing
 
 MOST_KEPT = 200
 """So many students have settings of their own (our choice: a school's); of others their folder stays."""
@@ -28,6 +28,15 @@ def switched(settings: Settings, name: str) -> Settings:
     theirs = known.get(name, StudentSettings(name))
     students = (theirs, before, *kept)[:MOST_KEPT]
     return replace(settings, student=name, hands=theirs.hands, course=theirs.course, students=students)
+
+
+def forgotten(settings: Settings, name: str) -> Settings:
+    """The settings without what is of `name`, however it is spelled; where they play, who played before plays now."""
+    others = tuple(each for each in settings.students if not shares_folder(each.name, name))
+    if not shares_folder(settings.student, name):
+        return replace(settings, students=others)
+    now = others[0] if others else StudentSettings(Settings().student)
+    return replace(settings, student=now.name, hands=now.hands, course=now.course, students=others)
 
 
 def plain_name(written: str) -> str:

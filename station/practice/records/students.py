@@ -9,6 +9,7 @@ from station.core.disk.file_names import alike, folder_name
 from station.core.errors import BadInput
 from station.practice.records.kept_json import kept_document
 from station.practice.records.session_files import DOCUMENT_NAME, OWN_FOLDERS, VIRTUAL_STUDENT, student_folder
+from station.store.student_names import student_key
 
 _SESSIONS = "????-??-??T??-??-??_*"
 _MARKS = ("mastery", "book")
@@ -49,6 +50,11 @@ def known_students(sessions: Path, named: Iterable[str]) -> tuple[KnownStudent, 
     everyone = list(found.values())
     others = sorted(everyone[first:], key=lambda one: max(one[1], default=""), reverse=True)
     return tuple(KnownStudent(name, _day(started)) for name, started in [*everyone[:first], *others])
+
+
+def shares_folder(name: str, other: str) -> bool:
+    """Whether two names are of one student, as they have one folder."""
+    return student_key(name) == student_key(other)
 
 
 def sharing(sessions: Path, name: str, others: Sequence[str]) -> str | None:

@@ -212,6 +212,7 @@ ENDING = {
     ("assignment", "answer"): ".drum-note",
     ("sync", "fit"): ".toml",
     ("sync", "sonify"): ".mid",
+    ("history", "export"): ".zip",
 }
 
 

@@ -110,3 +110,15 @@ def test_a_student_is_deleted_with_all_that_is_theirs_and_nothing_of_others(hist
     assert history.capture(hashlib.sha256(shared).hexdigest()) == shared
     assert [row.name for row in history.students()] == ["Ben"]
     assert not history.delete_student("ann")
+
+
+def test_what_is_deleted_leaves_nothing_in_the_file(history: History) -> None:
+    history.keep(KeptSession(_session("one", 3, title="Ann's groove"), documents={"report.json": b"{}"}))
+    history.keep(KeptSession(SessionRow("Ben", "one", datetime(2026, 5, 3), "/ben", title="Ben's groove")))
+    history.delete_student("Ann")
+    assert history.scrub() is None
+    assert [row.name for row in history.students()] == ["Ben"]
+    if history.database.path is not None:  # a server's files are its own
+        left = b"".join(path.read_bytes() for path in history.database.path.parent.iterdir())
+        assert b"Ann" not in left
+        assert b"Ben's groove" in left

@@ -1,0 +1,39 @@
+"""`station history export --out DIR|FILE.zip`: everything that a student owns, as plain files."""
+
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path
+
+from station.cli.console import say
+from station.cli.options.option_fields import option, required
+from station.cli.today import settings_of
+from station.core.counts import counted
+from station.core.disk.utf8 import one_line
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExportOptions:
+    """Whose data are written, and where."""
+
+    student: str | None = option("NAME", "whose data", str, None)
+    out: Path = required("DIR|FILE.zip", "a new folder, or a new file that ends in .zip", Path)
+
+
+def run(options: ExportOptions) -> int:
+    """Write them, whole or not at all."""
+    from station.practice.own_data.take_away import take_away
+    from station.store.opening import history_of
+
+    settings = settings_of(None)
+    student = settings.student if options.student is None else options.student
+    taken = take_away(history_of(settings), settings, student, options.out, datetime.now())
+    for path in taken.left_out:
+        say(f"left out {one_line(str(path))}: a link, or no plain file")
+    counts = (
+        counted(taken.sessions, "session"),
+        counted(taken.judgements, "judgement"),
+        counted(taken.captures, "capture"),
+        counted(taken.files, "file"),
+    )
+    say(f"export   {one_line(str(options.out))}: {', '.join(counts)} of {one_line(student)}")
+    return 0
