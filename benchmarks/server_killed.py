@@ -28,7 +28,7 @@ from station.bench.rigs.devices.playing_kit import PlayingKit
 from station.core.clock import monotonic_ns
 from station.core.units import NS_PER_S
 from station.devices.capture.capture import RecordKind, read_capture
-from station.practice.records.session_files import CAPTURE_NAME
+from station.practice.history.session_files import CAPTURE_NAME
 
 KIT = "TD-17 fake"
 _WITHIN_S = 30.0

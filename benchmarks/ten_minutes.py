@@ -37,8 +37,8 @@ from station.core.events import Hit
 from station.core.units import NS_PER_MS, NS_PER_S
 from station.devices.capture.capture import read_capture
 from station.devices.capture.replay import replay
+from station.practice.history.session_files import CAPTURE_NAME, DOCUMENT_NAME
 from station.practice.records.rejudge import judge_again
-from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME
 from tests.fakes.jack_recorder import JackRecorder
 from tests.fakes.kit_player import KitPlayer, Stroke
 

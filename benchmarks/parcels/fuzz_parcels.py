@@ -23,6 +23,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from benchmarks.parcels.hostile_parcels import hostile, seeds
+from station.core.disk.file_names import folder_name
 from station.core.disk.files import write_whole
 from station.core.errors import BadInput
 from station.core.settings import Settings
@@ -42,9 +43,8 @@ from station.practice.exchange.return_file import readme_text as return_words
 from station.practice.exchange.return_judging import judge_returned
 from station.practice.exchange.student_store import keep_note, take
 from station.practice.exchange.teacher_store import receive
+from station.practice.history.session_files import write_document
 from station.practice.records.assigned_lessons import Taken, write_taken
-from station.core.disk.file_names import folder_name
-from station.practice.records.session_files import write_document
 
 LIMIT_S, LIMIT_MB = 1.0, 300
 _JUDGED, _KEPT = 0.1, 0.05

@@ -52,8 +52,8 @@ from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
 from station.gui.panels.sound.sound_panel import CLICK_TAB, DRUMS_TAB, LEVELS_TAB, OUTPUT_TAB, SOUND, TRACK_TAB  # noqa: E402
 from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
+from station.practice.history.session_files import session_folder  # noqa: E402
 from station.practice.records.memory import Memory  # noqa: E402
-from station.practice.records.session_files import session_folder  # noqa: E402
 from station.render.files.png_file import write_png  # noqa: E402
 from station.render.gpu.moving_parts import DoublePlace  # noqa: E402
 from station.sync.air.air_file import air_path, save_air  # noqa: E402

@@ -30,7 +30,7 @@ from station.drills.lesson import BarCue, Lesson
 from station.drills.reading.lesson_file import parse_lesson
 from station.drills.writing.lesson_text import plain, show
 from station.drills.writing.lesson_writer import write_lesson
-from station.practice.records.session_files import student_folder
+from station.practice.history.session_files import student_folder
 
 FOLDER = "take-along"
 _PAPER = "a4"

@@ -19,9 +19,9 @@ from station.drills.exam.exam_piece import PREVIEW_S, ExamPiece, Unseen, prepare
 from station.practice.exam.exam_record import exam_document, marks_text, rubric_text
 from station.practice.exam.exam_sitting import Sitting, drawn_seed
 from station.practice.exam.exam_take import exam_plan
+from station.practice.history.session_files import TEXT_NAME
 from station.practice.records.report.session_report import practice_document, with_truth
 from station.practice.records.save_session import save
-from station.practice.records.session_files import TEXT_NAME
 from station.practice.session.session import SessionResult
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 from station.scoring.report.assessment_document import Json

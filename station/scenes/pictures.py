@@ -11,9 +11,9 @@ from station.drills.lesson import BarCue
 from station.motion.drummer import Drummer
 from station.motion.style.automation_lanes import in_passes
 from station.music.judgement import Label
+from station.practice.history.session_files import DRUMMER_NAME, PICTURE_NAME
 from station.practice.now.tempo_now import tempo_at
 from station.practice.records.save_session import SessionRecord
-from station.practice.records.session_files import DRUMMER_NAME, PICTURE_NAME
 from station.practice.session.session import SessionResult
 from station.render.picture import draw_png
 from station.render.report.report_picture import draw_report_png

@@ -15,7 +15,7 @@ import pytest
 
 from station.bench.rigs.devices.serial_kit import SerialKit
 from station.devices.capture.capture import RecordKind
-from station.practice.records.session_files import CAPTURE_NAME
+from station.practice.history.session_files import CAPTURE_NAME
 from tests.fakes.captures import on_disk
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="ptys that speak as serial ports are Linux's")

@@ -21,8 +21,8 @@ from station.devices.capture.capture import read_capture
 from station.devices.capture.replay import transport_zeros_ns
 from station.drills.library import find_lesson
 from station.music.judgement import Label
+from station.practice.history.session_files import CAPTURE_NAME
 from station.practice.records.rejudge import judge_again
-from station.practice.records.session_files import CAPTURE_NAME
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.simulation.student_spec import parse_spec
 from station.simulation.virtual_student import play

@@ -19,10 +19,10 @@ from station.core.units import NS_PER_S
 from station.devices.capture.capture import RecordKind, read_capture
 from station.devices.mapping.stick_file import save_stick
 from station.drills.library import find_lesson
+from station.practice.history.session_files import CAPTURE_NAME
 from station.practice.records.recovery import recovered
 from station.practice.records.rejudge import judge_again
 from station.practice.records.report.session_report import practice_document
-from station.practice.records.session_files import CAPTURE_NAME
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.simulation.sticks.stick_swing import StickPair, play
 from station.simulation.sticks.swing_score import PlayerSpec, spec_from_score

@@ -6,7 +6,7 @@ from datetime import datetime
 from pathlib import Path
 
 from station.core.settings import load_settings
-from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, student_folder
+from station.practice.history.session_files import CAPTURE_NAME, DOCUMENT_NAME, student_folder
 from station.store.history import History
 from station.store.opening import history_of
 from station.store.rows import FigureRow, JudgementRow, KeptSession, Part, SessionRow

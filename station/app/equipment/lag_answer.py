@@ -14,9 +14,9 @@ from station.core.errors import BadInput, DeviceError
 from station.core.measured_latency import GROOVE, StoredCalibration
 from station.core.settings import Settings
 from station.engine.latency_measurement import Devices
+from station.practice.history.kept_json import kept_document
+from station.practice.history.session_files import DOCUMENT_NAME
 from station.practice.lag.session_lag import LagAnswer, LagTarget, SessionLag
-from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import DOCUMENT_NAME
 from station.practice.session.device_latency import Latency
 from station.scoring.analysis.device_lag import LagCause, SharedLag
 from station.sound.calibration.latency_estimate import LatencyEstimate

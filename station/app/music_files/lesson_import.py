@@ -15,7 +15,7 @@ from station.drills.songs.song_folder import sounds_beside
 from station.drills.transcription.transcribe import transcribe
 from station.music.formats.format_table import endings
 from station.music.formats.groovescribe.groove_formats import is_groove_url
-from station.practice.records.session_files import CAPTURE_NAME
+from station.practice.history.session_files import CAPTURE_NAME
 
 ENDING = ".toml"
 _LINK_NAME = "groove"

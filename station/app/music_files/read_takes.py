@@ -13,8 +13,8 @@ from station.music.as_played import score_as_played
 from station.music.performance import Performance
 from station.music.score import Score
 from station.music.tempo import MAX_BPM, MIN_BPM, TempoMap
-from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import DOCUMENT_NAME, TAKE_NAME
+from station.practice.history.kept_json import kept_document
+from station.practice.history.session_files import DOCUMENT_NAME, TAKE_NAME
 from station.practice.session.device_latency import latency_of
 from station.practice.session.free_play import take_of
 

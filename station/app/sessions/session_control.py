@@ -34,7 +34,7 @@ from station.engine.messages import Command, EngineEvent, Started
 from station.motion.sticking.hand_notes import Hands
 from station.practice.exam.exam_sitting import Sitting
 from station.practice.exam.exam_take import exam_plan
-from station.practice.records.session_files import CAPTURE_NAME
+from station.practice.history.session_files import CAPTURE_NAME
 from station.practice.session.cues.click_pattern import ClickPattern
 from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency, latency_of

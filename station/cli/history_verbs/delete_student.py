@@ -9,8 +9,8 @@ from station.cli.options.option_fields import flag, required
 from station.core.did_you_mean import did_you_mean
 from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput, DeviceError, StationError
+from station.practice.history.session_files import VIRTUAL_STUDENT
 from station.practice.own_data.student_deletion import Theirs, delete_theirs, what_is_theirs
-from station.practice.records.session_files import VIRTUAL_STUDENT
 from station.store.history import History
 
 

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from station.core.settings import Settings
-from station.practice.records.session_files import VIRTUAL_STUDENT
+from station.practice.history.session_files import VIRTUAL_STUDENT
 from station.simulation.student_spec import parse_spec
 
 

@@ -8,9 +8,9 @@ from station.cli.practising.practice_options import PracticeOptions
 from station.core.errors import StationError
 from station.core.settings import Settings
 from station.practice.headless.guarded_output import GuardedOutput
+from station.practice.history.session_files import TEXT_NAME
 from station.practice.records.report.session_report import report_text
 from station.practice.records.save_session import SessionFolder, SessionRecord
-from station.practice.records.session_files import TEXT_NAME
 from station.scoring.report.assessment_document import Json
 
 

@@ -13,8 +13,9 @@ from station.drills.exam.exam_piece import ExamPiece, Unseen
 from station.drills.exam.rubric import Marks
 from station.drills.lesson import LEVELS
 from station.gui import theme
-from station.practice.exam.exam_record import BANDS_WORDS, SEEN_WORDS, asked_words, look_words, shown_total
+from station.practice.exam.exam_record import BANDS_WORDS, SEEN_WORDS, asked_words, look_words
 from station.practice.exam.exam_sitting import MOST_SEEDS, drawn_seed
+from station.practice.history.exam_words import shown_total
 
 EXAM = "Exam"
 ABOUT = "One take of a lesson or of an unseen piece, marked by a rubric that is shown before"

@@ -12,8 +12,8 @@ from pathlib import Path
 from station.core.errors import BadInput
 from station.drills.daily.daily_items import DailyItem
 from station.drills.mastery.mastery_json import from_json, to_json
-from station.practice.records.kept_json import recalled
-from station.practice.records.session_files import student_folder, write_document
+from station.practice.history.kept_json import recalled
+from station.practice.history.session_files import student_folder, write_document
 
 FOLDER = "book"
 SCHEMA = "drum-station/book-day/1"

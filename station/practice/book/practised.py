@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from station.core.errors import BadInput
-from station.practice.exam.exam_record import exam_result
-from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import DOCUMENT_NAME, TAKE_NAME, student_folder
+from station.practice.history.exam_words import exam_result
+from station.practice.history.kept_json import kept_document
+from station.practice.history.session_files import DOCUMENT_NAME, EXAM_NAME, TAKE_NAME, student_folder
 
 MOST_BYTES = 30_000_000
 """A report of an hour has a few (our choice): more is nobody's report."""
@@ -59,13 +59,20 @@ def _session(folder: Path) -> PractisedSession | None:
         return None
     try:
         if (folder / DOCUMENT_NAME).exists():
-            return replace(_lesson(started, _document(folder / DOCUMENT_NAME)), exam=exam_result(folder))
+            return replace(_lesson(started, _document(folder / DOCUMENT_NAME)), exam=_exam(folder))
         if (folder / TAKE_NAME).exists():
             take = _document(folder / TAKE_NAME)
             return PractisedSession(started, "", "Just play", _seconds(take["length_s"]), complete=True)
     except (ValueError, KeyError, TypeError, BadInput):
         return None  # a session that was cut off, or somebody else's folder
     return None
+
+
+def _exam(folder: Path) -> str:
+    try:
+        return exam_result(_document(folder / EXAM_NAME))
+    except (BadInput, TypeError):
+        return ""
 
 
 def _lesson(started: datetime, document: dict[str, Any]) -> PractisedSession:

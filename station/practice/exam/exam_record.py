@@ -11,12 +11,11 @@ from station.core.counts import counted
 from station.core.errors import BadInput
 from station.drills.exam.exam_piece import ExamPiece, Unseen
 from station.drills.exam.rubric import BANDS, Marks, Rubric
-from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import student_folder, write_document
+from station.practice.history.exam_words import SCHEMA, shown_total
+from station.practice.history.kept_json import kept_document
+from station.practice.history.session_files import EXAM_NAME, student_folder, write_document
 from station.scoring.report.assessment_document import Json
 
-EXAM_NAME = "exam.json"
-SCHEMA = "drum-station/exam/1"
 _WIDTH = 10
 _MOST_BYTES = 100_000
 """Of a file that is ours: a few hundred are usual."""
@@ -85,18 +84,6 @@ def _document(path: Path) -> dict[str, object] | None:
     return document if isinstance(document, dict) else None
 
 
-def exam_result(folder: Path) -> str:
-    """What the exam in a session's folder came to, in a few words; empty where there is none, or it has no marks."""
-    document = _document(folder / EXAM_NAME)
-    marks = None if document is None or document.get("schema") != SCHEMA else document.get("marks")
-    if not isinstance(marks, dict):
-        return ""
-    total, band = marks.get("total"), marks.get("band")
-    if not isinstance(total, int | float) or not 0 <= total <= 100 or band not in [each.name for each in BANDS]:
-        return ""
-    return f"{band}, {shown_total(total)} of 100"
-
-
 # --- in words ---------------------------------------------------------------------------------------------------------
 
 
@@ -123,11 +110,6 @@ def _lines(rubric: Rubric) -> str:
 
 BANDS_WORDS = ", ".join(f"{band.name} from {band.least}" for band in BANDS if band.least)
 SEEN_WORDS = "You have met this piece before: it was no unseen reading."
-
-
-def shown_total(total: float) -> str:
-    """A total of 100 as it is shown: never rounded up."""
-    return f"{int(total * 10) / 10:.1f}"
 
 
 def marks_text(marks: Marks, seen_before: bool = False) -> str:

@@ -20,7 +20,7 @@ from station.practice.exchange.parcel import Kind, Parcel, packed, parse_parcel,
 from station.practice.exchange.parcel_json import MOST_JSON_BYTES
 from station.practice.exchange.plain_words import identity, line, line_or_none, moment, moment_text, played_at, words
 from station.practice.exchange.session_figures import LONGEST_S, SessionFigures, report_figures
-from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, PAIRS_NAME
+from station.practice.history.session_files import CAPTURE_NAME, DOCUMENT_NAME, PAIRS_NAME
 
 LESSON_NAME = "lesson.toml"
 MOST_SESSIONS = 40

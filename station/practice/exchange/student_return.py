@@ -23,7 +23,7 @@ from station.practice.exchange.return_file import (
 )
 from station.practice.exchange.session_figures import SessionFigures, length_s, report_figures
 from station.practice.exchange.student_store import TakenAssignment, session_key, verdicts_on
-from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, PAIRS_NAME, student_folder
+from station.practice.history.session_files import CAPTURE_NAME, DOCUMENT_NAME, PAIRS_NAME, student_folder
 
 _STARTED, _STARTED_LETTERS = "%Y-%m-%dT%H-%M-%S", 19
 _ROOM = Kind.RETURN.value.most_bytes - (1 << 20)

@@ -26,8 +26,8 @@ from station.practice.exchange.note_file import Note, SessionVerdict, parse_note
 from station.practice.exchange.parcel import Kind
 from station.practice.exchange.parcel_json import MOST_JSON_BYTES, read_json
 from station.practice.exchange.return_file import Return
+from station.practice.history.session_files import write_document
 from station.practice.records.assigned_lessons import Taken, all_taken, assignments_folder, write_taken
-from station.practice.records.session_files import write_document
 
 _FILE_NAME = f"assignment{Kind.ASSIGNMENT.ending}"
 _ID_LETTERS = 8

@@ -6,10 +6,10 @@ from pathlib import Path
 from station.core.counts import counted
 from station.core.errors import BadInput, DeviceError
 from station.core.settings import Settings
+from station.practice.history.session_files import student_folder
 from station.practice.own_data.emptying import delete_tree
 from station.practice.own_data.student_files import FolderFiles
 from station.practice.own_data.take_away import all_sessions, own_settings
-from station.practice.records.session_files import student_folder
 from station.store.history import History
 
 _MOST_NAMED = 3

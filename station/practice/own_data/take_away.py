@@ -14,12 +14,12 @@ from station.core.errors import BadInput, DeviceError
 from station.core.settings import Settings, StudentSettings
 from station.practice.exchange.parcel import Kind
 from station.practice.history.kept_rows import figure_fields, session_fields
+from station.practice.history.session_files import student_folder
 from station.practice.own_data import table_columns as tables
 from station.practice.own_data.new_files import NewFile, check_free, new_files
 from station.practice.own_data.read_me import NAME, readme_text
 from station.practice.own_data.safe_csv import write_csv
 from station.practice.own_data.student_files import FolderFiles
-from station.practice.records.session_files import student_folder
 from station.store.history import History
 from station.store.rows import SessionRow, SessionState
 from station.store.student_names import student_key

@@ -8,11 +8,11 @@ from station.core.errors import BadInput, StationError
 from station.core.measured_latency import load_calibration
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS
+from station.practice.history.kept_json import kept_document
+from station.practice.history.session_files import DOCUMENT_NAME
 from station.practice.lag.fair_judgement import FairResult, judged_fairly
 from station.practice.lag.lag_document import runs_in
 from station.practice.lag.session_lag import LagAnswer
-from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import DOCUMENT_NAME
 from station.practice.session.session import SessionResult
 from station.scoring.analysis.device_lag import LagRun
 

@@ -21,10 +21,10 @@ from station.drills.mastery.agenda import Turn, next_turn, other_turn
 from station.drills.mastery.mastery_json import document_of, state_from
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.rules import DEFAULT_RULES
-from station.practice.records.kept_json import kept_document, recalled
+from station.practice.history.kept_json import kept_document, recalled
+from station.practice.history.session_files import student_folder, write_document
 from station.practice.records.lesson_order import ahead_of, followed_course
 from station.practice.records.lesson_progress import progress_of
-from station.practice.records.session_files import student_folder, write_document
 from station.practice.records.teachers_wishes import NO_WISHES, Wishes, wishes_of
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions

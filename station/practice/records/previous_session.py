@@ -18,9 +18,9 @@ from station.core.disk.file_names import folder_name
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Piece, Zone
 from station.music.performance import HIT_DTYPE
-from station.practice.records.kept_json import kept_document
+from station.practice.history.kept_json import kept_document
+from station.practice.history.session_files import DOCUMENT_NAME, PAIRS_NAME
 from station.practice.records.report.session_pairs import SESSION_COLUMNS
-from station.practice.records.session_files import DOCUMENT_NAME, PAIRS_NAME
 
 NONE_KEPT = "no earlier session of this lesson is kept"
 _TOO_OLD = "the session of {:%Y-%m-%d} was kept before its table had bars and beats: it cannot be shown"

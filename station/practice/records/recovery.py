@@ -15,8 +15,8 @@ from station.core.pieces import Limb
 from station.core.settings import Settings
 from station.devices.capture.capture import Capture, RecordKind, read_capture
 from station.drills.lesson import Lesson
+from station.practice.history.session_files import CAPTURE_NAME, DOCUMENT_NAME, TAKE_NAME, student_folder
 from station.practice.records.rejudge import judge_again
-from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME, TAKE_NAME, student_folder
 from station.practice.session.adaptation import whole
 from station.practice.session.plan import Plan
 from station.practice.session.session import SessionResult

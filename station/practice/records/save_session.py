@@ -12,11 +12,7 @@ from station.core.disk.files import write_whole
 from station.core.errors import BadInput, StationError
 from station.core.settings import Settings
 from station.music.formats.smf.track_writer import write_performance
-from station.practice.records.memory import Remembered
-from station.practice.records.report.mastery_report import with_mastery
-from station.practice.records.report.session_pairs import session_pairs_csv
-from station.practice.records.report.session_report import report_text
-from station.practice.records.session_files import (
+from station.practice.history.session_files import (
     CAPTURE_NAME,
     DOCUMENT_NAME,
     PAIRS_NAME,
@@ -25,6 +21,10 @@ from station.practice.records.session_files import (
     session_folder,
     write_document,
 )
+from station.practice.records.memory import Remembered
+from station.practice.records.report.mastery_report import with_mastery
+from station.practice.records.report.session_pairs import session_pairs_csv
+from station.practice.records.report.session_report import report_text
 from station.practice.session.session import SessionResult
 from station.scoring.report.assessment_document import Json
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from station.core.disk.file_names import alike, folder_name
 from station.core.errors import BadInput
-from station.practice.records.kept_json import kept_document
-from station.practice.records.session_files import DOCUMENT_NAME, OWN_FOLDERS, VIRTUAL_STUDENT, student_folder
+from station.practice.history.kept_json import kept_document
+from station.practice.history.session_files import DOCUMENT_NAME, OWN_FOLDERS, VIRTUAL_STUDENT, student_folder
 from station.store.student_names import student_key
 
 _SESSIONS = "????-??-??T??-??-??_*"

@@ -40,8 +40,8 @@ from station.engine.messages import Bus, KeyHit, Play, RecordCapture, SetBacking
 from station.motion.sticking.hand_notes import Hands
 from station.practice.demonstration.compare_by_ear import Whose
 from station.practice.headless.virtual_session import practise_virtually
+from station.practice.history.session_files import CAPTURE_NAME, session_folder
 from station.practice.records.memory import LevelMemory
-from station.practice.records.session_files import CAPTURE_NAME, session_folder
 from station.practice.session.backing_track import BackingRequest
 from station.practice.session.event_log import Tracked, said_in
 from station.practice.session.plan import PlanOptions, plan_practice

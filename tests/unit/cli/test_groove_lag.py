@@ -8,8 +8,8 @@ from station.cli.command_line import main
 from station.core.measured_latency import GROOVE, load_calibration
 from station.core.settings import Settings, load_settings, save_settings
 from station.practice.headless.virtual_session import DEVICE, practise_virtually
+from station.practice.history.session_files import CAPTURE_NAME
 from station.practice.lag.first_groove import first_groove
-from station.practice.records.session_files import CAPTURE_NAME
 from station.simulation.student_spec import parse_spec
 
 

@@ -17,7 +17,7 @@ import pytest
 
 from station.cli.command_line import main
 from station.core.settings import Settings, StudentSettings, data_folder, save_settings
-from station.practice.records.session_files import student_folder
+from station.practice.history.session_files import student_folder
 from station.store.rows import MasteryRow, TeacherNoteRow
 from tests.fakes.kept_sessions import kept, on_the_disk, users_history
 

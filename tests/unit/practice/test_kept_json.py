@@ -12,10 +12,10 @@ from station.drills.exam.exam_piece import Unseen
 from station.practice.book.book_day import BookFolder
 from station.practice.book.practised import practised_on
 from station.practice.exam.exam_record import was_seen
+from station.practice.history.kept_json import kept_document, recalled
+from station.practice.history.session_files import DOCUMENT_NAME
 from station.practice.records.assigned_lessons import all_taken
-from station.practice.records.kept_json import kept_document, recalled
 from station.practice.records.memory import remembered
-from station.practice.records.session_files import DOCUMENT_NAME
 
 DAY = date(2026, 11, 23)
 

@@ -12,8 +12,8 @@ import pytest
 from station.cli.command_line import main
 from station.core.settings import Settings
 from station.devices.capture.capture import RecordKind, read_capture
+from station.practice.history.session_files import CAPTURE_NAME, DOCUMENT_NAME
 from station.practice.records.recovery import cut_off, offer
-from station.practice.records.session_files import CAPTURE_NAME, DOCUMENT_NAME
 from tests.fakes.captures import capture_bytes
 
 STUDENT = "seed=4,bias_ms=-6,sd_ms=14,miss_pct=4,extra_pct=4,wrong_piece_pct=3"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from station.practice.records.session_files import OWN_FOLDERS, student_folder
+from station.practice.history.session_files import OWN_FOLDERS, student_folder
 from station.practice.records.students import KnownStudent, known_students, sharing
 
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from station.core.errors import BadInput
-from station.practice.records.session_files import VIRTUAL_STUDENT
+from station.practice.history.session_files import VIRTUAL_STUDENT
 
 MOST_PLAYERS = 4
 """On one computer (our choice: whoever waits longer than three turns goes for a drink)."""

@@ -17,12 +17,16 @@ from station.practice.battle.battle_result import BattleResult
 from station.practice.battle.records.battle_document import battle_document
 from station.practice.battle.records.battle_report import battle_report
 from station.practice.battle.records.judge_battle_again import judge_battle_again
-from station.practice.records.session_files import session_folder, student_folder, write_document
+from station.practice.history.session_files import (
+    BATTLE_CAPTURE_NAME,
+    BATTLE_NAME,
+    session_folder,
+    student_folder,
+    write_document,
+)
 from station.scoring.matching.hit_windows import Level
 from station.scoring.report.assessment_document import Json
 
-CAPTURE_NAME = "battle.capture"
-DOCUMENT_NAME = "battle.json"
 TEXT_NAME = "battle.txt"
 
 
@@ -42,7 +46,7 @@ class BattleFolder:
         if wanted is None:
             name = f"battle-{opponent}"
             return cls(session_folder(settings.sessions_dir, settings.student, name, datetime.now()), is_new=True)
-        if (wanted / CAPTURE_NAME).exists() or (wanted / DOCUMENT_NAME).exists():
+        if (wanted / BATTLE_CAPTURE_NAME).exists() or (wanted / BATTLE_NAME).exists():
             raise BadInput(wanted, "", "there is a battle in this folder already")
         is_new = not wanted.exists()
         try:
@@ -54,7 +58,7 @@ class BattleFolder:
     @property
     def capture(self) -> Path:
         """Where the capture is kept."""
-        return self.path / CAPTURE_NAME
+        return self.path / BATTLE_CAPTURE_NAME
 
     @property
     def report(self) -> Path:
@@ -67,7 +71,7 @@ class BattleFolder:
 
     def keep(self, document: Mapping[str, Json], report: str) -> None:
         """Keep a battle that is over as a document and in words; raises `DeviceError`."""
-        write_document(self.path / DOCUMENT_NAME, document)
+        write_document(self.path / BATTLE_NAME, document)
         write_whole(self.report, report.encode())
 
     def discard(self) -> None:
@@ -88,20 +92,20 @@ class BattleFolder:
 
 def kept_battle(path: Path, level: Level | None = None) -> BattleResult:
     """The battle that is kept in a folder, or in a capture, judged again; raises `BadInput` where there is none."""
-    capture = path / CAPTURE_NAME if path.is_dir() else path
+    capture = path / BATTLE_CAPTURE_NAME if path.is_dir() else path
     return judge_battle_again(read_capture(capture), level)
 
 
 def recovered_battle(folder: Path) -> BattleResult:
     """A battle that was cut off, judged as it would have been at its end; raises `BadInput` where none was."""
-    if (folder / DOCUMENT_NAME).exists():
+    if (folder / BATTLE_NAME).exists():
         raise BadInput(folder, "", "this battle has its report")
-    if not (folder / CAPTURE_NAME).is_file():
-        raise BadInput(folder, "", f"no battle was begun in this folder: it holds no {CAPTURE_NAME}")
+    if not (folder / BATTLE_CAPTURE_NAME).is_file():
+        raise BadInput(folder, "", f"no battle was begun in this folder: it holds no {BATTLE_CAPTURE_NAME}")
     return kept_battle(folder)
 
 
 def battles_cut_off(sessions: Path, student: str) -> list[Path]:
     """The folders of a student's battles that lack their report, the newest first; `sessions` holds all students."""
-    captures = sorted(student_folder(sessions, student).glob(f"*/{CAPTURE_NAME}"), reverse=True)
-    return [path.parent for path in captures if not (path.parent / DOCUMENT_NAME).exists()]
+    captures = sorted(student_folder(sessions, student).glob(f"*/{BATTLE_CAPTURE_NAME}"), reverse=True)
+    return [path.parent for path in captures if not (path.parent / BATTLE_NAME).exists()]

@@ -9,9 +9,9 @@ from station.core.errors import BadInput
 from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.people.handicap import Earlier, Expectation, expectation
 from station.practice.battle.people.player import is_virtual
-from station.practice.battle.records.battle_folder import DOCUMENT_NAME
 from station.practice.battle.repeating.demands import MOST_STEP
-from station.practice.records.kept_json import kept_document
+from station.practice.history.kept_json import kept_document
+from station.practice.history.session_files import BATTLE_NAME
 from station.practice.session.log_values import rows_in, table_in, whole
 
 MOST_READ = 60
@@ -29,7 +29,7 @@ def expected_of(sessions: Path, name: str, virtual: bool = False) -> Expectation
     """
     answers: list[Earlier] = []
     points: list[float] = []
-    documents = sorted(sessions.glob(f"*/*/{DOCUMENT_NAME}"), key=lambda path: path.parent.name)
+    documents = sorted(sessions.glob(f"*/*/{BATTLE_NAME}"), key=lambda path: path.parent.name)
     for path in documents[-MOST_READ:]:
         with suppress(BadInput, ValueError, TypeError, KeyError, AttributeError):
             document = table_in(kept_document(path))

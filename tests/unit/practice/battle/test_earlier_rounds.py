@@ -8,8 +8,8 @@ import pytest
 from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.ground import Ground
 from station.practice.battle.people.player import Player
-from station.practice.battle.records.battle_folder import DOCUMENT_NAME
 from station.practice.battle.records.earlier_rounds import after_earlier, expected_of
+from station.practice.history.session_files import BATTLE_NAME
 from station.scoring.matching.hit_windows import Level
 
 SCORES = '"scores": [{"name": "Ann", "drummer": false, "device": %s}]'
@@ -22,7 +22,7 @@ def leave(
 ) -> None:
     folder = sessions / "Ann" / f"2026-01-01T{hour}-00-00_battle-steady"
     folder.mkdir(parents=True)
-    (folder / DOCUMENT_NAME).write_text(
+    (folder / BATTLE_NAME).write_text(
         '{"rules": '
         + RULES
         + ', "rounds": [{"final": false, "turns": ['

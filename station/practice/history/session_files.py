@@ -1,7 +1,8 @@
 """The folder that a session leaves: `<sessions>/<student>/<date>_<lesson>/` with its capture and its report.
 
-Until there is a history, these folders are the memory of the station; every file in them is written whole or, like
-the capture, append-only.
+What was played is written there while it is played, and there the user finds it; what was practised and how it went the
+history answers (`history.session_intake` takes a folder in). Every file is written whole or, like the capture,
+append-only.
 """
 
 import json
@@ -17,6 +18,9 @@ DOCUMENT_NAME = "report.json"
 TEXT_NAME = "report.txt"
 TAKE_NAME = "take.json"
 PAIRS_NAME = "pairs.csv"
+EXAM_NAME = "exam.json"
+BATTLE_CAPTURE_NAME = "battle.capture"
+BATTLE_NAME = "battle.json"
 PICTURE_NAME = "report.png"
 DRUMMER_NAME = "drummer.png"
 
@@ -24,6 +28,8 @@ OWN_FOLDERS = frozenset({"assignments", "courses", "lessons", "returns", "styles
 """What lies beside the students' folders: given and returned parcels, what the user has written."""
 VIRTUAL_STUDENT = "virtual student"
 """Whose a session is that a virtual student plays who was given no name: nobody's who practises here."""
+
+_STARTED, _STARTED_LETTERS = "%Y-%m-%dT%H-%M-%S", 19
 
 
 def student_folder(sessions: Path, student: str) -> Path:
@@ -34,7 +40,7 @@ def student_folder(sessions: Path, student: str) -> Path:
 
 def session_folder(sessions: Path, student: str, lesson: str, started: datetime) -> Path:
     """Make and return a new folder for a session; raises `DeviceError` where none can be made."""
-    stem = f"{started:%Y-%m-%dT%H-%M-%S}_{folder_name(lesson)}"
+    stem = session_name(started, lesson)
     parent = student_folder(sessions, student)
     for attempt in range(1, 1000):
         path = parent / (stem if attempt == 1 else f"{stem}_{attempt}")
@@ -46,6 +52,19 @@ def session_folder(sessions: Path, student: str, lesson: str, started: datetime)
             raise DeviceError(f"{path}: no folder can be made: {fault.strerror or fault}") from fault
         return path
     raise DeviceError(f"{parent / stem}: a thousand sessions in one second")
+
+
+def session_name(started: datetime, lesson: str) -> str:
+    """What a session is called, and its folder where the user has named none."""
+    return f"{started.strftime(_STARTED)}_{folder_name(lesson)}"
+
+
+def started_in(name: str) -> datetime | None:
+    """When a session of that name was begun; None where it says nothing of it."""
+    try:
+        return datetime.strptime(name[:_STARTED_LETTERS], _STARTED)
+    except ValueError:
+        return None
 
 
 def write_document(path: Path, document: object) -> None:
