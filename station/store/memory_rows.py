@@ -2,6 +2,7 @@
 
 import zlib
 from collections.abc import Mapping
+from datetime import datetime
 
 from sqlalchemy import Connection, select
 
@@ -21,7 +22,7 @@ def put_mastery(connection: Connection, student: str, row: MasteryRow) -> None:
         "first_bar": row.first_bar,
         "last_bar": row.last_bar,
     }
-    put(connection, MASTERY, keys | {"document": row.document}, list(keys))
+    put(connection, MASTERY, [keys | {"document": row.document, "written": _now()}], list(keys))
 
 
 def mastery_of(connection: Connection, key: str, lesson: str | None = None) -> list[MasteryRow]:
@@ -35,7 +36,7 @@ def mastery_of(connection: Connection, key: str, lesson: str | None = None) -> l
 def put_level(connection: Connection, student: str, lesson: str, level: str) -> None:
     """Judge a lesson at that level from now on."""
     keys = {"student_id": student_id(connection, student), "lesson": lesson}
-    put(connection, LEVELS, keys | {"level": level}, list(keys))
+    put(connection, LEVELS, [keys | {"level": level, "written": _now()}], list(keys))
 
 
 def levels_of(connection: Connection, key: str) -> Mapping[str, str]:
@@ -48,12 +49,21 @@ def put_note(connection: Connection, student: str, row: TeacherNoteRow) -> None:
     """Keep a teacher's note; one that is there stays."""
     values = {name: getattr(row, name) for name in _NOTE_FIELDS}
     values |= {"student_id": student_id(connection, student), "day": row.made.date(), "body": zlib.compress(row.body)}
-    put_if_new(connection, TEACHER_NOTES, values, ["student_id", "note"])
+    put_if_new(connection, TEACHER_NOTES, [values], ["student_id", "note"])
 
 
 def notes_of(connection: Connection, key: str) -> list[TeacherNoteRow]:
     """The notes of a student's teachers, in the order in which they were written."""
     columns = [TEACHER_NOTES.c[name] for name in (*_NOTE_FIELDS, "body")]
-    wanted = select(*columns).join(STUDENTS).where(STUDENTS.c.key == key).order_by(TEACHER_NOTES.c.made)
+    wanted = (
+        select(*columns)
+        .join(STUDENTS)
+        .where(STUDENTS.c.key == key)
+        .order_by(TEACHER_NOTES.c.made, TEACHER_NOTES.c.note)
+    )
     rows = connection.execute(wanted).mappings()
     return [TeacherNoteRow(**{**each, "body": zlib.decompress(each["body"])}) for each in rows]
+
+
+def _now() -> datetime:
+    return datetime.now()

@@ -3,7 +3,8 @@
 from functools import lru_cache
 
 from station.core.settings import Settings, data_folder
-from station.store.database import Database, sqlite_url
+from station.store.database import Database
+from station.store.database_url import sqlite_url
 from station.store.history import History
 
 FILE_NAME = "history.sqlite3"

@@ -30,7 +30,7 @@ def put_session(connection: Connection, kept: KeptSession) -> int:
     """Keep a session, in place of what was kept of it before; its id."""
     checksum = None if kept.capture is None else _put_capture(connection, kept.capture)
     values = _values(connection, kept.row) | {"capture_sha256": checksum}
-    put(connection, SESSIONS, values, _KEYS)
+    put(connection, SESSIONS, [values], _KEYS)
     same = (SESSIONS.c.student_id == values["student_id"]) & (SESSIONS.c.name == kept.row.name)
     number = int(connection.execute(select(SESSIONS.c.id).where(same)).scalar_one())
     for table in (FIGURES, JUDGEMENTS, DOCUMENTS):
@@ -48,7 +48,7 @@ def put_session(connection: Connection, kept: KeptSession) -> int:
 
 def put_begun(connection: Connection, row: SessionRow) -> None:
     """Remember that a session was begun; one that is kept already stays."""
-    put_if_new(connection, SESSIONS, _values(connection, row), _KEYS)
+    put_if_new(connection, SESSIONS, [_values(connection, row)], _KEYS)
 
 
 def drop_begun(connection: Connection, student: str, name: str) -> None:
@@ -68,6 +68,7 @@ def _values(connection: Connection, row: SessionRow) -> dict[str, Any]:
         "student_id": student_id(connection, row.student),
         "kind": row.kind.value,
         "state": row.state.value,
+        "written": datetime.now(),
     }
 
 
@@ -76,7 +77,7 @@ def _put_capture(connection: Connection, data: bytes) -> str:
     is_there = connection.execute(select(CAPTURES.c.sha256).where(CAPTURES.c.sha256 == checksum)).first()
     if is_there is None:
         values = {"sha256": checksum, "length": len(data), "body": zlib.compress(data)}
-        put_if_new(connection, CAPTURES, values, ["sha256"])
+        put_if_new(connection, CAPTURES, [values], ["sha256"])
     return checksum
 
 
@@ -180,7 +181,7 @@ def figures_of(connection: Connection, key: str, since: datetime | None) -> list
         .where(STUDENTS.c.key == key)
     )
     wanted = wanted if since is None else wanted.where(SESSIONS.c.started >= since)
-    ordered = wanted.order_by(SESSIONS.c.started, SESSIONS.c.id)
+    ordered = wanted.order_by(SESSIONS.c.started, SESSIONS.c.name, FIGURES.c.part, FIGURES.c.name)
     return [
         TimedFigure(each.started, each.session_id, each.lesson, _figure(each)) for each in connection.execute(ordered)
     ]

@@ -1,7 +1,8 @@
 """The tables of the history, the same on SQLite and on PostgreSQL.
 
 Times are naive, by the wall clock of the station that wrote them; `_ms` and `_s` are what they say, early is negative;
-NULL is no data. `migrations` makes an older database like this one.
+NULL is no data. `written` is when a row was written that may be written anew: where two histories differ the later one
+is right. `migrations` makes an older database like this one.
 """
 
 from sqlalchemy import (
@@ -9,17 +10,16 @@ from sqlalchemy import (
     Column,
     Date,
     DateTime,
-    Float,
     ForeignKey,
     Index,
     Integer,
     LargeBinary,
     MetaData,
-    String,
     Table,
-    Text,
     UniqueConstraint,
 )
+
+from station.store.column_types import LongWords, Number, Real, Words
 
 METADATA = MetaData(
     naming_convention={
@@ -35,22 +35,22 @@ def _of(table: str, *, is_key: bool = False, nullable: bool = False) -> Column[i
     """A column for the id of a row of `table`, with which this one goes."""
     name = f"{table.removesuffix('s')}_id"
     key = ForeignKey(f"{table}.id", ondelete="CASCADE")
-    return Column(name, Integer, key, primary_key=is_key, nullable=nullable, autoincrement=False)
+    return Column(name, Number(), key, primary_key=is_key, nullable=nullable, autoincrement=False)
 
 
 STUDENTS = Table(
     "students",
     METADATA,
     Column("id", Integer, primary_key=True),
-    Column("key", String, nullable=False, unique=True),  # what two spellings of a name share
-    Column("name", String, nullable=False),
+    Column("key", Words(), nullable=False, unique=True),  # what two spellings of a name share
+    Column("name", Words(), nullable=False),
 )
 
 CAPTURES = Table(
     "captures",
     METADATA,
-    Column("sha256", String(64), primary_key=True),
-    Column("length", Integer, nullable=False),  # bytes as they were captured
+    Column("sha256", Words(64), primary_key=True),
+    Column("length", Number(), nullable=False),  # bytes as they were captured
     Column("body", LargeBinary, nullable=False),  # compressed by zlib
 )
 
@@ -59,26 +59,27 @@ SESSIONS = Table(
     METADATA,
     Column("id", Integer, primary_key=True),
     _of("students"),
-    Column("name", String, nullable=False),  # its folder's
-    Column("kind", String(20), nullable=False),
-    Column("state", String(20), nullable=False),
+    Column("name", Words(), nullable=False),  # its folder's
+    Column("kind", Words(20), nullable=False),
+    Column("state", Words(20), nullable=False),
     Column("started", DateTime, nullable=False),
-    Column("folder", Text, nullable=False),
-    Column("lesson", String, nullable=False),
-    Column("title", Text, nullable=False),
-    Column("device", Text, nullable=False),
-    Column("played_s", Float, nullable=False),
+    Column("folder", LongWords(), nullable=False),
+    Column("lesson", Words(), nullable=False),
+    Column("title", LongWords(), nullable=False),
+    Column("device", LongWords(), nullable=False),
+    Column("played_s", Real(), nullable=False),
     Column("complete", Boolean, nullable=False),
-    Column("score", Float),
-    Column("level", String(20), nullable=False),
-    Column("beats_a_minute", Float),
-    Column("notes", Integer, nullable=False),
-    Column("right", Integer, nullable=False),
-    Column("strokes", Integer, nullable=False),  # that mean and SD rest on
-    Column("mean_ms", Float),
-    Column("sd_ms", Float),
-    Column("exam", Text, nullable=False),
-    Column("capture_sha256", String(64), ForeignKey("captures.sha256")),
+    Column("score", Real()),
+    Column("level", Words(20), nullable=False),
+    Column("beats_a_minute", Real()),
+    Column("notes", Number(), nullable=False),
+    Column("right", Number(), nullable=False),
+    Column("strokes", Number(), nullable=False),  # that mean and SD rest on
+    Column("mean_ms", Real()),
+    Column("sd_ms", Real()),
+    Column("exam", LongWords(), nullable=False),
+    Column("capture_sha256", Words(64), ForeignKey("captures.sha256")),
+    Column("written", DateTime),
     UniqueConstraint("student_id", "name"),
     Index("ix_sessions_student_started", "student_id", "started"),
 )
@@ -87,7 +88,7 @@ DOCUMENTS = Table(
     "documents",
     METADATA,
     _of("sessions", is_key=True),
-    Column("name", String, primary_key=True),  # the file's: report.json, exam.json …
+    Column("name", Words(), primary_key=True),  # the file's: report.json, exam.json …
     Column("body", LargeBinary, nullable=False),  # the file's bytes, compressed by zlib
 )
 
@@ -95,68 +96,78 @@ FIGURES = Table(
     "figures",
     METADATA,
     _of("sessions", is_key=True),
-    Column("part", String(20), primary_key=True),  # limb or piece
-    Column("name", String(40), primary_key=True),
-    Column("notes", Integer, nullable=False),
-    Column("matched", Integer, nullable=False),
-    Column("misses", Integer, nullable=False),
-    Column("wrong_piece", Integer, nullable=False),
-    Column("strokes", Integer, nullable=False),
-    Column("mean_ms", Float),
-    Column("sd_ms", Float),
+    Column("part", Words(20), primary_key=True),  # limb or piece
+    Column("name", Words(40), primary_key=True),
+    Column("notes", Number(), nullable=False),
+    Column("matched", Number(), nullable=False),
+    Column("misses", Number(), nullable=False),
+    Column("wrong_piece", Number(), nullable=False),
+    Column("strokes", Number(), nullable=False),
+    Column("mean_ms", Real()),
+    Column("sd_ms", Real()),
 )
 
 JUDGEMENTS = Table(
     "judgements",
     METADATA,
     _of("sessions", is_key=True),
-    Column("number", Integer, primary_key=True, autoincrement=False),  # its line in pairs.csv, from 0
-    Column("label", String(20), nullable=False),
-    Column("pass_number", Integer, nullable=False),  # as the bar and the beat from 1
-    Column("bar", Integer, nullable=False),
-    Column("beat", Float, nullable=False),
-    Column("note_index", Integer),
-    Column("note_time_s", Float),
-    Column("note_midi", Integer),
-    Column("hit_index", Integer),
-    Column("hit_time_s", Float),
-    Column("hit_midi", Integer),
-    Column("hit_piece", String(20)),
-    Column("hit_zone", String(20)),
-    Column("hit_articulation", String(20)),
-    Column("hit_velocity", Float),
-    Column("hit_openness", Float),
+    Column("number", Number(), primary_key=True, autoincrement=False),  # its line in pairs.csv, from 0
+    Column("label", Words(20), nullable=False),
+    Column("pass_number", Number(), nullable=False),  # as the bar and the beat from 1
+    Column("bar", Number(), nullable=False),
+    Column("beat", Real(), nullable=False),
+    Column("note_index", Number()),
+    Column("note_time_s", Real()),
+    Column("note_midi", Number()),
+    Column("hit_index", Number()),
+    Column("hit_time_s", Real()),
+    Column("hit_midi", Number()),
+    Column("hit_piece", Words(20)),
+    Column("hit_zone", Words(20)),
+    Column("hit_articulation", Words(20)),
+    Column("hit_velocity", Real()),
+    Column("hit_openness", Real()),
 )
 
 MASTERY = Table(
     "mastery",
     METADATA,
     _of("students", is_key=True),
-    Column("lesson", String, primary_key=True),
-    Column("first_bar", Integer, primary_key=True, autoincrement=False),  # from 0
-    Column("last_bar", Integer, primary_key=True, autoincrement=False),
-    Column("document", Text, nullable=False),  # drum-station/mastery/1
+    Column("lesson", Words(), primary_key=True),
+    Column("first_bar", Number(), primary_key=True, autoincrement=False),  # from 0
+    Column("last_bar", Number(), primary_key=True, autoincrement=False),
+    Column("document", LongWords(), nullable=False),  # drum-station/mastery/1
+    Column("written", DateTime),
 )
 
 LEVELS = Table(
     "levels",
     METADATA,
     _of("students", is_key=True),
-    Column("lesson", String, primary_key=True),
-    Column("level", String(20), nullable=False),
+    Column("lesson", Words(), primary_key=True),
+    Column("level", Words(20), nullable=False),
+    Column("written", DateTime),
 )
 
 TEACHER_NOTES = Table(
     "teacher_notes",
     METADATA,
     _of("students", is_key=True),
-    Column("note", String, primary_key=True),  # its id
-    Column("assignment", String, nullable=False),
-    Column("title", Text, nullable=False),
-    Column("teacher", Text, nullable=False),
+    Column("note", Words(), primary_key=True),  # its id
+    Column("assignment", Words(), nullable=False),
+    Column("title", LongWords(), nullable=False),
+    Column("teacher", LongWords(), nullable=False),
     Column("made", DateTime, nullable=False),
     Column("day", Date, nullable=False),
-    Column("words", Text, nullable=False),
-    Column("next", Text, nullable=False),
+    Column("words", LongWords(), nullable=False),
+    Column("next", LongWords(), nullable=False),
     Column("body", LargeBinary, nullable=False),  # the note's file, compressed by zlib
+)
+
+BACKUPS = Table(
+    "backups",
+    METADATA,
+    Column("computer", Words(), primary_key=True),
+    Column("file", Words(), primary_key=True),
+    Column("made", DateTime, nullable=False),
 )

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from station.store.database import Database, sqlite_url
+from station.store.database import Database
+from station.store.database_url import sqlite_url
 from station.store.history import History
 from tests.fakes.postgres_server import PostgresServer, postgres_server
 

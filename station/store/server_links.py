@@ -1,0 +1,55 @@
+"""Connections to a PostgreSQL server for which nobody waits too long, whatever becomes of it and of the network."""
+
+import time
+from collections.abc import Generator
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from station.store.patience import ANSWER_S, CONNECT_S, PATIENCE_S
+
+if TYPE_CHECKING:
+    from psycopg import Connection as Link
+
+_T = TypeVar("_T")
+
+
+def connect_args() -> dict[str, Any]:
+    """What connections are made with: the server itself ends what takes too long, and lets go of who fell silent."""
+    limits = {
+        "lock_timeout": PATIENCE_S,
+        "statement_timeout": ANSWER_S,
+        "idle_in_transaction_session_timeout": ANSWER_S,
+    }
+    options = " ".join(f"-c {name}={round(1000 * value_s)}" for name, value_s in limits.items())
+    return {"connect_timeout": CONNECT_S, "options": options}
+
+
+def connected(_dialect: object, _record: object, words: tuple[Any, ...], arguments: dict[str, Any]) -> "Link[Any]":
+    """A connection that gives up itself where the server neither answers nor goes away."""
+    import psycopg  # noqa: PLC0415 - who keeps their history in a file need not have it
+
+    class Impatient(psycopg.Connection[Any]):
+        def wait(self, gen: Generator[Any, Any, _T], *args: Any, **others: Any) -> _T:  # noqa: ANN401 - as there
+            # SQLAlchemy asks outside transactions whether the server is there, and nothing else
+            within_s = CONNECT_S if self.autocommit else ANSWER_S + CONNECT_S
+            try:
+                return super().wait(_answered(gen, within_s), *args, **others)
+            except TimeoutError:
+                self.close()
+                raise psycopg.OperationalError(f"the server has not answered for {within_s:.0f} s") from None
+
+    return Impatient.connect(*words, **arguments)
+
+
+def _answered(gen: Generator[Any, Any, _T], within_s: float) -> Generator[Any, Any, _T]:
+    """What `gen` comes to; `TimeoutError` where its server gives it nothing to do for so long.
+
+    psycopg runs it whenever something has come, and ten times a second where nothing has.
+    """
+    until = time.monotonic() + within_s
+    try:
+        ready = yield next(gen)
+        while ready or time.monotonic() < until:
+            ready = yield gen.send(ready)
+    except StopIteration as end:
+        return end.value  # type: ignore[no-any-return]
+    raise TimeoutError
