@@ -21,7 +21,7 @@ from station.store.rows import (
     TimedFigure,
 )
 from station.store.schema_version import make_ready
-from station.store.scrubbing import overwrite_deleted, scrub
+from station.store.scrubbing import scrub
 from station.store.student_names import student_key
 
 
@@ -185,9 +185,8 @@ class History:
             return students.students_known(connection)
 
     def delete_student(self, student: str) -> bool:
-        """Forget a student and all that is theirs; whether there was anything. `scrub` overwrites what that leaves."""
+        """Forget a student and all that is theirs; whether there was anything. `scrub` leaves nothing of them."""
         with self.database.writing() as connection:
-            overwrite_deleted(connection)
             return students.delete_student(connection, student)
 
     def scrub(self) -> str | None:

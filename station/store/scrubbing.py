@@ -3,7 +3,7 @@
 import sqlite3
 from contextlib import closing
 
-from sqlalchemy import Connection, text
+from sqlalchemy import text
 from sqlalchemy.exc import SQLAlchemyError
 
 from station.store.database import Database
@@ -12,19 +12,13 @@ from station.store.tables import METADATA
 _IN_USE = "another program has it open"
 
 
-def overwrite_deleted(connection: Connection) -> None:
-    """From now on this connection to a SQLite file overwrites with zeros what it deletes; others know no such thing."""
-    if connection.dialect.name == "sqlite":
-        connection.exec_driver_sql("PRAGMA secure_delete = ON")
-
-
 def scrub(database: Database) -> str | None:
     """Write the file anew without what was deleted, the log beside it too; why that could not be done, None if it was.
 
     A server gives the space back, as far as its own logs and backups let it.
     """
     try:
-        return _scrub_file(database) if database.is_sqlite else _scrub_server(database)
+        return _scrub_server(database) if database.path is None else _scrub_file(database)
     except (sqlite3.Error, SQLAlchemyError, OSError) as fault:
         return next(iter(str(fault).splitlines()), type(fault).__name__)
 

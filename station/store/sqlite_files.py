@@ -80,15 +80,3 @@ def copied(path: Path, to: Path) -> None:
         with closing(sqlite3.connect(path)) as old, closing(sqlite3.connect(part)) as copy:
             old.backup(copy)
         keep_no_log(part)
-
-
-def wiped(path: Path) -> bool:
-    """Write a file anew without what was deleted, and empty its log; False while somebody still reads the log.
-
-    Raises `sqlite3.Error`.
-    """
-    with closing(sqlite3.connect(path, timeout=PATIENCE_S, isolation_level=None)) as connection:
-        connection.execute("PRAGMA secure_delete = ON")
-        connection.execute("VACUUM")
-        is_busy, _, _ = connection.execute("PRAGMA wal_checkpoint(TRUNCATE)").fetchone()
-    return not is_busy

@@ -22,7 +22,8 @@ from station.practice.records.report.session_report import practice_document
 from station.practice.records.save_session import SessionFolder
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.simulation.student_spec import parse_spec
-from station.store.database import Database, sqlite_url
+from station.store.database import Database
+from station.store.database_url import sqlite_url
 from station.store.history import History
 from station.store.rows import Part, SessionKind, SessionState
 
