@@ -5,6 +5,7 @@ from datetime import datetime
 from pathlib import Path
 
 from station.cli.console import say
+from station.cli.history_verbs.opened_history import opened_history
 from station.cli.options.option_fields import option, required
 from station.cli.today import settings_of
 from station.core.counts import counted
@@ -22,11 +23,10 @@ class ExportOptions:
 def run(options: ExportOptions) -> int:
     """Write them, whole or not at all."""
     from station.practice.own_data.take_away import take_away
-    from station.store.opening import history_of
 
     settings = settings_of(None)
     student = settings.student if options.student is None else options.student
-    taken = take_away(history_of(settings), settings, student, options.out, datetime.now())
+    taken = take_away(opened_history(settings, student), settings, student, options.out, datetime.now())
     for path in taken.left_out:
         say(f"left out {one_line(str(path))}: a link, or no plain file")
     counts = (

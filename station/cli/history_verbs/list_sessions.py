@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 
 from station.cli.console import print_json, say, write
+from station.cli.history_verbs.opened_history import opened_history
 from station.cli.options.option_fields import day, flag, option
 from station.cli.today import settings_of
 from station.core.counts import counted
@@ -31,12 +32,12 @@ class ListOptions:
 
 def run(options: ListOptions) -> int:
     """List them, the oldest first."""
-    from station.store.opening import history_of
-
     if options.since is not None and options.until is not None and options.until < options.since:
         raise BadInput("--until", options.until.isoformat(), f"is before --since {options.since}")
     settings = settings_of(options.student)
-    rows = history_of(settings).sessions(settings.student, _begin(options.since), _end(options.until))
+    rows = opened_history(settings, settings.student).sessions(
+        settings.student, _begin(options.since), _end(options.until)
+    )
     rows = [row for row in rows if options.lesson in (None, row.lesson)]
     summed = totals(rows)
     if options.json:
@@ -85,7 +86,7 @@ def title_of(row: SessionRow) -> str:
     title = one_line(row.title or row.lesson)
     shown = title if len(title) <= _TITLE_LETTERS else f"{title[: _TITLE_LETTERS - 1]}…"
     name = one_line(row.lesson)
-    return ": ".join(dict.fromkeys(filter(None, (_KINDS.get(row.kind, ""), name, shown))))
+    return ": ".join(dict.fromkeys(filter(None, (name, shown)))) or _KINDS.get(row.kind, "")
 
 
 def _document(student: str, options: ListOptions, rows: list[SessionRow], summed: Totals) -> dict[str, object]:

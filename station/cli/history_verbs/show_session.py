@@ -6,6 +6,7 @@ from pathlib import Path
 
 from station.cli.console import print_json, write
 from station.cli.history_verbs.list_sessions import title_of
+from station.cli.history_verbs.opened_history import opened_history
 from station.cli.options.option_fields import argument, flag, option
 from station.cli.today import settings_of
 from station.core.counts import counted
@@ -41,10 +42,8 @@ class _Kept:
 
 def run(options: ShowOptions) -> int:
     """Show it."""
-    from station.store.opening import history_of
-
     settings = settings_of(options.student)
-    history = history_of(settings)
+    history = opened_history(settings, settings.student)
     chosen = choose_session(history, settings.student, options.session)
     if chosen.row is None:
         raise BadInput(options.session, "", f"the history {history.name} does not know this session")

@@ -12,6 +12,7 @@ from station.cli.command_line import main
 from station.core.errors import BadInput
 from station.core.settings import load_settings
 from station.practice.history.session_choice import choose_session
+from station.practice.history.session_files import student_folder
 from station.store.rows import SessionKind
 from tests.fakes.kept_sessions import kept, on_the_disk, users_history
 
@@ -99,6 +100,17 @@ def test_no_name_reaches_the_terminal_as_a_command(name: str, capsys: pytest.Cap
     for words in (["list", "--student", name], ["show", str(number)]):
         assert main(["history", *words]) == 0
         assert all(line.isprintable() for line in capsys.readouterr().out.splitlines())
+
+
+def test_a_folder_that_nobody_has_taken_in_is_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    folder = student_folder(load_settings().sessions_dir, "Ann")
+    for name, document in (("2026-11-20T10-00-00_just-play", '{"length_s": 60}'), ("2026-11-21T10-00-00_broken", "{")):
+        (folder / name).mkdir(parents=True)
+        (folder / name / "take.json").write_text(document)
+    assert main(["history", "--student", "Ann"]) == 0
+    said = capsys.readouterr()
+    assert said.out.splitlines()[-1] == "1 session on 1 day, 1 minute"
+    assert "is no report of ours" in said.err
 
 
 def test_a_session_is_shown_with_its_files_or_without_them(

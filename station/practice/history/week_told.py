@@ -1,0 +1,116 @@
+"""A week of practice told to people who play no drums: what was played how long, and what has surely got better."""
+
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from datetime import date, datetime, timedelta
+
+from station.core.disk.utf8 import one_line
+from station.practice.history.calendar_days import WEEK
+from station.practice.history.trends import WORDS, Measure, Trend, Verdict, lessons_practised, trend_of
+from station.store.rows import SessionKind, SessionRow
+
+LOOKS_BACK = 5 * WEEK
+"""So long before the week a change is looked for (our choice: what got better in spring is no news in autumn)."""
+_FREE = "Free playing"
+_NAMELESS = "A lesson"
+_FEWEST_SAID = 3.0
+
+
+@dataclass(frozen=True, slots=True)
+class Practised:
+    """What was played under one `title`: in whole `minutes` (0: less than half of one), and how many `times`."""
+
+    title: str
+    minutes: int
+    times: int
+
+
+def whole_minutes(seconds: Sequence[float]) -> list[int]:
+    """Seconds in whole minutes that add up to those of the sum: the largest remainders are rounded up."""
+    exact = [each / 60 for each in seconds]
+    minutes = [int(each) for each in exact]
+    short = round(sum(seconds) / 60) - sum(minutes)
+    for at in sorted(range(len(exact)), key=lambda index: minutes[index] - exact[index])[: max(short, 0)]:
+        minutes[at] += 1
+    return minutes
+
+
+def practised(rows: Iterable[SessionRow]) -> tuple[Practised, ...]:
+    """What was played, the longest first."""
+    played: defaultdict[str, list[float]] = defaultdict(list)
+    for row in rows:
+        played[title_of(row)].append(row.played_s)
+    longest = sorted(played.items(), key=lambda item: (-sum(item[1]), item[0]))
+    minutes = whole_minutes([sum(times) for _, times in longest])
+    return tuple(Practised(title, m, len(times)) for (title, times), m in zip(longest, minutes, strict=True))
+
+
+def title_of(row: SessionRow) -> str:
+    """What a session is called, in one line."""
+    named = _FREE if row.kind is SessionKind.TAKE else one_line(row.title or row.lesson) or _NAMELESS
+    exam = one_line(row.exam)
+    return f"{named} (exam: {exam})" if exam else named
+
+
+def begin_of(day: date) -> datetime:
+    """Its first moment, by the clock on the wall."""
+    return datetime.combine(day, datetime.min.time())
+
+
+def end_of(day: date) -> datetime | None:
+    """The first moment after it; None after the last day that there is."""
+    return None if day == date.max else begin_of(day + timedelta(days=1))
+
+
+# --- what got better --------------------------------------------------------------------------------------------------
+
+
+def got_better(rows: Sequence[SessionRow], monday: date) -> tuple[str, ...]:
+    """A sentence for each lesson of the week from `monday` that got better, as far as its trend's interval says so.
+
+    `rows` are the sessions of that week and of `LOOKS_BACK` before it. Of a lesson the first of score, spread, lean and
+    tempo is told that changed by more than what counts as small.
+    """
+    of_week = lessons_practised(row for row in rows if row.started.date() >= monday)
+    of_lesson = lessons_practised(rows)
+    told = (_better(title_of(mine[-1]), of_lesson[lesson]) for lesson, mine in of_week.items())
+    return tuple(sentence for sentence in told if sentence is not None)
+
+
+def _better(title: str, rows: Sequence[SessionRow]) -> str | None:
+    sentences = (_sentence(title, trend_of(measure, rows)) for measure in Measure)
+    return next((sentence for sentence in sentences if sentence is not None), None)
+
+
+def _sentence(title: str, trend: Trend) -> str | None:
+    """What got better by this measure; None where nothing surely did."""
+    if trend.line is None or trend.change is None or abs(trend.change[0]) < WORDS[trend.measure].small:
+        return None
+    is_faster = trend.verdict is Verdict.CHANGED and trend.change[1] > 0
+    if not (trend.verdict is Verdict.BETTER or is_faster):
+        return None
+    first, last = (float(each) for each in trend.line.at(trend.line.days[[0, -1]]))
+    match trend.measure:
+        case Measure.SCORE:
+            first, last = (min(max(each, 0.0), 100.0) for each in (first, last))
+            words = (
+                f"more of it comes out as it is written. Of 100 points it had {first:.0f}, and has about {last:.0f} now"
+            )
+        case Measure.SPREAD:
+            words = f"the strokes come more evenly. They strayed by about {_thousandths(first)}, and by {last:.0f} now"
+        case Measure.LEAN:
+            words = f"it is closer to the beat. It was {_beside(first)}, and is {_beside(last)} now"
+        case Measure.TEMPO:
+            words = f"it is played faster. It was at about {first:.0f} beats a minute, and is at {last:.0f} now"
+    return f"{title}: {words} (over {trend.days} days of practice)."
+
+
+def _thousandths(ms: float) -> str:
+    return f"{ms:.0f} thousandths of a second"
+
+
+def _beside(ms: float) -> str:
+    if abs(ms) < _FEWEST_SAID:
+        return "on it"
+    return f"about {_thousandths(abs(ms))} {'late' if ms > 0 else 'early'}"
