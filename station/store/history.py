@@ -33,7 +33,11 @@ class History:
 
     def __init__(self, database: Database) -> None:
         self.database = database
-        make_ready(database)
+        try:
+            make_ready(database)
+        except BaseException:
+            database.close()
+            raise
 
     @property
     def name(self) -> str:

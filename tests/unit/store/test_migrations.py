@@ -1,5 +1,9 @@
 """An older history becomes like a new one, and keeps what is in it; what cannot be migrated stays as it was."""
 
+import shutil
+import sqlite3
+import stat
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -10,6 +14,7 @@ from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from sqlalchemy import inspect
 
+from station.core.errors import BadInput, DeviceError
 from station.store import schema_version
 from station.store.database import Database
 from station.store.database_url import sqlite_url
@@ -90,3 +95,110 @@ def test_an_older_history_is_migrated_with_what_is_in_it(url: str) -> None:
     history.remember("Ann", levels={"rock-1": "beginner"})
     assert history.levels("Ann") == {"rock-1": "beginner"}
     history.database.close()
+
+
+def test_a_copy_of_an_older_file_is_put_beside_it(tmp_path: Path) -> None:
+    path = tmp_path / "history.sqlite3"
+    _migrated(sqlite_url(path), "0001", *_IN_0001)
+    History(Database(sqlite_url(path)))
+    copy = tmp_path / f"history-before-{HEAD}-0001.sqlite3"
+    assert stat.S_IMODE(copy.stat().st_mode) == 0o600
+    with closing(sqlite3.connect(copy)) as older:
+        assert older.execute("SELECT version_num FROM alembic_version").fetchall() == [("0001",)]
+        assert older.execute("SELECT document FROM mastery").fetchall() == [("{}",)]
+        assert older.execute("PRAGMA integrity_check").fetchall() == [("ok",)]
+    assert {each.name for each in tmp_path.iterdir()} == {path.name, copy.name}
+
+
+_FAILS = """
+import sqlalchemy as sa
+from alembic import op
+
+revision, down_revision, branch_labels, depends_on = "9998", "{head}", None, None
+
+
+def upgrade():
+    op.create_table("halves", sa.Column("id", sa.Integer))
+    op.execute("DROP TABLE levels")
+    op.execute("INSERT INTO nowhere VALUES (1)")
+"""
+
+
+def test_a_migration_that_fails_leaves_the_history_as_it_was(
+    url: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    database = _migrated(url, "head", *_IN_0001)
+    before = _schema(database)
+    scripts = tmp_path / "migrations"
+    shutil.copytree(_MIGRATIONS, scripts, ignore=shutil.ignore_patterns("__pycache__"))
+    (scripts / "versions" / "v9998_fails.py").write_text(_FAILS.format(head=HEAD))
+    with monkeypatch.context() as newer:
+        newer.setattr(schema_version, "_MIGRATIONS", scripts)
+        newer.setattr(schema_version, "HEAD", "9998")
+        with pytest.raises(DeviceError, match="nowhere"):
+            History(database)
+    assert _schema(database) == before
+    assert History(database).mastery("Ann") == [MasteryRow("rock-1", 0, 3, "{}")]
+    database.close()
+
+
+_REBUILDS = """
+import sqlalchemy as sa
+from alembic import op
+
+revision, down_revision, branch_labels, depends_on = "9998", "{head}", None, None
+
+
+def upgrade():
+    with op.batch_alter_table("students", recreate="always") as students:
+        students.add_column(sa.Column("email", sa.String()))
+"""
+
+
+def test_rows_outlive_that_the_table_of_those_they_go_with_is_made_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    database = _migrated(sqlite_url(tmp_path / "history.sqlite3"), "head", *_IN_0001)
+    scripts = tmp_path / "migrations"
+    shutil.copytree(_MIGRATIONS, scripts, ignore=shutil.ignore_patterns("__pycache__"))
+    (scripts / "versions" / "v9998_rebuilds.py").write_text(_REBUILDS.format(head=HEAD))
+    monkeypatch.setattr(schema_version, "_MIGRATIONS", scripts)
+    monkeypatch.setattr(schema_version, "HEAD", "9998")
+    assert History(database).mastery("Ann") == [MasteryRow("rock-1", 0, 3, "{}")]
+
+
+_REFUSED = {
+    "UPDATE alembic_version SET version_num = '9999'": "version 9999: was written by a newer station",
+    "UPDATE alembic_version SET version_num = 'rev-x'": "has a version that nobody wrote",
+    "UPDATE alembic_version SET version_num = ''": "has a version that nobody wrote",
+    "INSERT INTO alembic_version VALUES ('0001')": "has a version that nobody wrote",
+    "DELETE FROM alembic_version": "has a version that nobody wrote",
+    "DROP TABLE alembic_version": "is another program's database",
+}
+
+
+def test_what_is_newer_or_another_programs_is_refused_and_left_alone(url: str) -> None:
+    database = _migrated(url, "head")
+    for change, told in _REFUSED.items():
+        with database.writing() as connection:
+            connection.exec_driver_sql(change)
+        before = _schema(database)
+        with pytest.raises(BadInput, match=told) as refused:
+            History(database)
+        assert str(refused.value).startswith(database.name)
+        assert _schema(database) == before
+    database.close()
+
+
+def test_another_programs_migrations_are_not_ours(url: str) -> None:
+    database = Database(url)
+    if database.path is not None:
+        database.path.touch()
+    with database.writing() as connection:
+        connection.exec_driver_sql("CREATE TABLE songs (name TEXT)")
+        connection.exec_driver_sql("CREATE TABLE alembic_version (version_num TEXT)")
+        connection.exec_driver_sql("INSERT INTO alembic_version VALUES ('0001')")
+    with pytest.raises(BadInput, match="is another program's database"):
+        History(database)
+    assert set(_schema(database)) == {"songs", "alembic_version"}
+    database.close()
