@@ -142,3 +142,27 @@ def themed_bytes(rgb: NDArray[np.uint8], theme: Theme) -> NDArray[np.uint8]:
     keys = rgb.astype(np.int64) @ np.array([1 << 16, 1 << 8, 1])
     at = np.minimum(np.searchsorted(_KEYS, keys), len(_KEYS) - 1)
     return np.where((_KEYS[at] == keys)[:, None], _RGB[theme][at], rgb)
+
+
+def paper_bytes(rgba: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """What colours of the night, rows of red, green, blue and opacity, are on white paper by day, shape (n, 3)."""
+    rgb, opacity = themed_bytes(rgba[:, :3], Theme.DAY).astype(np.float64), rgba[:, 3:] / 255
+    return np.rint(rgb * opacity + 255.0 * (1 - opacity)).astype(np.uint8)
+
+
+INK_NAMES: Mapping[str, Colour] = MappingProxyType(
+    {
+        "ink": INK,
+        "night": NIGHT,
+        "paper": PAPER,
+        "edge": PANEL_EDGE,
+        "brand": BRAND,
+        "good": GOOD,
+        "early": EARLY,
+        "late": LATE,
+        "missed": MISSED,
+        "wrong": WRONG,
+        **{f"piece-{names[0].name.lower().replace('_', '-')}": _hex(night) for names, night, *_ in _OF_PIECES},
+    }
+)
+"""What pages that know day and night by themselves call the colours."""

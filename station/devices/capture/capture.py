@@ -28,6 +28,7 @@ import struct
 import zlib
 from collections.abc import Iterable
 from dataclasses import dataclass
+from datetime import datetime
 from enum import IntEnum
 from itertools import islice
 from pathlib import Path
@@ -48,6 +49,8 @@ MOST_STROKES = 200_000
 """Of one performance (our choice: two hours of ten strokes a second, and as many of the feet)."""
 MOST_A_SECOND = 500
 """Ten times what two hands and two feet do (our choice)."""
+_CLOCKLESS_YEAR = 1970
+"""A computer that does not know the time begins to count here, as a virtual student does."""
 _MOST_PAYLOAD = {0: 1 << 18, 10: 1 << 24}
 """Bytes of a record by its kind, of kind 0 for all that are not named: so many take a kit over a minute on its cable
 (31,250 baud); what a session says of itself holds its whole score (our choice)."""
@@ -174,6 +177,19 @@ def check_strokes(at_ns: Iterable[int], source: str | Path = "capture") -> None:
 def start_record(at_ns: int, unix_ns: int) -> CaptureRecord:
     """Writing began at session time `at_ns`, which was `unix_ns` by the wall clock."""
     return CaptureRecord(RecordKind.START, 0, at_ns, _UNIX.pack(unix_ns))
+
+
+def written_at(capture: Capture) -> datetime | None:
+    """When writing began by the wall clock, in the time of the place; None where the capture does not say."""
+    start = next((record for record in capture.records if record.kind == RecordKind.START), None)
+    if start is None or len(start.payload) != _UNIX.size:
+        return None
+    (unix_ns,) = _UNIX.unpack(start.payload)
+    try:
+        found = datetime.fromtimestamp(unix_ns / NS_PER_S).astimezone()
+    except (OverflowError, OSError, ValueError):  # a year that no calendar has
+        return None
+    return found if found.year > _CLOCKLESS_YEAR else None
 
 
 class DeviceWord(NamedTuple):

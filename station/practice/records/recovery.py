@@ -55,9 +55,14 @@ def recovered(capture: Path, with_phase: bool = True) -> SessionResult:
 
     Raises `BadInput` where the capture cannot be read, or holds no session.
     """
-    results = _results(read_capture(capture), with_phase)
+    return recovered_of(read_capture(capture), capture, with_phase)
+
+
+def recovered_of(capture: Capture, source: str | Path, with_phase: bool = True) -> SessionResult:
+    """The same of a capture that was read; raises `BadInput` of `source`."""
+    results = _results(capture, with_phase)
     if not results:
-        raise BadInput(capture, "", "there is no session in this capture")
+        raise BadInput(source, "", "there is no session in this capture")
     return _in_a_row(results)
 
 

@@ -1,16 +1,19 @@
 """Pages of ink as a PDF file: vectors, so that a printer draws them as finely as it can.
 
-Each outline stands in the file once, as a form that pages paint in many places; upright boxes are rectangles. Darker
-ink is painted over lighter. Source: ISO 32000-1 (PDF 1.7), sections 7 (syntax, file structure), 8.5 (paths) and 8.10
-(form XObjects). Nothing in it depends on the day.
+Each outline stands in the file once, as a form that pages paint in many places; upright boxes are rectangles. Of black
+ink the darker is painted over the lighter; colours are those of the day, painted in order. Source: ISO 32000-1 (PDF
+1.7), sections 7 (syntax, file structure), 8.5 (paths), 8.6.4.4 (colours) and 8.10 (form XObjects). Nothing in it
+depends on the day.
 """
 
 import zlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from station.render.palette import paper_bytes
 from station.render.text.paper import SQUARE, Ink, Points
 
 _HEAD = b"%PDF-1.7\n%\xe2\xe3\xcf\xd3\n"
@@ -22,8 +25,8 @@ _DENSITY = 6
 """zlib's usual level: the highest takes four times as long for a hundredth less."""
 
 
-def pdf(pages: Sequence[Ink], size: tuple[float, float], title: str, author: str) -> bytes:
-    """A file of `pages`, each `size` (width, height) points, their ink of one atlas."""
+def pdf(pages: Sequence[Ink], size: tuple[float, float], title: str, author: str, has_colours: bool = False) -> bytes:
+    """A file of `pages`, each `size` (width, height) points, their ink of one atlas: black, unless it `has_colours`."""
     used = np.unique(np.concatenate([page.numbers for page in pages])).tolist()
     forms = [number for number in used if number != SQUARE] + [number for number in used if number == SQUARE]
     first_form = _FIRST_PAGE + 2 * len(pages) + 1
@@ -38,7 +41,7 @@ def pdf(pages: Sequence[Ink], size: tuple[float, float], title: str, author: str
     for k, page in enumerate(pages):
         box, content = f"[0 0 {size[0]:g} {size[1]:g}]", _FIRST_PAGE + 2 + 2 * k
         words = f"<< /Type /Page /Parent 2 0 R /MediaBox {box} /Resources 4 0 R /Contents {content} 0 R >>"
-        objects += [words.encode(), _stream(_content(page, size[1]))]
+        objects += [words.encode(), _stream(_content(page, size[1], has_colours))]
     objects += [_form(pages[0].outlines[number]) for number in forms]
     return _file(objects)
 
@@ -47,18 +50,36 @@ def _text(text: str) -> str:
     return f"<{(chr(0xFEFF) + text).encode('utf-16-be', 'replace').hex()}>"  # a file's name may be no text
 
 
-def _content(page: Ink, height: float) -> str:
+def _content(page: Ink, height: float, has_colours: bool) -> str:
     """What paints a page; PDF counts y from the bottom."""
+    paints = _in_colours(page) if has_colours else _in_greys(page)
     words = [f"1 0 0 -1 0 {height:g} cm"]
-    for grey in np.unique(page.greys)[::-1].tolist():
-        words.append(f"{grey:.3g} g")
-        of_grey = page.greys == grey
-        is_box = of_grey & (page.numbers == SQUARE) & _is_upright(page.matrices)
+    for colour, rows in paints:
+        words.append(colour)
+        is_box = rows & (page.numbers == SQUARE) & _is_upright(page.matrices)
         if is_box.any():
             words += [_boxes(page.matrices[is_box]), "f"]
-        if (is_form := of_grey & ~is_box).any():
+        if (is_form := rows & ~is_box).any():
             words.append(_lines(_FORM, np.column_stack([page.matrices[is_form], page.numbers[is_form]])))
     return "\n".join(words)
+
+
+def _in_greys(page: Ink) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+    """The greys of a page from the lightest to the darkest, each with its areas (n,)."""
+    greys = page.greys
+    for grey in np.unique(greys)[::-1].tolist():
+        yield f"{grey:.3g} g", greys == grey
+
+
+def _in_colours(page: Ink) -> Iterator[tuple[str, NDArray[np.bool_]]]:
+    """The colours of a page in order, each with the areas (n,) that follow each other in it; boxes go before forms."""
+    colours = paper_bytes(page.rgba)
+    is_box = (page.numbers == SQUARE) & _is_upright(page.matrices)
+    changes = np.flatnonzero((np.diff(colours.astype(np.int64), axis=0) != 0).any(axis=1) | (np.diff(is_box) > 0)) + 1
+    for start, end in pairwise([0, *changes.tolist(), len(page)]):
+        rows = np.zeros(len(page), np.bool_)
+        rows[start:end] = True
+        yield f"{' '.join(f'{value / 255:.3g}' for value in colours[start].tolist())} rg", rows
 
 
 def _is_upright(matrices: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -27,7 +27,7 @@ _TURN = np.linspace(0, 2 * np.pi, _ROUND, endpoint=False)
 _DISC = np.column_stack([np.cos(_TURN), np.sin(_TURN)])
 _SQUARE = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
 _ARROW = np.array([(1.0, 0.0), (-1.0, 1.0), (-1.0, -1.0)])
-SQUARE, _DISC_NUMBER, _ARROW_NUMBER = range(3)
+SQUARE, DISC, _ARROW_NUMBER = range(3)
 """The outlines that every atlas begins with: two units wide and high, round (0, 0)."""
 
 
@@ -41,18 +41,24 @@ class Filled:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ink:
-    """Areas in order, n of them: the `numbers` (n,) of their `outlines`, `matrices` (n, 6), `greys` (n,), 0 black.
+    """Areas in order, n of them: the `numbers` (n,) of their `outlines`, `matrices` (n, 6), `rgba` (n, 4) 0–255.
 
-    A matrix (a, b, c, d, e, f) puts the outline's point (x, y) at (ax + cy + e, bx + dy + f), as in PDF.
+    A matrix (a, b, c, d, e, f) puts the outline's point (x, y) at (ax + cy + e, bx + dy + f), as in PDF. Colours are
+    the night's, as shapes have them; black ink has the `greys` that their opacity asks for.
     """
 
     outlines: Sequence[tuple[Points, ...]]
     numbers: NDArray[np.int64]
     matrices: Floats
-    greys: Floats
+    rgba: NDArray[np.uint8]
 
     def __len__(self) -> int:
         return len(self.numbers)
+
+    @property
+    def greys(self) -> Floats:
+        """How light each area is where all ink is black, shape (n,), 0 black."""
+        return grey_of(self.rgba[:, 3] / 255)
 
     def __iter__(self) -> Iterator[Filled]:
         for number, matrix, grey in zip(self.numbers.tolist(), self.matrices, self.greys.tolist(), strict=True):
@@ -61,7 +67,7 @@ class Ink:
 
     def moved(self, down: float) -> "Ink":
         """The same areas so many points farther down."""
-        return Ink(self.outlines, self.numbers, self.matrices + np.array([0, 0, 0, 0, 0, down]), self.greys)
+        return Ink(self.outlines, self.numbers, self.matrices + np.array([0, 0, 0, 0, 0, down]), self.rgba)
 
     @staticmethod
     def joined(parts: Sequence["Ink"]) -> "Ink":
@@ -70,7 +76,7 @@ class Ink:
             parts[0].outlines,
             np.concatenate([part.numbers for part in parts]),
             np.concatenate([part.matrices for part in parts]),
-            np.concatenate([part.greys for part in parts]),
+            np.concatenate([part.rgba for part in parts]),
         )
 
 
@@ -167,8 +173,7 @@ def filled(shapes: NDArray[np.void], atlas: OutlineAtlas, spot: PaperSpot) -> In
     place = np.array(spot.origin) + centre * spot.unit
     matrices = np.column_stack([cosine * across, sine * across, -sine * upright, cosine * upright, place])
     seen = np.array([len(contours) > 0 for contours in atlas.outlines])[numbers]
-    greys = grey_of(shapes["colour"][:, 3] / 255)
-    return Ink(atlas.outlines, numbers[seen], matrices[seen], greys[seen])
+    return Ink(atlas.outlines, numbers[seen], matrices[seen], shapes["colour"][seen])
 
 
 def grey_of(opacity: Floats) -> Floats:
@@ -180,7 +185,7 @@ def _outlines(shapes: NDArray[np.void], half: Floats, atlas: OutlineAtlas) -> tu
     """The number of each shape's outline, and how much larger the shape is across and upright, shape (n, 2)."""
     kind, width, scale = shapes["kind"].astype(np.int64), shapes["style"][:, 1], half.copy()
     numbers = np.full(len(shapes), SQUARE)
-    numbers[kind == ShapeKind.ELLIPSE] = _DISC_NUMBER
+    numbers[kind == ShapeKind.ELLIPSE] = DISC
     numbers[kind == ShapeKind.TRIANGLE] = _ARROW_NUMBER
     glyphs = kind == ShapeKind.GLYPH
     uv = shapes["uv"][glyphs]

@@ -23,6 +23,9 @@ from station.cli.options.option_fields import _KEY, Command, _name, _OptionGroup
 from station.drills.library import find_lesson
 from station.drills.writing.lesson_part import part_of
 from station.music.formats.smf.midi_part import MIDI
+from station.practice.headless.virtual_session import practise_virtually
+from station.practice.session.plan import PlanOptions, plan_practice
+from station.simulation.student_spec import parse_spec
 from tests.fakes.captures import capture_bytes
 
 WITHIN_S = 60
@@ -155,6 +158,8 @@ def shelf(tmp_path_factory: pytest.TempPathFactory) -> Path:
     assert MIDI.write is not None
     (folder / "good.mid").write_bytes(MIDI.write(part_of(find_lesson("rock-1"))).data)
     (folder / "good.capture").write_bytes(capture_bytes([]))
+    plan = plan_practice(find_lesson("rock-1"), PlanOptions(loops=1, demonstrations=0))
+    practise_virtually(plan, parse_spec("intermediate,seed=1"), folder / "session.capture")
     rows = "\n".join(f"{i / 100:.2f},{(i % 50) / 50:.3f}" for i in range(400))
     (folder / "good.csv").write_text(f"time_s,x\n{rows}\n")
     return folder
@@ -168,8 +173,9 @@ SAMPLES: dict[str, str] = {
         "SIGNAL": "good.csv",
         "SOURCE": "good.mid",
         "PATH": "good.mid",
+        "SESSION": "session.capture",
     },
-    **{"ID": "nothing", "RETURN": "nothing", "SESSION": "nothing"},
+    **{"ID": "nothing", "RETURN": "nothing"},
 }
 
 
@@ -202,6 +208,7 @@ def _sample(word: Word, shelf: Path, out: Path) -> Path | str:
 ENDING = {
     ("animate",): ".npz",
     ("sheet",): ".pdf",
+    ("report",): ".html",
     ("limbs",): ".txt",
     ("assess",): ".csv",
     ("lesson", "new"): ".toml",

@@ -1,0 +1,265 @@
+"""The facts of a page about one session, from its result and its report."""
+
+from collections.abc import Iterator, Mapping
+from datetime import datetime
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.core.errors import BadInput
+from station.core.labels import name_of, piece_name
+from station.core.pieces import Dynamic, Limb, Piece, word
+from station.core.units import NS_PER_S, PPQ
+from station.engine.engine import KEYBOARD
+from station.music.judgement import Label
+from station.practice.now.tempo_now import tempi_in_words, tempo_at
+from station.practice.session.session import SessionResult
+from station.render.report.page.session_page import (
+    BarFigures,
+    GroupFigures,
+    Interval,
+    JudgedBars,
+    LoudnessRow,
+    SessionPage,
+    StrokeTiming,
+    TempoLine,
+    TimingFigures,
+)
+from station.render.report.result_facts import headline
+from station.scenes.heat_map import heat_map
+from station.scenes.hit_table import every_hit
+from station.scenes.report.kept_session import KeptSession
+from station.scenes.report.note_states import note_passes
+from station.scenes.report.page_words import (
+    choices,
+    exam_result,
+    foot,
+    next_sentences,
+    pass_rows,
+    remarks,
+    word_lists,
+)
+from station.scenes.report.practised_section import practised_section, section_notes
+from station.scenes.result_tables import session_facts
+from station.scenes.score_words import section_names
+from station.scoring.analysis.technique.estimates import scatter
+from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
+from station.scoring.matching.alignment import Reference
+from station.scoring.matching.hit_windows import Level
+from station.scoring.matching.unheard import known_part
+
+Document = Mapping[str, Any]
+_KINDS = {Dynamic.GHOST: "ghost", Dynamic.NORMAL: "plain", Dynamic.ACCENT: "accent"}
+_NO_REPORT = (KeyError, TypeError, ValueError, AttributeError, IndexError, AssertionError, OverflowError)
+
+
+def session_page(kept: KeptSession, source: str) -> SessionPage:
+    """The facts of a session; raises `BadInput` of `source` where its report lacks what every report of ours has."""
+    try:
+        return _page(kept)
+    except _NO_REPORT as fault:  # it was edited: our own words look for what our own reports have
+        raise BadInput(source, "", f"is no whole report of a session ({fault!r})") from fault
+
+
+def _page(kept: KeptSession) -> SessionPage:
+    result, document = kept.result, kept.document
+    facts, said, counts = session_facts(result, document), _table(document["session"]), _table(document["counts"])
+    spreads = _Spreads(result)
+    return SessionPage(
+        title=str(said["title"]),
+        student=str(said["student"]),
+        when=_moment(kept.at),
+        labels=tuple(_labels(result, document)),
+        score=_number(document["score"]),
+        right=int(_table(document)["right"]),
+        notes=int(counts["notes"]),
+        misses=int(counts["misses"]),
+        wrong=int(counts["wrong_piece"]),
+        extras=int(counts["extras"]),
+        unknown=int(counts["unknown"]),
+        headline=f"{headline(facts)[:1].upper()}{headline(facts)[1:]}.",
+        praise=None if document["praise"] is None else str(document["praise"]),
+        next_steps=next_sentences(document),
+        choices=choices(document),
+        remarks=(*kept.remarks, *remarks(document)),
+        exam=None if kept.exam is None else exam_result(kept.exam),
+        bars=_bars(result),
+        timing=_timing(document, spreads),
+        pieces=tuple(_groups(_table(document["per_piece"]), spreads.pieces, name_of)),
+        limbs=tuple(_groups(_table(document["per_limb"]), spreads.limbs, lambda limb: limb.replace("_", " "))),
+        by_bar=tuple(_by_bar(result, document, spreads)),
+        loudness=_loudness(result, document),
+        tempo=_tempo(result, document),
+        passes=pass_rows(document),
+        lists=word_lists(document),
+        foot=foot(document),
+    )
+
+
+def _moment(at: datetime | None) -> str:
+    return "" if at is None else f"{at.day} {at:%B %Y, %H:%M}"
+
+
+def _labels(result: SessionResult, document: Document) -> Iterator[tuple[str, str]]:
+    """What was practised, on what, and how it was judged."""
+    plan, said = result.plan, _table(document["session"])
+    first, last = said["bars"]
+    passes = "1 pass" if said["passes"] == 1 else f"{said['passes']} passes"
+    yield "Bars", f"{f'bars {first}–{last}' if first != last else f'bar {first}'}, {passes}"
+    yield "Tempo", tempi_in_words(plan, result.score)
+    yield "Played", _minutes(float(said["played_s"])) + ("" if said["complete"] else ", stopped early")
+    yield "Judged as", Level(str(document["level"])).words
+    yield "Device", str(said["device"]) if said["device"] is not None else "none was heard"
+    if result.felt:
+        yield "Sensors", "on the sticks"
+
+
+def _minutes(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 60 else f"{int(seconds) // 60} min {int(seconds) % 60} s"
+
+
+# --- timing -----------------------------------------------------------------------------------------------------------
+
+
+class _Spreads:
+    """The spread of every group with its interval, as the report reckons its means: of known notes that have a time."""
+
+    def __init__(self, result: SessionResult) -> None:
+        score, alignment, _ = known_part(result.score, result.alignment)
+        timed = timed_notes(score, alignment)
+        self.off_ms = asynchrony_ms(alignment)[timed]
+        self._slots = score.notes["tick"][timed].astype(np.int64)
+        names, notes = np.asarray(result.plan.practised_bars), score.notes[timed]
+        bars = names[np.minimum(score.bar[timed], len(names) - 1)] + 1
+        self.pieces = {word(Piece(each)): self._ci(notes["piece"] == each) for each in np.unique(notes["piece"])}
+        self.limbs = {word(Limb(each)): self._ci(notes["limb"] == each) for each in np.unique(notes["limb"])}
+        self.bars = {int(each): self._ci(bars == each) for each in np.unique(bars)}
+        self.whole = self._ci(np.ones(len(self.off_ms), np.bool_))
+
+    def _ci(self, rows: NDArray[np.bool_]) -> Interval | None:
+        one = np.zeros(int(rows.sum()), np.int64)
+        return scatter(self.off_ms[rows], one, self._slots[rows]).ci
+
+
+def _timing(document: Document, spreads: _Spreads) -> StrokeTiming:
+    is_own = document["reference"] == Reference.PLAYER.value
+    on_time_ms = Level(str(document["level"])).windows.on_time_ms
+    return StrokeTiming(spreads.off_ms, _figures(_table(document["timing"]), spreads.whole), on_time_ms, is_own)
+
+
+def _figures(timing: Document, sd_ci: Interval | None) -> TimingFigures:
+    ci = timing["mean_ci_ms"]
+    return TimingFigures(
+        strokes=int(timing["strokes"]),
+        mean_ms=_number(timing["mean_signed_asynchrony_ms"]),
+        mean_ci=None if ci is None else (float(ci[0]), float(ci[1])),
+        sd_ms=_number(timing["sd_asynchrony_ms"]),
+        sd_ci=sd_ci,
+    )
+
+
+def _groups(
+    table: Document,
+    sd_ci: Mapping[str, Interval | None],
+    label: Any,  # noqa: ANN401 - a function of a name
+) -> Iterator[GroupFigures]:
+    """Groups that have notes, or strokes where none is written."""
+    for name, group in table.items():
+        if group["notes"] or group["extras"]:
+            yield _group(str(label(name)), group, sd_ci.get(name))
+
+
+def _group(name: str, group: Document, sd_ci: Interval | None) -> GroupFigures:
+    return GroupFigures(
+        name=name,
+        notes=int(group["notes"]),
+        matched=int(group["matched"]),
+        misses=int(group["misses"]),
+        wrong=int(group["wrong_piece"]),
+        extras=None if group["extras"] is None else int(group["extras"]),
+        timing=_figures(group["timing"], sd_ci),
+    )
+
+
+def _by_bar(result: SessionResult, document: Document, spreads: _Spreads) -> Iterator[BarFigures]:
+    cells = heat_map(result).cells
+    right: dict[int, int] = {}
+    for (bar, _), cell in cells.items():
+        right[bar] = right.get(bar, 0) + cell.right
+    dots = every_hit(result).dots
+    extras = np.minimum(dots["bar"][dots["label"] == Label.EXTRA], result.plan.bars[1] + 1).tolist()
+    for row in document["per_bar"]:
+        bar = int(row["bar"])
+        group = _group(f"bar {bar}", row, spreads.bars.get(bar))
+        yield BarFigures(bar, group, right.get(bar, 0), extras.count(bar))
+
+
+# --- bars, loudness, tempo --------------------------------------------------------------------------------------------
+
+
+def _bars(result: SessionResult) -> JudgedBars:
+    plan, section = result.plan, practised_section(result.plan)
+    notes = note_passes(result, section, section_notes(result, section))
+    return JudgedBars(
+        section=section,
+        notes=notes,
+        first_bar=plan.bars[0] + 1,
+        sections=section_names(plan.lesson.sections, plan.bars[0], section.bar_count),
+        beats_a_minute=round(tempo_at(section.tempo_map, 0, plan.lesson.beat_ticks), 1),
+        beat_ticks=plan.lesson.beat_ticks,
+        on_time_ms=plan.level.windows.on_time_ms,
+        passes=plan.passes,
+    )
+
+
+def _loudness(result: SessionResult, document: Document) -> tuple[LoudnessRow, ...]:
+    """Rows of pieces and marks that were played; none where the input cannot tell loud from soft."""
+    if document["dynamics"] is None or result.device == KEYBOARD:
+        return ()
+    alignment, notes = result.alignment, result.score.notes
+    is_played = (alignment.note_label == Label.MATCH) & ~result.score.is_grace
+    played = np.zeros(len(notes))
+    played[is_played] = result.performance.fine_velocity[alignment.hit_of_note[is_played]]
+    rows = []
+    for piece in np.unique(notes["piece"][is_played]).tolist():
+        for dynamic, kind in _KINDS.items():
+            here = is_played & (notes["piece"] == piece) & (notes["dynamic"] == dynamic)
+            if here.any():
+                written = float(np.median(notes["velocity"][here]))
+                rows.append(LoudnessRow(piece_name(Piece(piece)), kind, written, played[here]))
+    return tuple(rows)
+
+
+def _tempo(result: SessionResult, document: Document) -> TempoLine:
+    """The report's tempo curve in the lesson's beat, and what was asked, bar by bar where it changes."""
+    told, plan, score = _table(document["tempo"]), result.plan, result.score
+    beat = PPQ / plan.lesson.beat_ticks
+    ticks = [change.tick for change in score.tempo_map.tempos if change.tick < score.end_tick]
+    drift = told["drift_ci"]
+    median = _number(told["median_bpm"])
+    return TempoLine(
+        at_s=np.array([float(bar["at_s"]) for bar in told["bars"]]),
+        beats_a_minute=np.array([float(bar["tempo_bpm"]) * beat for bar in told["bars"]]),
+        asked_s=np.asarray(score.tempo_map.seconds_at(ticks), np.float64),
+        asked=np.array([tempo_at(score.tempo_map, tick, plan.lesson.beat_ticks) for tick in ticks]),
+        end_s=score.length_ns / NS_PER_S,
+        asks="tempo that was asked for" if plan.click is None else "click",
+        median=None if median is None else median * beat,
+        drift=_number(told["drift_pct_per_minute"]),
+        drift_ci=None if drift is None else (float(drift[0]), float(drift[1])),
+    )
+
+
+def _table(value: object) -> dict[str, Any]:
+    if not isinstance(value, dict):
+        raise TypeError("expected a table")
+    return value
+
+
+def _number(value: object) -> float | None:
+    if value is None:
+        return None
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise TypeError("expected a number")
+    return float(value)
