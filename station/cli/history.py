@@ -1,6 +1,6 @@
 """`station history`: what was practised, and what a user may do with it."""
 
-from station.cli.history_verbs import delete_student, export_student, list_sessions, show_session
+from station.cli.history_verbs import copies, delete_student, export_student, list_sessions, show_session
 from station.cli.options.option_fields import Command, Verbs
 
 COMMAND = Verbs(
@@ -24,6 +24,16 @@ COMMAND = Verbs(
             "delete",
             "delete everything of a student: history, folder, settings",
             Command(delete_student.DeleteOptions, delete_student.run),
+        ),
+        (
+            "backup",
+            "write the history of all students into one file",
+            Command(copies.BackupOptions, copies.back_up),
+        ),
+        (
+            "copy",
+            "add the history to another database, such as a school's",
+            Command(copies.CopyOptions, copies.copy),
         ),
     ),
     usual="list",

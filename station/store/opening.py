@@ -16,7 +16,12 @@ def history_of(settings: Settings) -> History:
     Raises `BadInput` for a URL that is none, for another program's database and for a newer station's, `DeviceError`
     where it cannot be reached.
     """
-    return _opened(settings.history or sqlite_url(data_folder() / FILE_NAME))
+    return _opened(history_url(settings))
+
+
+def history_url(settings: Settings) -> str:
+    """Where the history is that `settings` name."""
+    return settings.history or sqlite_url(data_folder() / FILE_NAME)
 
 
 @lru_cache(maxsize=4)

@@ -12,6 +12,7 @@ from station.core.settings import Settings, load_settings, settings_path
 
 _RTMIDI_NEEDS = "g++ pkg-config python3-dev libasound2-dev libjack-jackd2-dev"
 """Debian's packages with which rtmidi is built where it has no wheel; tools/setup.sh installs the same."""
+_MEGABYTE = 1e6
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,6 +35,7 @@ def _all_checks() -> tuple[Callable[[], Check], ...]:
         check_python,
         check_midi_library,
         check_settings,
+        check_history,
         check_midi,
         check_serial,
         check_hid,
@@ -90,6 +92,24 @@ def check_settings() -> Check:
         return Check("settings", False, str(fault), "mend the line, or delete the file to get the defaults")
     where = f"{path}{'' if path.exists() else ' (not there yet: defaults)'}; sessions in {settings.sessions_dir}"
     return Check("settings", True, where)
+
+
+def check_history() -> Check:
+    """Where what was practised is remembered, and whether it can be."""
+    from station.store.health import health_of
+    from station.store.opening import history_url
+
+    remedy = "sessions stay in their folders until it is mended, and come in then"
+    try:
+        health = health_of(history_url(load_settings()))
+    except BadInput as fault:
+        return Check("history", False, str(fault), "mend the setting history, or leave it empty for a file of yours")
+    if health.fault is not None:
+        return Check("history", False, health.fault, remedy)
+    if health.version is None or health.size is None:
+        return Check("history", True, f"{health.name} (not there yet: the first session makes it)")
+    size = f"{health.size / _MEGABYTE:.1f} MB"
+    return Check("history", True, f"{health.name}: {size}, version {health.version}, can be read and written")
 
 
 def check_midi() -> Check:

@@ -10,6 +10,7 @@ from station.practice.history.session_files import student_folder
 from station.practice.own_data.emptying import delete_tree
 from station.practice.own_data.student_files import FolderFiles
 from station.practice.own_data.take_away import all_sessions, own_settings
+from station.store.backup import copies_known
 from station.store.history import History
 
 _MOST_NAMED = 3
@@ -21,7 +22,7 @@ class Theirs:
     """What there is of `student` in the history, in their `folder` and in the settings.
 
     `link` is where the folder leads, None where it is no link; `elsewhere` are folders of sessions that lie outside,
-    `copies` files beside the history that may hold older states.
+    `copies` says where backups of the history lie.
     """
 
     student: str
@@ -33,7 +34,7 @@ class Theirs:
     link: Path | None
     has_settings: bool
     elsewhere: tuple[Path, ...]
-    copies: tuple[Path, ...]
+    copies: tuple[str, ...]
 
     @property
     def lines(self) -> list[str]:
@@ -50,7 +51,7 @@ class Theirs:
         return [
             *([f"{self.link}, to which the folder's link leads: delete it by hand"] if self.link is not None else []),
             *(f"{folder}, where a session's files were put on purpose: delete it by hand" for folder in self.elsewhere),
-            *(f"{path}, an older copy of the history: delete it by hand" for path in self.copies),
+            *(f"{copy}, an older copy of the history: delete it by hand" for copy in self.copies),
             "backups and exports that were made, returns that were sent to a teacher, others' battles with them",
         ]
 
@@ -80,7 +81,7 @@ def what_is_theirs(history: History, settings: Settings, student: str) -> Theirs
         top if is_link else None,
         bool(own),
         tuple(sorted(path for path in placed if path.is_dir() and not path.resolve().is_relative_to(top))),
-        _copies(history),
+        tuple(copies_known(history)),
     )
 
 
@@ -96,11 +97,3 @@ def delete_theirs(history: History, theirs: Theirs) -> str | None:
         raise DeviceError(f"{left}, and the history stays until they can: mend it and run this again; {named}")
     history.delete_student(theirs.student)
     return history.scrub()
-
-
-def _copies(history: History) -> tuple[Path, ...]:
-    path = history.database.path
-    if path is None:
-        return ()
-    own = {path.name, f"{path.name}-wal", f"{path.name}-shm"}
-    return tuple(sorted(each for each in path.parent.glob(f"{path.stem}*{path.suffix}*") if each.name not in own))

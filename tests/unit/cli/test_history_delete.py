@@ -83,8 +83,8 @@ def test_it_says_what_goes_and_what_stays_and_asks(
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     users_history().keep(kept("Ann", DAY, folder=str(elsewhere)))
-    copy = data_folder() / "history-before-0002-0001.sqlite3"
-    copy.write_bytes(b"old")
+    copy = tmp_path / "backup.sqlite3"
+    assert main(["history", "backup", "--out", str(copy)]) == 0
     words = ["history", "delete", "--student", "Ann"]
     assert main(words) == 2
     told = capsys.readouterr().err

@@ -121,9 +121,10 @@ NO_FILES = {
         "CHANNEL",
         "RAD",
     ),
-    *("START:END", "PART", "N,N", "PHASE=WHAT", "CHANNEL=CONTROLLER", "KIT", "PORT"),
+    *("URL", "START:END", "PART", "N,N", "PHASE=WHAT", "CHANNEL=CONTROLLER", "KIT", "PORT"),
 }
-"""Such a word names no file; `KIT` is a name alone, and a `PORT` is a device, for which the engine's own tests are."""
+"""Such a word names no file; `KIT` is a name alone, a `PORT` a device, for which the engine's own tests are, and
+a `URL` a database, for which the store's are."""
 NAMES_OF_FILES = {
     ("animate", "style"),
     ("animate", "drummer"),
@@ -220,6 +221,7 @@ ENDING = {
     ("sync", "fit"): ".toml",
     ("sync", "sonify"): ".mid",
     ("history", "export"): ".zip",
+    ("history", "backup"): ".sqlite3",
 }
 
 

@@ -3,6 +3,8 @@
 import hashlib
 from datetime import datetime
 
+from station.store.database import Database
+from station.store.health import Health, health_of
 from station.store.history import History
 from station.store.rows import (
     FigureRow,
@@ -16,6 +18,7 @@ from station.store.rows import (
     StudentRow,
     TeacherNoteRow,
 )
+from station.store.schema_version import HEAD
 
 _MATCH = JudgementRow("match", 1, 2, 1.5, 0, 0.5, 38, 0, 0.512, 38, "snare", "head", "normal", 64.25, None)
 _MISS = JudgementRow("miss", 1, 2, 2.0, 1, 1.0, 36, None, None, None, None, None, None, None, None)
@@ -122,3 +125,21 @@ def test_what_is_deleted_leaves_nothing_in_the_file(history: History) -> None:
         left = b"".join(path.read_bytes() for path in history.database.path.parent.iterdir())
         assert b"Ann" not in left
         assert b"Ben's groove" in left
+
+
+def test_health_is_looked_at_and_changes_nothing(url: str) -> None:
+    assert health_of(url) == Health(Database(url).name)
+    made = History(Database(url))
+    number = made.keep(KeptSession(_session("one", 3)))
+    healthy = health_of(url)
+    assert (healthy.version, healthy.fault) == (HEAD, None)
+    assert (healthy.size or 0) > 10_000
+    assert made.session(number) is not None
+    with made.database.writing() as connection:
+        if made.database.path is None:  # a server that serves readers alone
+            name = connection.exec_driver_sql("SELECT current_database()").scalar_one()
+            connection.exec_driver_sql(f'ALTER DATABASE "{name}" SET default_transaction_read_only = on')
+        else:
+            connection.exec_driver_sql("UPDATE alembic_version SET version_num = '9999'")
+    made.database.close()
+    assert ("read-only" if made.database.path is None else "newer station") in str(health_of(url).fault)
