@@ -12,6 +12,8 @@ from urllib.parse import quote
 
 _WITHIN_S = 60
 _USER = "postgres"
+WITH_PASSWORD = "pupil"
+"""Of all users of the server, who has to say a password; a test that needs them makes them."""
 
 
 def _programs() -> Path:
@@ -27,11 +29,15 @@ class PostgresServer:
     def __init__(self, folder: Path) -> None:
         self._folder, self._numbers = folder, count()
 
-    def new_database(self) -> str:
-        """The URL of a new, empty database."""
+    def new_database(self, *options: str) -> str:
+        """The URL of a new, empty database, made with `options` of createdb."""
         name = f"history_{next(self._numbers)}"
-        _run(["createdb", "-h", str(self._folder), "-U", _USER, name])
-        return f"postgresql://{_USER}@/{name}?host={quote(str(self._folder))}"
+        _run(["createdb", "-h", str(self._folder), "-U", _USER, *options, name])
+        return self.url(name)
+
+    def url(self, name: str, user: str = _USER) -> str:
+        """The URL of a database of that name for a user; one with a password is `user:password`."""
+        return f"postgresql://{user}@/{name}?host={quote(str(self._folder))}"
 
 
 @contextmanager
@@ -43,6 +49,8 @@ def postgres_server() -> Iterator[PostgresServer]:
             shutil.chown(folder, _USER)
         data = folder / "data"
         _run(["initdb", "-D", str(data), "-U", _USER, "-A", "trust", "-N", "-E", "UTF8", "--locale", "C.UTF-8"])
+        access = data / "pg_hba.conf"
+        access.write_text(f"local all {WITH_PASSWORD} scram-sha-256\n{access.read_text()}")
         options = f"-k {folder} -c listen_addresses= -c fsync=off -c max_connections=40"
         _run(["pg_ctl", "-D", str(data), "-w", "-l", str(folder / "log"), "-o", options, "start"])
         try:
