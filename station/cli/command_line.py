@@ -25,7 +25,7 @@ _COMMANDS = {
     "exam": "one take of a piece, prepared or unseen, marked by a rubric",
     "assess": "align and score a recorded performance against a score",
     "animate": "draw the drummer who plays a score",
-    "report": "make a page of one session, for a browser or to print",
+    "report": "make a page of one session or of a week, for a browser or to print",
     "sheet": "write a score as a sheet to print",
     "limbs": "say which limb plays every note of a score",
     "lesson": "list, show, check, write, import and export lessons",

@@ -1,25 +1,32 @@
-"""`station report SESSION --out FILE`: a page about one session, which stands alone in a browser or on paper."""
+"""`station report`: a page about one session or about a week, which stands alone in a browser or on paper."""
 
 from dataclasses import dataclass
+from datetime import date
 from pathlib import Path
 
 from station.cli.console import say
-from station.cli.options.option_fields import Command, argument, option, required
+from station.cli.options.option_fields import Command, day, option, option_alone, optional_argument, required
 from station.cli.today import settings_of
 from station.core.disk.files import write_whole
 from station.core.errors import BadInput
+from station.core.settings import Settings
 from station.practice.history.session_choice import HELP
 
 ENDINGS = (".html", ".pdf")
+_THIS_WEEK = date.min
+"""What `--week` without a day stands for: today's."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportOptions:
-    """Which session, and where its page goes."""
+    """Which session or week, and where its page goes."""
 
-    session: str = argument("SESSION", HELP, str)
+    session: str | None = optional_argument("SESSION", HELP)
+    week: date | None = option_alone(
+        "DAY", "in place of a session the week of this day, told to parents (this week)", day, _THIS_WEEK
+    )
     out: Path = required("FILE.html|FILE.pdf", "the page to write", Path)
-    student: str | None = option("NAME", "whose last session, or whose session of a day", str, None)
+    student: str | None = option("NAME", "whose week, last session or session of a day", str, None)
 
 
 def run(options: ReportOptions) -> int:
@@ -27,11 +34,22 @@ def run(options: ReportOptions) -> int:
     out = options.out
     if out.suffix.lower() not in ENDINGS:
         raise BadInput(out, "", f"expected a name that ends in {' or '.join(ENDINGS)}")
-    from station.scenes.report.page_files import page_bytes
-
-    write_whole(out, page_bytes(options.session, settings_of(options.student), out.suffix.lower()))
+    write_whole(out, _page(options, settings_of(options.student), out.suffix.lower()))
     say(f"report   {out}")
     return 0
+
+
+def _page(options: ReportOptions, settings: Settings, ending: str) -> bytes:
+    from station.scenes.report.page_files import page_bytes, week_bytes
+
+    if options.week is None:
+        if options.session is None:
+            raise BadInput("report", "", "say which session, or --week")
+        return page_bytes(options.session, settings, ending)
+    if options.session is not None:
+        raise BadInput("--week", "", f"is about a whole week: leave {options.session} out")
+    today = date.today()
+    return week_bytes(settings, today if options.week == _THIS_WEEK else options.week, today, ending)
 
 
 COMMAND = Command(ReportOptions, run)

@@ -75,6 +75,13 @@ def option(form: str, words: str, read: Callable[[str], _T], default: _T, *, riv
     return field(default=default, metadata={_KEY: _formed(form, {"help": words, "type": read}, rivals)})
 
 
+def option_alone(form: str, words: str, read: Callable[[str], _T], alone: _T) -> _T | None:
+    """An option whose value may be left out: it is `alone` then, and None where the option was not given."""
+    return field(
+        default=None, metadata={_KEY: _formed(form, {"help": words, "type": read, "nargs": "?", "const": alone})}
+    )
+
+
 def repeated(form: str, words: str) -> tuple[str, ...]:
     """An option that may be given several times."""
     return field(default=(), metadata={_KEY: _formed(form, {"help": words, "action": "append"})})

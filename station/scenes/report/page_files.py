@@ -1,6 +1,9 @@
-"""A page about a session as a file: HTML that stands alone, or PDF."""
+"""A page about a session or about a week as a file: HTML that stands alone, or PDF."""
+
+from datetime import date
 
 from station.core.settings import Settings
+from station.practice.history.session_intake import everything_in
 from station.scenes.report.kept_session import kept_session
 from station.scenes.report.page_facts import session_page
 from station.scenes.report.session_place import session_place
@@ -14,3 +17,16 @@ def page_bytes(named: str, settings: Settings, ending: str) -> bytes:
     place = session_place(named, settings)
     page = session_page(kept_session(place, settings), place.source)
     return session_pdf(page) if ending == ".pdf" else session_html(page).encode()
+
+
+def week_bytes(settings: Settings, day: date, today: date, ending: str) -> bytes:
+    """The page about the week that `day` lies in, by the `ending` of its file; raises `BadInput`, `DeviceError`."""
+    from station.render.report.page.week_html import week_html
+    from station.render.report.page.week_paper import week_pdf
+    from station.scenes.report.week_facts import week_page
+    from station.store.opening import history_of
+
+    history = history_of(settings)
+    everything_in(history, settings.sessions_dir, settings.student)
+    page = week_page(history, settings, day, today)
+    return week_pdf(page) if ending == ".pdf" else week_html(page).encode("utf-8", "replace")

@@ -196,6 +196,7 @@ def others(word: Word, shelf: Path, out: Path) -> list[str]:
 NEEDED: dict[tuple[str, ...], tuple[str, ...]] = {
     ("assignment", "new"): ("lesson", "title"),
     ("song", "new"): ("sound",),
+    ("report",): ("session",),
 }
 
 

@@ -1,0 +1,154 @@
+"""The facts of the page about a week: from the history and from what comes next, in words for parents."""
+
+from collections.abc import Sequence
+from datetime import date, timedelta
+
+from station.core.counts import counted
+from station.core.disk.utf8 import one_line
+from station.core.settings import Settings
+from station.practice.book.book_words import day_in_words
+from station.practice.book.lesson_book import LessonBook
+from station.practice.exchange.assigned_work import lesson_work
+from station.practice.exchange.student_store import TakenAssignment, taken_assignments
+from station.practice.history.calendar_days import WEEK, monday_of, practised_days
+from station.practice.history.kept_rows import totals
+from station.practice.history.streaks import DAYS_A_WEEK, Streak, streak_of
+from station.practice.history.week_told import (
+    LOOKS_BACK,
+    Practised,
+    begin_of,
+    end_of,
+    got_better,
+    practised,
+    whole_minutes,
+)
+from station.render.report.page.week_page import TeachersNote, WeekDay, WeekPage
+from station.store.history import History
+from station.store.rows import SessionRow, TeacherNoteRow
+
+_MOST_TITLES, _MOST_AHEAD, _MOST_NOTES = 10, 3, 3
+"""So many are named (our choice: the page stays one page)."""
+_BETTER = (
+    "Like is compared with like, the same piece at about the same speed, over the last six weeks. Only what is hardly"
+    " chance is told here."
+)
+_NOT_YET = (
+    "Nothing can be told for sure yet. A change shows after about five days with the same piece; until then ups and"
+    " downs are part of learning."
+)
+_OFF = (
+    "That happens: holidays, illness and full weeks belong to learning, and what was learnt is still there. A few"
+    " minutes on any day are a good beginning again."
+)
+_FOOT = (
+    "A minute here is a minute of playing; looking, listening and pauses are not counted. Made on the family's or the"
+    " school's own computer; nothing was sent anywhere."
+)
+
+
+def week_page(history: History, settings: Settings, day: date, today: date) -> WeekPage:
+    """The page about the week that `day` lies in, of the student of `settings`; raises `DeviceError`."""
+    monday = monday_of(day)
+    sunday = monday + timedelta(days=6)
+    student = settings.student
+    everything = history.sessions(student, until=end_of(sunday))
+    rows = [row for row in everything if row.started >= begin_of(monday)]
+    recent = [row for row in everything if row.started >= begin_of(monday) - LOOKS_BACK] if rows else []
+    better = got_better(recent, monday)
+    now = min(today, sunday)
+    return WeekPage(
+        student=one_line(student) or "The student",
+        when=_when(monday, sunday),
+        headline=_headline(student, rows, is_over=today > sunday),
+        kind="" if rows else _OFF,
+        days=_days(rows, monday, today) if rows else (),
+        played=_played(practised(rows)),
+        better=better,
+        better_words=_BETTER if better else _NOT_YET,
+        notes=tuple(_note(each) for each in history.notes(student) if monday <= each.made.date() <= sunday)[
+            :_MOST_NOTES
+        ],
+        ahead=_ahead(settings, today) if monday <= today <= sunday else (),
+        streak=_streak_words(streak_of(practised_days(everything), now)),
+        foot=(_FOOT,),
+    )
+
+
+def _when(monday: date, sunday: date) -> str:
+    return f"{day_in_words(monday)} to {day_in_words(sunday)} {sunday.year}"
+
+
+def _headline(student: str, rows: Sequence[SessionRow], is_over: bool) -> str:
+    name, week = one_line(student) or "The student", "" if is_over else " so far"
+    if not rows:
+        return f"{name} did not play in this week{week}."
+    summed = totals(rows)
+    minutes = counted(summed.minutes, "minute") if summed.minutes else "less than a minute"
+    return f"{name} played on {counted(summed.days, 'day')} of this week{week}, {minutes} in all."
+
+
+def _days(rows: Sequence[SessionRow], monday: date, today: date) -> tuple[WeekDay, ...]:
+    played = practised_days(rows)
+    days = [monday + timedelta(days=n) for n in range(7)]
+    minutes = whole_minutes([played[day].played_s if day in played else 0.0 for day in days])
+    return tuple(
+        WeekDay(f"{day:%A}", count, day in played, day > today and day not in played)
+        for day, count in zip(days, minutes, strict=True)
+    )
+
+
+def _played(found: Sequence[Practised]) -> tuple[tuple[str, str], ...]:
+    named, others = found[:_MOST_TITLES], found[_MOST_TITLES:]
+    lines = [(one.title, _how_long(one.minutes, one.times)) for one in named]
+    if others:
+        minutes, times = sum(one.minutes for one in others), sum(one.times for one in others)
+        lines.append((f"and {len(others)} more", _how_long(minutes, times)))
+    return tuple(lines)
+
+
+def _how_long(minutes: int, times: int) -> str:
+    time = counted(minutes, "minute") if minutes else "less than a minute"
+    return f"{time}{f', {times} times' if times > 1 else ''}"
+
+
+def _note(row: TeacherNoteRow) -> TeachersNote:
+    said = [*row.words.splitlines(), *([f"Next: {row.next}"] if row.next else [])]
+    lines = tuple(line for each in said if (line := one_line(each)))
+    return TeachersNote(one_line(row.teacher) or "The teacher", day_in_words(row.made.date()), lines)
+
+
+def _streak_words(streak: Streak) -> str:
+    enough = f"{DAYS_A_WEEK} days at the drums"
+    if not streak.weeks:
+        return f"A row of weeks begins with any week that has {enough}; a week off never breaks it."
+    weeks = "one week" if streak.weeks == 1 else f"{streak.weeks} weeks in a row"
+    return f"By now it is {weeks} with {enough} or more. A week off in between does not break the row."
+
+
+# --- what comes next --------------------------------------------------------------------------------------------------
+
+
+def _ahead(settings: Settings, today: date) -> tuple[str, ...]:
+    """What a teacher has asked for and is still open, then what comes again."""
+    asked = [line for one in taken_assignments(settings)[0] if (line := _asked(one, settings)) is not None]
+    silent: list[str] = []
+    returning = LessonBook(settings, silent.append).returning()
+    again = [f"{one_line(each.title)} comes again {_on(each.due, today)}." for each in returning[:_MOST_AHEAD]]
+    return (*asked[-_MOST_AHEAD:], *again)
+
+
+def _asked(one: TakenAssignment, settings: Settings) -> str | None:
+    open_lessons = [one_line(work.asked.title) for work in lesson_work(one, settings) if not work.is_done]
+    if not open_lessons:
+        return None
+    due = one.assignment.due
+    until = "" if due is None else f", for {day_in_words(due)}"
+    return (
+        f"{one_line(one.assignment.title)}, from {one_line(one.assignment.teacher)}{until}: {'; '.join(open_lessons)}."
+    )
+
+
+def _on(due: date, today: date) -> str:
+    if due <= today:
+        return "next time"
+    return f"on {due:%A}" if due < today + WEEK else f"on {day_in_words(due)}"
