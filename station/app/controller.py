@@ -13,6 +13,7 @@ from station.app.actions.practice_actions import Pause
 from station.app.child_programs import ChildPrograms
 from station.app.handlers.file_handler import take_imported
 from station.app.handlers.handler_table import handlers_of
+from station.app.handlers.history_handler import show_opened
 from station.app.sessions.launch import Launch
 from station.app.settings.settings_store import SettingsStore
 from station.app.station_parts import StationParts
@@ -63,6 +64,9 @@ class Controller:
             attempt(parts.teacher.advance)
         if parts.shown.assigned:
             attempt(lambda: parts.assigned.advance(date.today(), parts.sessions.practice.stage))
+        if parts.shown.history:
+            attempt(lambda: parts.history.advance(date.today(), parts.sessions.practice.stage))
+        attempt(lambda: show_opened(parts))
         asked += self._chosen()
         for action in asked:
             self.dispatch(action)

@@ -15,6 +15,7 @@ from station.app.equipment.mapping_editor import MappingEditor
 from station.app.equipment.sticks_editor import SticksEditor
 from station.app.exam_page import ExamPage, ExamSurroundings
 from station.app.export import Exporter
+from station.app.history.history_page import HistoryPage
 from station.app.importer import Importer
 from station.app.phase_page import PhasePage
 from station.app.sessions.launch import Launch
@@ -92,6 +93,7 @@ class StationParts:
         rooms = SoundSurroundings(lambda: self.chooser.selection.tempo_bpm, self._rest, notify, processes.work)
         self.sound = SoundPage(store, self.engine, self.sessions, rooms)
         self.assigned = AssignedPage(store, ThreadPoolExecutor(1, "assignments"))
+        self.history = HistoryPage(store, ThreadPoolExecutor(1, "history"), processes.work)
 
     def make_ready(self) -> None:
         """Let the kit be heard for what is played alone; raises `DeviceError` while it is measured."""
@@ -137,6 +139,7 @@ class StationParts:
             self.today,
             self.teacher,
             self.assigned,
+            self.history,
             self.song,
             self.sound,
             self.chooser,

@@ -6,6 +6,7 @@ from station.app.equipment.calibration import CalibrationView
 from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_view import SticksView
 from station.app.exam_page import ExamView
+from station.app.history.history_shown import HistoryView
 from station.app.phase_page import PhaseView
 from station.app.sound.sound_page import SoundView
 from station.app.station_parts import StationParts
@@ -58,6 +59,7 @@ def state_of(parts: StationParts, now_ns: int) -> State:
         battle=parts.battle.view(),
         teacher=parts.teacher.view() if shown.teacher else TeacherView(),
         assigned=parts.assigned.view() if shown.assigned else AssignedView(),
+        history=parts.history.view() if shown.history else HistoryView(),
         sound=parts.sound.view() if shown.sound else SoundView(),
         flash=parts.engine.flash.at(now_ns) if parts.store.now.heard == NOTHING else DARK,
         toast=parts.toasts.text,

@@ -11,6 +11,7 @@ from station.app.equipment.mapping_view import MappingView
 from station.app.equipment.sticks_view import SticksView
 from station.app.exam_page import ExamView
 from station.app.export import ExportView
+from station.app.history.history_shown import HistoryView
 from station.app.importer import ImportView
 from station.app.phase_page import PhaseView
 from station.app.room_state import RoomState, ShownResult, Stage
@@ -45,10 +46,10 @@ class State:
     files are made of, `export` what was made, `played` the capture of the last take or session, `imports` what comes
     in, `editor` the lesson that is edited, None for none, `drafts` those that were left unsaved, `today` the day's
     plan and the lesson book, `song` the one that is pinned to its sound, `exam` how far an exam is, `battle` the page
-    of battles, `teacher` what students sent, `assigned` what a teacher gave, `sound` what sounds, each empty while
-    nobody looks. `choice` is to be chosen from on the screen now; `students` says who plays and who else may; `flash`
-    is the click as light; `toast` is
-    shown in passing; `is_lively` whether something moves or may at any moment, so that no frame is to be spared.
+    of battles, `teacher` what students sent, `assigned` what a teacher gave, `history` what was practised, `sound` what
+    sounds, each empty while nobody looks. `choice` is to be chosen from on the screen now; `students` says who plays
+    and who else may; `flash` is the click as light; `toast` is shown in passing; `is_lively` whether something moves or
+    may at any moment, so that no frame is to be spared.
     """
 
     room: RoomState
@@ -80,6 +81,7 @@ class State:
     battle: BattleShown = field(default_factory=BattleShown)
     teacher: TeacherView = field(default_factory=TeacherView)
     assigned: AssignedView = field(default_factory=AssignedView)
+    history: HistoryView = field(default_factory=HistoryView)
     sound: SoundView = field(default_factory=SoundView)
     choice: ScreenChoice | None = None
     flash: Flash = DARK

@@ -3,12 +3,14 @@
 Files are read and written so: what a stranger's file does to the reader happens there, and not to the window.
 """
 
+import copyreg
 import multiprocessing as mp
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from multiprocessing.connection import Connection
-from typing import Generic, Protocol, TypeVar
+from types import MappingProxyType
+from typing import Any, Generic, Protocol, TypeVar
 
 from station.core.errors import DeviceError, StationError
 
@@ -81,3 +83,14 @@ def _work(to: Connection, do: Callable[..., object], words: tuple[object, ...]) 
         to.send(do(*words))
     except StationError as fault:
         to.send(fault)
+
+
+def _read_only(values: dict[Any, Any]) -> Mapping[Any, Any]:
+    return MappingProxyType(values)
+
+
+def _reduced(view: MappingProxyType[Any, Any]) -> tuple[Any, ...]:
+    return _read_only, (dict(view),)
+
+
+copyreg.pickle(MappingProxyType, _reduced)  # a kit's tables are read-only: so they come out of the process as well

@@ -33,6 +33,7 @@ from station.gui.panels.devices import devices_panel, sticks_panel
 from station.gui.panels.editor.editor_panel import EDITOR, EditorPanel
 from station.gui.panels.exam_notes import NOTES, ExamNotes
 from station.gui.panels.figure import style_panel
+from station.gui.panels.history import history_panel
 from station.gui.panels.lessons.who_plays import WhoPlaysPage
 from station.gui.panels.lessons_panel import LessonsPanel
 from station.gui.panels.panel import DockSide, Panel, panels_popup
@@ -74,6 +75,7 @@ class Pages:
         self._exam_stage = ExamStage.ASKED
         self.teacher = teacher_panel.TeacherPanel(dispatch, self._playback)
         self.assigned = assigned_panel.AssignedPanel(dispatch)
+        self.history = history_panel.HistoryPanel(dispatch)
         viewpoints = ViewActions(self.view_keys.keep, self.view_keys.go, lambda: viewport.quality)
         self._transport = TransportBar(dispatch, viewpoints, self._open_tools)
         self.controls = self._transport.controls
@@ -91,6 +93,7 @@ class Pages:
             Panel(NOTES, DockSide.EDITOR, self._exam_notes.gui, shown=lambda state: state.exam.shows_notes),
             Panel(BARS, beside, self._bars_gui, shown=lambda state: state.shows_result),
             Panel(today_panel.TODAY, right, self._today.gui, today_panel.ABOUT, help=today_panel.HELP),
+            Panel(history_panel.HISTORY, right, self.history.gui, history_panel.ABOUT, help=history_panel.HELP),
             Panel(exam_panel.EXAM, right, self._exam.gui, exam_panel.ABOUT, help=exam_panel.HELP),
             Panel(teacher_panel.TEACHER, right, self.teacher.gui, teacher_panel.ABOUT, help=teacher_panel.HELP),
             Panel(assigned_panel.ASSIGNMENTS, right, self.assigned.gui, assigned_panel.ABOUT, help=assigned_panel.HELP),
@@ -175,6 +178,7 @@ class Pages:
             exam=self.is_open(exam_panel.EXAM),
             teacher=self.is_open(teacher_panel.TEACHER),
             assigned=self.is_open(assigned_panel.ASSIGNMENTS),
+            history=self.is_open(history_panel.HISTORY),
             sound=self.is_open(sound_panel.SOUND),
         )
 

@@ -31,6 +31,7 @@ from tests.gui.editor_scenarios import (
 from tests.gui.exam_scenario import exam
 from tests.gui.figure import figure
 from tests.gui.friend_scenario import friend
+from tests.gui.history_scenario import history
 from tests.gui.interruption_scenarios import closes, lost, unplugged
 from tests.gui.lesson_list_scenarios import imports, search, whose
 from tests.gui.newcomer_scenario import first_minute, newcomer
@@ -77,6 +78,7 @@ SCENARIOS: dict[str, Scenario] = {
     "song": song,
     "sound": sound,
     "planned_day": planned_day,
+    "history": history,
     "battle": battle,
     "friend": friend,
     "exam": exam,

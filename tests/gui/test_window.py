@@ -491,6 +491,21 @@ def test_the_plan_of_the_day_is_begun_left_out_and_written_about(environment: di
         assert seen[name] == [], name
 
 
+def test_the_history_is_looked_through_and_a_session_opened_from_it(
+    environment: dict[str, str], tmp_path: Path
+) -> None:
+    seen = run("history", environment, tmp_path)
+    assert seen["day"] == [True, "Sessions"]
+    assert seen["found"] == 1
+    assert seen["opening"], "another process judges it, and the window goes on"
+    assert seen["opened"][0].startswith("you, ")
+    assert seen["opened"][1] == seen["score"]
+    assert seen["pieces"] == ["piece", 7]
+    unread = {name: lines for name, lines in seen.items() if name.startswith("unread")}
+    assert len(unread) == 9
+    assert unread == {name: [] for name in unread}
+
+
 def test_an_assignment_goes_to_a_student_and_comes_back_answered(environment: dict[str, str], tmp_path: Path) -> None:
     seen = run("there_and_back", {**environment, "HOME": str(tmp_path)}, tmp_path)
     assert seen["given"]

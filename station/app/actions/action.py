@@ -10,6 +10,7 @@ from station.app.actions.editor_actions import EditorAction
 from station.app.actions.equipment_actions import EquipmentAction
 from station.app.actions.exam_actions import ExamAction
 from station.app.actions.file_actions import FileAction, ImportAction
+from station.app.actions.history_actions import HistoryAction
 from station.app.actions.phase_actions import PhaseAction
 from station.app.actions.player_actions import PlayerAction
 from station.app.actions.practice_actions import ChoiceAction, PracticeAction
@@ -39,6 +40,7 @@ class Show:
     exam: bool = False
     teacher: bool = False
     assigned: bool = False
+    history: bool = False
     sound: bool = False
 
 
@@ -69,4 +71,5 @@ Action = (
     | BattleAction
     | TeacherAction
     | AssignedAction
+    | HistoryAction
 )

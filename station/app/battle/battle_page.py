@@ -136,6 +136,8 @@ class BattlePage:
             names = names_of(battle.outcome.rules)
             words = "" if best is None else moment_words(best, names[best.turn.planned.side])
             shown = replace(result_of(battle.outcome, folder), best=words)
+            if not folder:
+                shown = replace(shown, judged_as=None, films=False)
             if isinstance(battle, LinkedSession):
                 shown = replace(shown, told=battle.how_it_ended, judged_as=None, films=False)
             self._told = battle.outcome, shown
@@ -306,6 +308,8 @@ class BattlePage:
         if self.stage is BattleStage.OVER:
             self._sessions.leave_battle()
             self._leaf = 0
+            if not self._is_open:  # it was one of another day
+                self._around.show_lessons()
         elif self._friend.waits:
             self._friend.call_off()
         elif self.stage is BattleStage.CHOOSING:

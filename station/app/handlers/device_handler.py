@@ -63,8 +63,10 @@ def show(parts: StationParts, action: Show) -> None:
         parts.sticks.give_up()
     if not action.practice:
         parts.preferences.learn(on=False)
-    if action.catalog or action.today or action.teacher or action.assigned:
+    if action.catalog or action.today or action.teacher or action.assigned or action.history:
         parts.chooser.offer_all()
+    if action.history and not before.history:
+        parts.history.look_again()
     if action.sound and not before.sound:
         parts.sound.look()
     if before.sound and not action.sound:

@@ -10,6 +10,7 @@ from station.app.actions.editor_actions import EditorAction
 from station.app.actions.equipment_actions import CalibrationAction, MappingAction, StickAction
 from station.app.actions.exam_actions import ExamAction
 from station.app.actions.file_actions import FileAction, ImportAction
+from station.app.actions.history_actions import HistoryAction
 from station.app.actions.phase_actions import PhaseAction
 from station.app.actions.player_actions import PlayerAction
 from station.app.actions.practice_actions import ChoiceAction, PracticeAction
@@ -21,6 +22,7 @@ from station.app.actions.teacher_actions import SendReturn, TakeUp, TeacherActio
 from station.app.actions.today_actions import BookAction, StartBlock
 from station.app.handlers.device_handler import measure, show
 from station.app.handlers.file_handler import bring_in, keep_song, write_file
+from station.app.handlers.history_handler import look_back
 from station.app.handlers.practice_handler import battle, begin_block, choose, edit, practise, sit_exam
 from station.app.handlers.settings_handler import embody, keep_setting, restyle
 from station.app.handlers.student_handler import ask_who_plays, play_as
@@ -56,6 +58,7 @@ def handlers_of(parts: StationParts) -> dict[type, Handler]:
         (SaveSong, partial(keep_song, parts)),
         (SoundAction, parts.sound.act),
         (TeacherAction, parts.teacher.act),
+        (HistoryAction, partial(look_back, parts)),
         (SendReturn, parts.assigned.send),
         (TakeUp, lambda action: parts.chooser.take_up(action.lesson)),
         (Show, partial(show, parts)),

@@ -35,4 +35,5 @@ def play_as(parts: StationParts, action: PlayAs) -> str | None:
     parts.chooser.change_student()
     parts.today.begin_anew()
     parts.assigned.begin_anew()
+    parts.history.begin_anew()
     return f"{name} plays"

@@ -187,6 +187,12 @@ class CurrentPractice:
             self._was_free = self.is_free
         self.stage, self.is_free = Stage.RESULT, False
 
+    def look_at_battle(self, battle: BattleSession) -> None:
+        """Show the result of a battle of another day, in place of what is shown; nobody plays."""
+        assert not self.is_playing, "whoever asks has looked"
+        self.last_result.leave()
+        self.stage, self.is_free, self.battle = Stage.RESULT, True, battle
+
     def leave(self, session: LessonSession) -> None:
         """The result was read: `session` is shown again."""
         self.last_result.leave()

@@ -114,6 +114,12 @@ class FreeSession:
         """Where the last take is kept."""
         return None if self._folder is None else self._folder.path
 
+    def recall(self, take: Performance, click: FreeClick) -> Listening | None:
+        """Have a take of another day in place of the last one, ready to sound; None where nothing was struck in it."""
+        self._play, self._folder, self._take = FreePlay(click, self._latency), None, take
+        self._end_ns = int(take.hits["at_ns"][-1]) if len(take) else 0
+        return listening_back(take, click)
+
     # --- listening back ----------------------------------------------------------------------------------------------
 
     def listening(self) -> Listening | None:

@@ -32,12 +32,14 @@ from station.drills.exam.exam_piece import ExamPiece
 from station.drills.lesson import Lesson
 from station.engine.messages import Command, EngineEvent, Started
 from station.motion.sticking.hand_notes import Hands
+from station.music.performance import Performance
 from station.practice.exam.exam_sitting import Sitting
 from station.practice.exam.exam_take import exam_plan
 from station.practice.history.session_files import CAPTURE_NAME
 from station.practice.session.cues.click_pattern import ClickPattern
 from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency, latency_of
+from station.practice.session.free_play import FreeClick
 from station.practice.session.leading_hand import hands_of
 from station.render.snapshot import Snapshot
 from station.scenes.battle.motion_chain import Body
@@ -292,8 +294,11 @@ class SessionControl:
         """Begin a battle, ending what runs; raises `StationError`."""
         self._make_room()
         self._playback.without_track()
-        player = Body(self._prepared.own_kit(), self._demonstrator.figure, self._demonstrator.style)
-        self.practice.begin_battle(new(self._engine, self._latency, player, self._notify))
+        self.practice.begin_battle(new(self._engine, self._latency, self._body(), self._notify))
+
+    def _body(self) -> Body:
+        """Who sits at the student's kit."""
+        return Body(self._prepared.own_kit(), self._demonstrator.figure, self._demonstrator.style)
 
     def leave_battle(self) -> None:
         """The result of a battle was read: the kit alone is shown."""
@@ -333,6 +338,23 @@ class SessionControl:
         self._playback.quiet()
         self.player.halt()
         self.practice.look_at(saved)
+
+    def look_at_battle(self, new: NewBattle) -> None:
+        """Show the result of a battle of another day; raises `DeviceError` while somebody plays."""
+        if self.practice.is_playing:
+            raise DeviceError("end the session first: the battle that you open comes in its place")
+        self.dismiss()
+        self._playback.quiet()
+        self.player.halt()
+        self.practice.look_at_battle(new(self._engine, self._latency, self._body(), self._notify))
+
+    def recall(self, take: Performance, click: FreeClick) -> None:
+        """Hear a take of another day; raises `DeviceError`, also while somebody plays."""
+        if self.practice.is_playing:
+            raise DeviceError("end the session first: the take that you open needs the sound card")
+        self.dismiss()
+        self._playback.quiet()
+        self._hear(self.practice.free.recall(take, click))
 
     def dismiss(self) -> None:
         """The result was read: back to the lessons."""

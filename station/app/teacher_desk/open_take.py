@@ -1,11 +1,7 @@
 """A session of a return opened to be heard and seen: judged, and laid out as a result, in a process with limits."""
 
-import copyreg
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any
 
 from station.app.sessions.shown_result import SavedSession, shown_result
 from station.app.teacher_desk.judge_worker import Heard, within_limits
@@ -39,14 +35,3 @@ def _opened(path: Path, number: int, settings: Settings) -> OpenedTake:
     shown = shown_result(judged.result, judged.document, before=_NO_BEFORE, student=returned.student)
     saved, heard = SavedSession(judged.result, shown), Heard(judged.figures, judged.differences)
     return OpenedTake(saved, heard, stroke_lines(judged.result, shown.hits))
-
-
-def _read_only(values: dict[Any, Any]) -> Mapping[Any, Any]:
-    return MappingProxyType(values)
-
-
-def _reduced(view: MappingProxyType[Any, Any]) -> tuple[Any, ...]:
-    return _read_only, (dict(view),)
-
-
-copyreg.pickle(MappingProxyType, _reduced)  # a kit's tables are read-only: so they come out of the process as well

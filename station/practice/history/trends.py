@@ -212,7 +212,8 @@ def trend_words(trend: Trend) -> str:
     assert trend.change is not None, "every other verdict has a line"
     change, low, high = trend.change
     of = f"over {_days(trend.days)} of practice"
-    within = f"{change:+.0f} {words.unit}, 95 % interval {low:+.0f} to {high:+.0f}"
+    told, lowest, highest = (f"{each:+.0f}".replace("-", "−") for each in (change, low, high))
+    within = f"{told} {words.unit}, 95 % interval {lowest} to {highest}"
     if trend.verdict is Verdict.UNCLEAR:
         return f"{words.label}: cannot be told {of} ({within})"
     if trend.verdict is Verdict.STEADY:

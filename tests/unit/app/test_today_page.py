@@ -1,7 +1,5 @@
 """The page Today behind the window: the book is read beside, changes are shown, a block becomes what is chosen."""
 
-from collections.abc import Callable
-from concurrent.futures import Executor, Future
 from dataclasses import replace
 from datetime import date, timedelta
 from pathlib import Path
@@ -19,46 +17,30 @@ from station.drills.daily.daily_items import DailyItem, ItemKind
 from station.drills.library import lesson_rows
 from station.practice.session.cues.quiet_bars import Gap
 from station.practice.session.rising_tempo import Rise
+from tests.fakes.work_later import WorkLater
 
 DAY = date(2026, 11, 23)
 
 
-class Later(Executor):
-    """Does nothing until it is told to."""
-
-    def __init__(self) -> None:
-        self.tasks: list[tuple[Future[object], Callable[[], object]]] = []
-
-    def submit(self, fn: Callable[[], object], /, *args: object, **kwargs: object) -> Future[object]:  # type: ignore[override]
-        future: Future[object] = Future()
-        self.tasks.append((future, fn))
-        return future
-
-    def work(self) -> None:
-        for future, task in self.tasks:
-            future.set_result(task())
-        self.tasks = []
+@pytest.fixture
+def reader() -> WorkLater:
+    return WorkLater()
 
 
 @pytest.fixture
-def reader() -> Later:
-    return Later()
-
-
-@pytest.fixture
-def page(tmp_path: Path, reader: Later) -> TodayPage:
+def page(tmp_path: Path, reader: WorkLater) -> TodayPage:
     store = SettingsStore(save_settings(Settings(sessions=str(tmp_path)), tmp_path / "settings.toml"))
     return TodayPage(store, pytest.fail, reader)
 
 
-def shown(page: TodayPage, reader: Later, stage: Stage = Stage.IDLE, day: date = DAY) -> TodayPage:
+def shown(page: TodayPage, reader: WorkLater, stage: Stage = Stage.IDLE, day: date = DAY) -> TodayPage:
     page.advance(day, stage)
     reader.work()
     page.advance(day, stage)
     return page
 
 
-def test_the_plan_comes_when_it_is_read_and_not_before(page: TodayPage, reader: Later) -> None:
+def test_the_plan_comes_when_it_is_read_and_not_before(page: TodayPage, reader: WorkLater) -> None:
     page.advance(DAY, Stage.IDLE)
     assert (page.view().today, page.view().reads) == (None, True)
     view = shown(page, reader).view()
@@ -69,7 +51,7 @@ def test_the_plan_comes_when_it_is_read_and_not_before(page: TodayPage, reader: 
     assert page.block(99) is None
 
 
-def test_nothing_is_read_again_until_something_has_changed(page: TodayPage, reader: Later) -> None:
+def test_nothing_is_read_again_until_something_has_changed(page: TodayPage, reader: WorkLater) -> None:
     shown(page, reader)
     page.advance(DAY, Stage.IDLE)
     page.advance(DAY, Stage.PLAYING)
@@ -81,7 +63,7 @@ def test_nothing_is_read_again_until_something_has_changed(page: TodayPage, read
     assert len(reader.tasks) == 1
 
 
-def test_what_the_user_does_is_kept_and_shown(page: TodayPage, reader: Later) -> None:
+def test_what_the_user_does_is_kept_and_shown(page: TodayPage, reader: WorkLater) -> None:
     shown(page, reader)
     for action in (PlanDay(30), LeaveOutBlock(0), Reflect("Good"), LookAtDay(DAY - timedelta(days=1))):
         page.act(action)

@@ -1,0 +1,119 @@
+"""The list of sessions, the newest first: searched, filtered, only its visible lines drawn; a press opens one."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from imgui_bundle import imgui
+
+from station.app.history.history_shown import HistoryPages
+from station.gui import theme
+from station.practice.book.book_words import day_in_words
+from station.practice.history.session_list import (
+    KINDS,
+    SessionFilter,
+    listed,
+    result_words,
+    session_words,
+    short_when,
+    title_of,
+)
+from station.store.rows import SessionKind, SessionRow
+
+SEARCH_LABEL, KIND_LABEL, LESSON_LABEL = "##history-search", "##history-kind", "##history-lesson"
+ALL_LABEL = "All days##history"
+_KINDS = (None, *SessionKind)
+
+
+class SessionsPart:
+    """Keeps what the list is filtered by, `only`; the id of a session that is pressed goes to `open_session`."""
+
+    def __init__(self, open_session: Callable[[int], None]) -> None:
+        self._open = open_session
+        self.only = SessionFilter()
+        self._listed: tuple[HistoryPages, SessionFilter, tuple[SessionRow, ...]] | None = None
+
+    @property
+    def shown(self) -> int:
+        """How many sessions are listed."""
+        return 0 if self._listed is None else len(self._listed[2])
+
+    def gui(self, pages: HistoryPages, opening: int | None, can_open: bool) -> None:
+        """Draw it; while `can_open` is not, nothing is pressed."""
+        self._filters(pages)
+        rows = self._rows(pages)
+        if not rows:
+            theme.soft("No session is like that.")
+            return
+        theme.soft(f"{len(rows)} of {len(pages.sessions)} sessions; press one to open it")
+        flags = imgui.TableFlags_.row_bg | imgui.TableFlags_.scroll_y
+        if not imgui.begin_table("##sessions", 4, flags):
+            return
+        imgui.table_setup_scroll_freeze(0, 1)
+        for title, widest in (("When", "30 May 23:59"), ("What", ""), ("min", "min"), ("Score", "Score 0")):
+            flag = imgui.TableColumnFlags_.width_fixed if widest else imgui.TableColumnFlags_.width_stretch
+            imgui.table_setup_column(title, flag, imgui.calc_text_size(widest).x if widest else 1.0)
+        imgui.table_headers_row()
+        imgui.begin_disabled(not can_open)
+        clipper = imgui.ListClipper()
+        clipper.begin(len(rows))
+        while clipper.step():
+            for at in range(clipper.display_start, clipper.display_end):
+                self._row(rows[at], pages, is_opening=rows[at].id == opening)
+        clipper.end()
+        imgui.end_disabled()
+        imgui.end_table()
+
+    def _rows(self, pages: HistoryPages) -> tuple[SessionRow, ...]:
+        """What is listed; sought again where something is new."""
+        if self._listed is None or self._listed[0] is not pages or self._listed[1] != self.only:
+            self._listed = pages, self.only, listed(pages.sessions, self.only)
+        return self._listed[2]
+
+    def _filters(self, pages: HistoryPages) -> None:
+        if self.only.day is not None:
+            imgui.align_text_to_frame_padding()
+            imgui.text(day_in_words(self.only.day))
+            imgui.same_line()
+            if imgui.button(ALL_LABEL):
+                self.only = replace(self.only, day=None)
+            theme.tooltip("List the sessions of all days again")
+        imgui.set_next_item_width(-1)
+        _, search = imgui.input_text_with_hint(SEARCH_LABEL, "Search title, device, exam, day …", self.only.search)
+        half = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
+        imgui.set_next_item_width(half)
+        kinds = ["all kinds", *(KINDS[kind] for kind in SessionKind)]
+        _, kind = imgui.combo(KIND_LABEL, _KINDS.index(self.only.kind), kinds)
+        theme.tooltip("Lessons, takes of what was just played, battles")
+        imgui.same_line()
+        imgui.set_next_item_width(-1)
+        names = ["", *(each.name for each in pages.lessons)]
+        titles = ["all lessons", *(f"{each.title} ({each.sessions})##{each.name}" for each in pages.lessons)]
+        at = names.index(self.only.lesson) if self.only.lesson in names else 0
+        _, lesson = imgui.combo(LESSON_LABEL, at, titles)
+        theme.tooltip("Sessions of one lesson alone")
+        self.only = replace(self.only, search=search, kind=_KINDS[kind], lesson=names[lesson])
+
+    def _row(self, row: SessionRow, pages: HistoryPages, is_opening: bool) -> None:
+        imgui.table_next_row()
+        imgui.table_next_column()
+        flags = imgui.SelectableFlags_.span_all_columns
+        when = short_when(row, pages.today or row.started.date())
+        if imgui.selectable(f"{when}{session_label(row.id)}", is_opening, flags)[0]:
+            self._open(row.id)
+        theme.tooltip(session_words(row))
+        imgui.table_next_column()
+        _text(title_of(row))
+        imgui.table_next_column()
+        imgui.text(f"{row.played_s / 60:.0f}")
+        imgui.table_next_column()
+        _text(result_words(row))
+
+
+def _text(text: str) -> None:
+    """As much of a text as its column holds."""
+    imgui.text(theme.one_line(text, imgui.get_content_region_avail().x))
+
+
+def session_label(number: int) -> str:
+    """The end of the label of the session with that id."""
+    return f"##kept-{number}"
