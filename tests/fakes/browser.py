@@ -37,6 +37,8 @@ _FLAGS = (
 )
 _OWN = ("data:", "blob:", "about:")
 """Addresses whose contents the page carries itself."""
+_OF_A_DRIVER = "GL Driver Message (OpenGL, Performance"
+"""What SwiftShader says when the picture of a page is taken; the page has no part in it."""
 
 Told = TypeVar("Told")
 
@@ -81,7 +83,8 @@ class Browser:
 
     def faults(self) -> list[str]:
         """Errors and warnings of the console since the page was opened or since the last call."""
-        return [entry["message"] for entry in self._told("browser") if entry["level"] in ("WARNING", "SEVERE")]
+        told = [entry["message"] for entry in self._told("browser") if entry["level"] in ("WARNING", "SEVERE")]
+        return [message for message in told if _OF_A_DRIVER not in message]
 
     def requests(self) -> list[str]:
         """What the page asked for beside itself and what it carries, since it was opened or since the last call."""

@@ -8,8 +8,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from station.motion.kinematics import frame
 from station.motion.kinematics.figure import Figure, Joint
-from station.motion.kinematics.grip import GRIPS, HAND_M, Grip, line_axes
+from station.motion.kinematics.grip import GRIPS, HAND_M, Grip, Hold, line_axes
 from station.motion.kinematics.leg import ANKLE_ALONG, BALL_ALONG
 from station.motion.kinematics.pose import Pose
 from station.render.figure.bones import BODY_BONES, BONES, FINGERS, Bone
@@ -42,10 +43,10 @@ HEAD_M = 0.2146
 
 @dataclass(frozen=True, eq=False)
 class Stance:
-    """What the frames follow from: `joints_m` (21, 3), backs of the hands `palm` (2, 3), the head's directions.
+    """What the frames follow from: `joints_m` (…, 21, 3), backs of the hands `palm` (…, 2, 3), the head's directions.
 
-    `hands` (2, 3, 3) turn from the axes of each hand to those of its line between wrist and fulcrum; `balls` (2, 3) are
-    where the soles bend.
+    All but `hands` may be of many instants. `hands` (2, 3, 3) turn from the axes of each hand to those of its line
+    between wrist and fulcrum; `balls` (…, 2, 3) are where the soles bend.
     """
 
     joints_m: Vector
@@ -58,8 +59,19 @@ class Stance:
     @classmethod
     def of(cls, pose: Pose, sole_m: tuple[float, float]) -> "Stance":
         """That of a pose of somebody whose ball of the foot is `sole_m` from ankle and toe."""
-        hands = np.stack([_lines(hold.grip)[side] for side, hold in enumerate(pose.holds)])
+        hands = _hands(pose.holds)
         return cls(pose.joints_m, pose.palm, pose.facing, pose.head_up, hands, _balls(pose.joints_m, sole_m))
+
+    @classmethod
+    def of_rows(cls, rows: Vector, holds: tuple[Hold, Hold], sole_m: tuple[float, float]) -> "Stance":
+        """Those of many poses, rows (n, fields) in the layout of `frame`, of one who holds sticks by `holds`."""
+        joints_m, palm = rows[:, frame.JOINTS].reshape(-1, len(Joint), 3), rows[:, frame.PALM].reshape(-1, 2, 3)
+        facing, head_up = rows[:, frame.FACING], rows[:, frame.HEAD_UP]
+        return cls(joints_m, palm, facing, head_up, _hands(holds), _balls(joints_m, sole_m))
+
+
+def _hands(holds: tuple[Hold, Hold]) -> Vector:
+    return np.stack([_lines(hold.grip)[side] for side, hold in enumerate(holds)])
 
 
 def sole_of(figure: Figure) -> tuple[float, float]:
@@ -69,15 +81,15 @@ def sole_of(figure: Figure) -> tuple[float, float]:
 
 
 def _balls(joints_m: Vector, sole_m: tuple[float, float]) -> Vector:
-    """The balls of both feet, (2, 3): under the line from ankle to toe, so far from both."""
-    ankle, toe = joints_m[_ANKLES], joints_m[_TOES]
+    """The balls of both feet, (…, 2, 3): under the line from ankle to toe, so far from both."""
+    ankle, toe = joints_m[..., _ANKLES, :], joints_m[..., _TOES, :]
     way = toe - ankle
-    reach = np.sqrt((way * way).sum(axis=1, keepdims=True))
+    reach = np.sqrt((way * way).sum(axis=-1, keepdims=True))
     way = way / reach
     behind, before = sole_m
     along = (reach**2 + behind**2 - before**2) / (2 * reach)
-    under = way[:, 2:] * way - _UP
-    under /= np.sqrt((under * under).sum(axis=1, keepdims=True))
+    under = way[..., 2:] * way - _UP
+    under /= np.sqrt((under * under).sum(axis=-1, keepdims=True))
     return np.asarray(ankle + along * way + np.sqrt(np.maximum(behind**2 - along**2, 0.0)) * under)
 
 
@@ -108,31 +120,34 @@ def bind_stance(figure: Figure) -> Stance:
 
 
 def bone_frames(stance: Stance) -> Matrix:
-    """The frame of every bone of `BODY_BONES`, (20, 4, 4): z along the bone, a hand's as `hand_bones` says."""
+    """The frame of every bone of `BODY_BONES`, (…, 20, 4, 4): z along the bone, a hand's as `hand_bones` says."""
     j = stance.joints_m
-    origin, along, side = np.empty((3, len(BODY_BONES), 3))
-    shoulders = j[Joint.RIGHT_SHOULDER] - j[Joint.LEFT_SHOULDER]
-    hips = j[Joint.RIGHT_HIP] - j[Joint.LEFT_HIP]
+    origin, along, side = np.empty((3, *j.shape[:-2], len(BODY_BONES), 3))
+    shoulders = j[..., Joint.RIGHT_SHOULDER, :] - j[..., Joint.LEFT_SHOULDER, :]
+    hips = j[..., Joint.RIGHT_HIP, :] - j[..., Joint.LEFT_HIP, :]
     right = cross(stance.facing, stance.head_up)
-    origin[_TRUNK] = j[_TRUNK_FROM]
-    along[_TRUNK] = j[_TRUNK_TO] - j[_TRUNK_FROM]
-    along[Bone.HEAD] = stance.head_up
-    side[_TRUNK] = (unit(hips) + 0.5 * unit(shoulders), shoulders, unit(shoulders) + right, right)
-    a, b, c, d = (j[column] for column in _LIMB_JOINTS.T)  # each (4, 3): arms, then legs
+    origin[..., _TRUNK, :] = j[..., _TRUNK_FROM, :]
+    along[..., _TRUNK, :] = j[..., _TRUNK_TO, :] - j[..., _TRUNK_FROM, :]
+    along[..., Bone.HEAD, :] = stance.head_up
+    side[..., Bone.WAIST, :], side[..., Bone.CHEST, :] = unit(hips) + 0.5 * unit(shoulders), shoulders
+    side[..., Bone.NECK, :], side[..., Bone.HEAD, :] = unit(shoulders) + right, right
+    a, b, c, d = (j[..., column, :] for column in _LIMB_JOINTS.T)  # each (…, 4, 3): arms, then legs
     first, second, third = b - a, c - b, d - c
     hinge = cross(first, second)
-    palm = cross(stance.palm, second[:2]), cross(stance.palm, third[:2])
-    origin[_FIRST], along[_FIRST], side[_FIRST] = a, first, hinge
-    origin[_SECOND], along[_SECOND], side[_SECOND] = b, second, hinge
-    origin[_TWIST], along[_TWIST] = b[:2], second[:2]
-    side[_TWIST] = unit(palm[0]) - unit(hinge[:2])  # half of the palm's turn: its other half is the wrist's
-    third[2:] = stance.balls - c[2:]
-    origin[_THIRD], along[_THIRD] = c, third
-    origin[_BEFORE_BALL], along[_BEFORE_BALL] = stance.balls, d[2:] - stance.balls
-    level = cross(third[2:], _UP)  # soles lie flat, wherever the knees point
-    side[_THIRD[:2]], side[_THIRD[2:]], side[_BEFORE_BALL] = palm[1], level, level
-    found = frames(origin, along, side)
-    found[_HANDS, :3, :3] = found[_HANDS, :3, :3] @ stance.hands
+    palm = cross(stance.palm, second[..., :2, :]), cross(stance.palm, third[..., :2, :])
+    origin[..., _FIRST, :], along[..., _FIRST, :], side[..., _FIRST, :] = a, first, hinge
+    origin[..., _SECOND, :], along[..., _SECOND, :], side[..., _SECOND, :] = b, second, hinge
+    origin[..., _TWIST, :], along[..., _TWIST, :] = b[..., :2, :], second[..., :2, :]
+    # half of the palm's turn: its other half is the wrist's
+    side[..., _TWIST, :] = unit(palm[0]) - unit(hinge[..., :2, :])
+    third[..., 2:, :] = stance.balls - c[..., 2:, :]
+    origin[..., _THIRD, :], along[..., _THIRD, :] = c, third
+    origin[..., _BEFORE_BALL, :], along[..., _BEFORE_BALL, :] = stance.balls, d[..., 2:, :] - stance.balls
+    level = cross(third[..., 2:, :], _UP)  # soles lie flat, wherever the knees point
+    side[..., _THIRD[:2], :], side[..., _THIRD[2:], :], side[..., _BEFORE_BALL, :] = palm[1], level, level
+    flat = frames(origin.reshape(-1, 3), along.reshape(-1, 3), side.reshape(-1, 3))
+    found = flat.reshape(*origin.shape[:-1], 4, 4)
+    found[..., _HANDS, :3, :3] = found[..., _HANDS, :3, :3] @ stance.hands
     return found
 
 

@@ -1,10 +1,11 @@
 """What hands hold, as meshes on bones: sticks, brushes and mallets, of which one a hand is there at a time.
 
 Each lies along z, butt at 0. A brush's wires have two bones, for they bend where they lie on a head. Bones count from
-the first of the right hand's, `HELD_BONES` a hand, in the order of `_STICK` … `_FAR_WIRES`.
+the first of the right hand's, `HELD_BONES` a hand, in the order of `STICK` … `FAR_WIRES`.
 """
 
 import math
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,7 +23,15 @@ STICK_M = 0.406
 """A 5A stick (HUMANS, Kit); longer or shorter ones are stretched."""
 BRUSH_M, MALLET_M = (HELD[name].length * STICK_M for name in ("brush", "mallet"))
 HELD_BONES = 5
-_STICK, _MALLET, _HANDLE, _NEAR_WIRES, _FAR_WIRES = range(HELD_BONES)
+STICK, MALLET, HANDLE, NEAR_WIRES, FAR_WIRES = range(HELD_BONES)
+HELD_PARTS = MappingProxyType(
+    {
+        "stick": ((STICK,), STICK_M),
+        "mallet": ((MALLET,), MALLET_M),
+        "brush": ((HANDLE, NEAR_WIRES, FAR_WIRES), BRUSH_M),
+    }
+)
+"""By the names of `grip.HELD` the bones of what is held, and how long it is; a bare hand holds nothing."""
 _HANDS = (Joint.RIGHT_HAND, Joint.LEFT_HAND)
 
 _HANDLE_M = 0.165
@@ -60,8 +69,8 @@ def stick(length: float) -> Mesh:
 def held_meshes(first: int, segments: int) -> list[Mesh]:
     """Everything that both hands may hold, on the bones from `first` on; `segments` a drum's circle is cut into."""
     wires = max(9, segments // 3)
-    meshes = [(stick(STICK_M), _STICK), (_mallet(), _MALLET), (_handle(), _HANDLE)]
-    meshes += [(_wires(wires, _HANDLE_M, _BEND_M), _NEAR_WIRES), (_wires(wires, _BEND_M, BRUSH_M), _FAR_WIRES)]
+    meshes = [(stick(STICK_M), STICK), (_mallet(), MALLET), (_handle(), HANDLE)]
+    meshes += [(_wires(wires, _HANDLE_M, _BEND_M), NEAR_WIRES), (_wires(wires, _BEND_M, BRUSH_M), FAR_WIRES)]
     return [mesh.on_bone(first + HELD_BONES * hand + bone) for hand in (0, 1) for mesh, bone in meshes]
 
 
@@ -99,11 +108,11 @@ def held_matrices(pose: Pose | None, kit: Kit) -> Matrix:
         butt, tip, first = pose.butt_m[hand], pose.tip_m[hand], HELD_BONES * hand
         match hold.held.name:
             case "stick":
-                m[first + _STICK] = _stretched(butt, tip, 0.0, STICK_M)
+                m[first + STICK] = _stretched(butt, tip, 0.0, STICK_M)
             case "mallet":
-                m[first + _MALLET] = _on_its_felt(butt, tip, pose.joints_m[_HANDS[hand]])
+                m[first + MALLET] = _on_its_felt(butt, tip, pose.joints_m[_HANDS[hand]])
             case "brush":
-                m[first + _HANDLE : first + HELD_BONES] = _brush(butt, tip, kit)
+                m[first + HANDLE : first + HELD_BONES] = _brush(butt, tip, kit)
     return m
 
 

@@ -1,0 +1,25 @@
+// What the take's viewer uses of three.js; esbuild leaves the rest out (tools/build_viewer.sh).
+export {
+    ACESFilmicToneMapping,
+    AnimationMixer,
+    BackSide,
+    BoxGeometry,
+    CanvasTexture,
+    CircleGeometry,
+    Color,
+    DirectionalLight,
+    HemisphereLight,
+    LoopOnce,
+    Mesh,
+    MeshBasicMaterial,
+    MeshStandardMaterial,
+    PCFShadowMap,
+    PerspectiveCamera,
+    PMREMGenerator,
+    Scene,
+    SpotLight,
+    SRGBColorSpace,
+    Vector3,
+    WebGLRenderer,
+} from "three";
+export { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
