@@ -1,6 +1,9 @@
 """What other programs do with a history, in processes of their own."""
 
 from datetime import datetime, timedelta
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from multiprocessing.context import ForkServerContext
 from multiprocessing.queues import SimpleQueue
 from multiprocessing.synchronize import Barrier
 
@@ -11,6 +14,13 @@ from station.store.rows import FigureRow, JudgementRow, KeptSession, MasteryRow,
 
 _NOTES = 400
 """Of a session of five minutes."""
+
+
+def history_children() -> ForkServerContext:
+    """Where such processes are begun: each is there in some milliseconds, for what they import is loaded once."""
+    context = get_context("forkserver")
+    context.set_forkserver_preload([__name__, "psycopg", "sqlalchemy.dialects.postgresql.psycopg"])
+    return context
 
 
 def session_of(student: str, number: int, notes: int = _NOTES) -> KeptSession:
@@ -55,3 +65,18 @@ def open_at_once(url: str, number: int, together: Barrier, told: "SimpleQueue[st
         told.put(str(fault))
     else:
         told.put("kept")
+
+
+def keep_in_a_loop(url: str, student: str, first: int, most: int, told: Connection) -> None:
+    """Keep sessions with what is learnt in them, and tell the number of each after it was kept; at last None."""
+    database = Database(url)
+    history = History(database)
+    for number in range(first, first + most):
+        try:
+            history.keep(session_of(student, number), [memory_of(number)], {f"lesson-{number}": "beginner"})
+        except StationError as fault:
+            told.send(str(fault))
+            break
+        told.send(number)
+    told.send(None)
+    database.close()

@@ -8,7 +8,6 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
-from multiprocessing import get_context
 from pathlib import Path
 
 import pytest
@@ -19,7 +18,7 @@ from station.core.errors import BadInput, DeviceError
 from station.store.database import Database
 from station.store.database_url import sqlite_url
 from station.store.history import History
-from tests.fakes.history_children import open_at_once, session_of
+from tests.fakes.history_children import history_children, open_at_once, session_of
 
 _SAME_MOMENT = 10
 
@@ -136,10 +135,7 @@ def test_a_full_disk_loses_nothing_that_was_kept(tmp_path: Path) -> None:
 
 
 def test_a_file_that_many_make_at_the_same_moment(url: str) -> None:
-    children = get_context("forkserver")
-    children.set_forkserver_preload(
-        ["tests.fakes.history_children", "psycopg", "sqlalchemy.dialects.postgresql.psycopg"]
-    )
+    children = history_children()
     together = children.Barrier(_SAME_MOMENT)
     told = children.SimpleQueue()
     processes = [
