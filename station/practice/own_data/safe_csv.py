@@ -17,16 +17,14 @@ _TRUTH = {True: "true", False: "false"}
 
 def cell(value: object) -> str:
     """A value as a field: a text, a number, a truth, or None for no data."""
-    match value:
-        case None:
-            return ""
-        case bool():
-            return _TRUTH[value]
-        case int() | float():
-            return repr(value)
-        case _:
-            text = str(value)
-            return f"'{text}" if text.startswith(_RUNS) else text
+    if value is None:
+        return ""
+    if isinstance(value, bool):
+        return _TRUTH[value]
+    if isinstance(value, int | float):
+        return repr(value)
+    text = str(value)
+    return f"'{text}" if text.startswith(_RUNS) else text
 
 
 def write_csv(stream: IO[bytes], columns: Sequence[str], rows: Iterable[Sequence[object]]) -> int:

@@ -22,7 +22,7 @@ class Theirs:
     """What there is of `student` in the history, in their `folder` and in the settings.
 
     `link` is where the folder leads, None where it is no link; `elsewhere` are folders of sessions that lie outside,
-    `copies` says where backups of the history lie.
+    `copies` says where backups of the history lie; it `is_shared` where it is a server's.
     """
 
     student: str
@@ -35,6 +35,7 @@ class Theirs:
     has_settings: bool
     elsewhere: tuple[Path, ...]
     copies: tuple[str, ...]
+    is_shared: bool = False
 
     @property
     def lines(self) -> list[str]:
@@ -52,6 +53,7 @@ class Theirs:
             *([f"{self.link}, to which the folder's link leads: delete it by hand"] if self.link is not None else []),
             *(f"{folder}, where a session's files were put on purpose: delete it by hand" for folder in self.elsewhere),
             *(f"{copy}, an older copy of the history: delete it by hand" for copy in self.copies),
+            *(["folders of theirs on other computers that use this history"] if self.is_shared else []),
             "backups and exports that were made, returns that were sent to a teacher, others' battles with them",
         ]
 
@@ -82,6 +84,7 @@ def what_is_theirs(history: History, settings: Settings, student: str) -> Theirs
         bool(own),
         tuple(sorted(path for path in placed if path.is_dir() and not path.resolve().is_relative_to(top))),
         tuple(copies_known(history)),
+        history.database.path is None,
     )
 
 
@@ -95,5 +98,8 @@ def delete_theirs(history: History, theirs: Theirs) -> str | None:
         named = "; ".join(f"{fault.filename}: {fault.strerror}" for fault in faults[:_MOST_NAMED])
         left = f"{counted(len(faults), 'file')} could not be deleted"
         raise DeviceError(f"{left}, and the history stays until they can: mend it and run this again; {named}")
-    history.delete_student(theirs.student)
+    try:
+        history.delete_student(theirs.student)
+    except DeviceError as fault:
+        raise DeviceError(f"the folder is deleted, the history is not yet: run this again; {fault}") from fault
     return history.scrub()
