@@ -31,7 +31,9 @@ def opus_file(blocks: Iterable[NDArray[np.float32]]) -> bytes:
     if _ENCODER not in av.codecs_available:
         raise DeviceError("the installed FFmpeg cannot encode Opus: install the wheel of av (pip install av)")
     file, done = io.BytesIO(), 0
-    with av.open(file, "w", format="ogg") as container:
+    with av.open(
+        file, "w", format="ogg", options={"fflags": "+bitexact"}
+    ) as container:  # the same sound, the same file
         stream = container.add_stream(_ENCODER, rate=RATE_HZ, layout="stereo", options={"compression_level": _EFFORT})
         stream.bit_rate = BITS_A_SECOND
         for block in blocks:

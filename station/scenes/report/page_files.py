@@ -2,8 +2,10 @@
 
 from datetime import date
 
+from station.core.errors import StationError
 from station.core.settings import Settings
 from station.practice.history.session_intake import everything_in
+from station.practice.session.session import SessionResult
 from station.scenes.report.kept_session import kept_session
 from station.scenes.report.page_facts import session_page
 from station.scenes.report.session_place import session_place
@@ -15,8 +17,20 @@ def page_bytes(named: str, settings: Settings, ending: str) -> bytes:
     from station.render.report.page.paper_page import session_pdf
 
     place = session_place(named, settings)
-    page = session_page(kept_session(place, settings), place.source)
-    return session_pdf(page) if ending == ".pdf" else session_html(page).encode()
+    kept = kept_session(place, settings)
+    page = session_page(kept, place.source)
+    return session_pdf(page) if ending == ".pdf" else session_html(page, _take(kept.result, settings)).encode()
+
+
+def _take(result: SessionResult, settings: Settings) -> str:
+    """The take as markup; where it cannot be made a sentence that says why, for the figures are there all the same."""
+    from station.render.report.take.take_part import no_take_part, take_part
+    from station.scenes.report.take_media import take_media
+
+    try:
+        return take_part(take_media(result, settings))
+    except StationError as fault:
+        return no_take_part(str(fault))
 
 
 def week_bytes(settings: Settings, day: date, today: date, ending: str) -> bytes:

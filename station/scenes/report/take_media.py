@@ -27,7 +27,7 @@ from station.render.report.take.shown_take import ShownTake
 from station.scenes.demonstrator import Demonstrator, as_taught, demonstrator_of
 from station.scenes.report.take_clicks import take_clicks
 from station.scenes.report.take_clock import TakeClock
-from station.scenes.report.take_notes import SectionPlace, extras_in_words, shown_passes, shown_strokes
+from station.scenes.report.take_notes import extras_in_words, shown_passes, shown_strokes
 from station.scenes.report.take_views import shown_views
 from station.scenes.soundtrack import Sounds, Soundtrack
 from station.sound.drum_kit import Frames
@@ -40,7 +40,7 @@ LONGEST_S = 480.0
 _BLOCK_S = 1.0
 
 
-def take_media(result: SessionResult, place: SectionPlace, settings: Settings) -> ShownTake:
+def take_media(result: SessionResult, settings: Settings) -> ShownTake:
     """The take of a session, played by the drummer and with the sounds of the settings.
 
     Raises `DeviceError` where sound cannot be encoded, `BadInput` for a drum kit that cannot be loaded.
@@ -48,10 +48,10 @@ def take_media(result: SessionResult, place: SectionPlace, settings: Settings) -
     from station.render.files.opus_file import RATE_HZ
 
     demonstrator = demonstrator_of(settings, lambda _: None)
-    return shown_take(result, place, demonstrator, Sounds(load_kit(settings.drums, RATE_HZ), settings.click))
+    return shown_take(result, demonstrator, Sounds(load_kit(settings.drums, RATE_HZ), settings.click))
 
 
-def shown_take(result: SessionResult, place: SectionPlace, demonstrator: Demonstrator, sounds: Sounds) -> ShownTake:
+def shown_take(result: SessionResult, demonstrator: Demonstrator, sounds: Sounds) -> ShownTake:
     """The take of a session, played by a `demonstrator`; raises `DeviceError` where sound cannot be encoded."""
     from station.render.files.opus_file import opus_file
 
@@ -67,7 +67,7 @@ def shown_take(result: SessionResult, place: SectionPlace, demonstrator: Demonst
         model=model_bytes(drummer, 0.0, end_s),
         sound=opus_file(_sound(Soundtrack(in_order(cues), sounds), end_s)),
         length_s=end_s,
-        passes=shown_passes(result, place, clock, end_s),
+        passes=shown_passes(result, clock, end_s),
         strokes=tuple(stroke for stroke in strokes if stroke.time_s < end_s),
         views=shown_views(drummer),
         remark=_remark(result, length_s),

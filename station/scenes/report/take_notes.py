@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -13,55 +12,43 @@ from station.core.pieces import Piece, word
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.music.judgement import Label
 from station.practice.session.session import SessionResult
+from station.render.report.page.session_page import NoteState
 from station.render.report.take.shown_take import ShownPass, ShownStroke
+from station.scenes.report.note_states import state_of
+from station.scenes.report.practised_section import ELSEWHERE, practised_section, section_notes, section_ticks
 from station.scenes.report.take_clock import TakeClock
 
 _EXTRA, _FREE = "extra", "free"
 
 
-@dataclass(frozen=True, eq=False)
-class SectionPlace:
-    """Where the judged score lies on the section that the page engraves.
-
-    `notes` (n,) are the section's rows of the judged notes, −1 for none. `bars` are the bars of the score that are bars
-    of the section, in order of time: (the score's tick, the section's tick, the length); a pass begins where the
-    section's tick does not rise.
-    """
-
-    notes: NDArray[np.int64]
-    bars: Sequence[tuple[int, int, int]]
-
-
-def note_states(result: SessionResult) -> list[str | None]:
-    """What became of each judged note; None where nobody can tell."""
+def note_states(result: SessionResult) -> list[NoteState]:
+    """What became of each judged note."""
     alignment, windows = result.alignment, result.plan.level.windows
-    states: list[str | None] = []
-    rows = zip(alignment.note_label.tolist(), alignment.asynchrony_ns.tolist(), result.score.is_grace, strict=True)
-    for label, late_ns, is_grace in rows:
-        if label == Label.MATCH:
-            lean = 0 if is_grace else windows.lean(late_ns / NS_PER_MS)
-            states.append(("early", "match", "late")[lean + 1])
-        else:
-            states.append({Label.MISS: "miss", Label.WRONG_PIECE: "wrong_piece"}.get(Label(label)))
-    return states
+    off_ms = (alignment.asynchrony_ns / NS_PER_MS).tolist()
+    rows = zip(alignment.note_label.tolist(), off_ms, result.score.is_grace.tolist(), strict=True)
+    return [state_of(label, off, None if is_grace else windows) for label, off, is_grace in rows]
 
 
-def shown_passes(result: SessionResult, place: SectionPlace, clock: TakeClock, end_s: float) -> tuple[ShownPass, ...]:
-    """The passes that begin before `end_s` of the take."""
-    starts = [k for k, (_, tick, _) in enumerate(place.bars) if k == 0 or tick <= place.bars[k - 1][1]]
-    passes = [place.bars[begin:until] for begin, until in pairwise([*starts, len(place.bars)])]
-    times_s = _note_times(result, clock)
-    states = note_states(result)
+def shown_passes(result: SessionResult, clock: TakeClock, end_s: float) -> tuple[ShownPass, ...]:
+    """The passes over the practised section that begin before `end_s` of the take."""
+    section = practised_section(result.plan)
+    section_note, states, times_s = section_notes(result, section), note_states(result), _note_times(result, clock)
     ticks = result.score.notes["tick"]
     shown = []
-    for bars in passes:
+    for bars in _passes(section_ticks(result, section)):
         (first, *_), (last, _, length) = bars[0], bars[-1]
-        inside = np.flatnonzero((ticks >= first) & (ticks < last + length) & (place.notes >= 0)).tolist()
-        notes = [(int(place.notes[row]), float(times_s[row]), state) for row in inside if (state := states[row])]
+        inside = np.flatnonzero((ticks >= first) & (ticks < last + length) & (section_note != ELSEWHERE)).tolist()
+        notes = [(int(section_note[row]), float(times_s[row]), str(states[row])) for row in inside]
         path = _path(bars, clock)
-        if path[0][0] < end_s:
+        if notes and path[0][0] < end_s:  # the silence between passes that follow the student has none
             shown.append(ShownPass(path, tuple(sorted(notes, key=lambda note: note[1]))))
     return tuple(shown)
+
+
+def _passes(bars: list[tuple[int, int, int]]) -> list[list[tuple[int, int, int]]]:
+    """The bars of the score that are bars of the section, pass by pass: one begins where the section's tick falls."""
+    starts = [k for k, (_, tick, _) in enumerate(bars) if k == 0 or tick <= bars[k - 1][1]]
+    return [bars[begin:until] for begin, until in pairwise([*starts, len(bars)])]
 
 
 def _note_times(result: SessionResult, clock: TakeClock) -> NDArray[np.float64]:
@@ -95,7 +82,7 @@ def shown_strokes(result: SessionResult, clock: TakeClock) -> tuple[ShownStroke,
     for hit, (at_ns, piece, velocity) in enumerate(rows):
         note = note_of_hit[hit]
         alone = _EXTRA if result.alignment.hit_label[hit] == Label.EXTRA else _FREE
-        state = (states[note] if note >= 0 else None) or alone
+        state = str(states[note]) if note >= 0 else alone
         time_s = (at_ns + clock.lead_ns) / NS_PER_S
         strokes.append(ShownStroke(time_s, word(kit.stand_in(Piece(piece))), velocity, state))
     return tuple(strokes)

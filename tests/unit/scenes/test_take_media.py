@@ -2,6 +2,7 @@
 
 import io
 from dataclasses import replace
+from datetime import date
 
 import av
 import numpy as np
@@ -14,6 +15,8 @@ from station.core.sound_names import SoundName
 from station.core.units import NS_PER_MS, NS_PER_S, PPQ
 from station.drills.library import find_lesson
 from station.music.performance import Performance
+from station.practice.headless.virtual_session import practise_adaptively
+from station.practice.session.adaptation import Adaptation
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.practice.session.session import SessionResult
@@ -26,9 +29,9 @@ from station.scenes.report.take_notes import shown_passes, shown_strokes
 from station.scenes.soundtrack import Sounds
 from station.scoring.align import align
 from station.scoring.matching.hit_windows import Level
+from station.simulation.student_spec import parse_spec
 from station.sound.drum_kit import DrumKit, Layer, Sound
 from tests.fakes.glb_reader import GlbReader
-from tests.fakes.section_places import place_of
 
 LEAD_S = 3.0  # four beats at 80 a minute
 BEAT_S = 0.75
@@ -87,7 +90,7 @@ def test_the_strokes_are_the_student_s_with_what_became_of_them() -> None:
 
 
 def test_every_pass_has_its_notes_and_the_way_of_the_line() -> None:
-    first, second = shown_passes(RESULT, place_of(RESULT), CLOCK, 99.0)
+    first, second = shown_passes(RESULT, CLOCK, 99.0)
     count = len(PLAN.section)
     assert sorted(note for note, _, _ in first.notes) == list(range(count))
     states = {note: state for note, _, state in first.notes if state != "match"}
@@ -135,7 +138,7 @@ def test_without_a_click_the_line_goes_as_the_student_played() -> None:
     plan = plan_practice(find_lesson("rock-1"), PlanOptions(loops=2, demonstrations=0, click=None))
     result = result_of(plan, played(plan, 1.2, 2.0))
     clock = TakeClock.of(result)
-    first, second = shown_passes(result, place_of(result), clock, 99.0)
+    first, second = shown_passes(result, clock, 99.0)
     wanted = [LEAD_S + 2.0 + 1.2 * k * BEAT_S for k in range(9)]
     assert [time_s for time_s, _ in first.ticks] == pytest.approx(wanted, abs=0.015)
     assert second.ticks[0][0] == pytest.approx(wanted[-1], abs=0.015)
@@ -159,7 +162,7 @@ def test_a_session_without_a_stroke_is_shown_all_the_same() -> None:
 
 
 def made(result: SessionResult) -> ShownTake:
-    return shown_take(result, place_of(result), Demonstrator(), Sounds(noise_kit(), None))
+    return shown_take(result, Demonstrator(), Sounds(noise_kit(), None))
 
 
 def noise_kit() -> DrumKit:
@@ -218,3 +221,19 @@ def test_it_does_not_matter_how_a_kit_rattles() -> None:
     take = made(result)
     assert len(take.strokes) == len(hits)
     assert all(GlbReader(take.model).has(stroke.node) for stroke in take.strokes)
+
+
+def test_passes_that_follow_the_student_have_a_click_each_and_silence_between() -> None:
+    """Two passes of the two bars at 56 beats a minute or more, a whole silent bar or more between."""
+    adaptation = Adaptation(find_lesson("rock-1"), PlanOptions(demonstrations=0, loops=2), date(2026, 1, 2))
+    result = practise_adaptively(adaptation, parse_spec("seed=1")).result
+    clock = TakeClock.of(result)
+    passes = shown_passes(result, clock, 99.0)
+    assert [[note for note, _, _ in one.notes] for one in passes] == [list(range(len(PLAN.section)))] * 2
+    assert {state for one in passes for _, _, state in one.notes} == {"match"}
+    first, second = passes
+    assert second.ticks[0][0] > first.ticks[-1][0] + 1.0
+    clicks_s = take_clicks(result.plan, clock)["at_ns"] / NS_PER_S
+    for one in passes:
+        for time_s, _ in one.ticks[:-1]:
+            assert np.abs(clicks_s - time_s).min() < 1e-6

@@ -12,8 +12,8 @@ Point = tuple[float, float, float]
 class ShownPass:
     """A pass over the section.
 
-    `ticks` are (time, tick), both rising, straight between; `notes` are (note, time, state), state one of match, early,
-    late, miss, wrong_piece.
+    `ticks` are (time, tick), both rising, straight between; `notes` are (note, time, state), state a word of
+    `session_page.NoteState`.
     """
 
     ticks: tuple[tuple[float, float], ...]

@@ -44,6 +44,11 @@ def take_part(take: ShownTake) -> Markup:
     )
 
 
+def no_take_part(fault: str) -> Markup:
+    """What stands in its place where a take could not be made."""
+    return Markup("<p>The take cannot be shown: {}.</p>").format(fault)
+
+
 def script_json(value: object) -> Markup:
     """JSON that may stand in a `<script>`: no sign in it ends that, or a line."""
     return Markup(json.dumps(value, separators=(",", ":")).translate(_ESCAPES))

@@ -12,7 +12,7 @@
     const SOFTWARE = /swiftshader|llvmpipe|softpipe|software|basic render/i; // what draws without a graphics card
     const SLOW_MS = 55;
     const SLOW_FRAMES = 6; // so many slow ones in a row are no accident
-    const STATES = ["match", "early", "late", "miss", "wrong_piece", "extra", "free"];
+    const STATES = ["match", "early", "late", "miss", "wrong_piece", "unknown", "unplayed", "extra", "free"];
 
     const part = document.querySelector(".take");
     const audio = part.querySelector("audio");
