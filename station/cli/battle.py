@@ -6,6 +6,7 @@ from station.app.sessions.session_checks import check_settings
 from station.app.settings.settings_store import SettingsStore
 from station.cli.battling.battle_options import BattleOptions, battle_rules
 from station.cli.battling.battle_video import check_film, film_battle
+from station.cli.battling.meant_battle import meant_battle
 from station.cli.console import print_json, say, write
 from station.cli.options.device_option import wanted_kits
 from station.cli.options.option_fields import Command
@@ -26,9 +27,10 @@ def run(options: BattleOptions) -> int:
     """Play, or judge again."""
     check_film(options.video)
     if options.judge_again is not None:
-        result = kept_battle(options.judge_again, options.level)
+        settings = _wanted(options)
+        result = meant_battle(options.judge_again, options.level, settings)
         _print(result, options)
-        film_battle(result, options.video, _wanted(options))
+        film_battle(result, options.video, settings)
         return 0
     settings = _wanted(options)
     if options.recover is not None:

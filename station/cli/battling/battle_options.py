@@ -128,8 +128,11 @@ class BattleOptions:
     student: str | None = option("NAME", "whose battle it is", str, None)
     report: Path | None = option("DIR", "where to leave the battle", Path, None)
     recover: Path | None = option("DIR", "judge and keep a battle that was cut off", Path, None)
-    judge_again: Path | None = option(
-        "DIR|CAPTURE", "judge a kept battle again, by the windows of --level if that is given", Path, None
+    judge_again: str | None = option(
+        "SESSION",
+        "judge a kept battle again (its number, last, a day, folder or capture), by the windows of --level",
+        str,
+        None,
     )
     json: bool = flag("print the battle as one JSON document")
     network: NetworkOptions = group(NetworkOptions, "two stations on one network")

@@ -1,8 +1,11 @@
 """`station history show SESSION`: what is kept of a session, and where its files are."""
 
+from __future__ import annotations
+
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from station.cli.console import print_json, write
 from station.cli.history_verbs.list_sessions import title_of
@@ -12,10 +15,15 @@ from station.cli.today import settings_of
 from station.core.counts import counted
 from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput
+from station.core.labels import piece_name
+from station.core.pieces import Piece, word
 from station.practice.history.kept_rows import figure_fields, session_fields
 from station.practice.history.session_choice import HELP, choose_session
-from station.store.history import History
 from station.store.rows import FigureRow, SessionRow
+
+if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
+    from station.store.history import History
+
 
 SCHEMA = "drum-station/history-session/1"
 
@@ -98,7 +106,8 @@ def _facts(kept: _Kept) -> list[tuple[str, str]]:
 
 
 def _figure_name(figure: FigureRow) -> str:
-    return one_line(figure.name.replace("_", " "))
+    known = {word(piece): piece_name(piece) for piece in Piece}
+    return known.get(figure.name) or one_line(figure.name.replace("_", " "))
 
 
 def _figure_words(figure: FigureRow) -> str:

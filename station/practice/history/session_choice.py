@@ -1,20 +1,29 @@
 """The session that a user's word means, wherever a SESSION is asked.
 
 It is a number of `station history list`, `last` for the student's last one, a day on which they played once, the folder
-of a session, or a capture. A folder or a capture that the history does not know is a session all the same.
+of a session, or a capture. A folder or a capture that the history does not know is a session all the same, and so it is
+where the history cannot be reached.
 """
 
+from __future__ import annotations
+
 import os
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from station.core.counts import is_count
 from station.core.disk.files import read_regular
-from station.core.errors import BadInput
+from station.core.errors import BadInput, DeviceError
 from station.devices.capture.capture import MOST_BYTES
-from station.store.history import History
+from station.practice.history.session_files import BATTLE_CAPTURE_NAME, CAPTURE_NAME
 from station.store.rows import SessionRow
+
+if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
+    from station.store.history import History
 
 LAST = "last"
 HELP = f"a session: its number, {LAST}, a day such as 2026-12-01, its folder or its capture"
@@ -37,21 +46,36 @@ class ChosenSession:
             return str(self.capture)
         return f"session {self.row.id}" if self.row is not None else str(self.folder)
 
-    def capture_data(self, history: History) -> bytes:
+    def capture_data(self, history: History | None) -> bytes:
         """The capture's bytes: the file's, where it is gone the history's; raises `BadInput` where both are."""
         if self.capture is not None:
             return read_regular(self.capture, MOST_BYTES)
         checksum = None if self.row is None else self.row.capture_sha256
-        data = None if checksum is None else history.capture(checksum)
+        data = None if checksum is None or history is None else history.capture(checksum)
         if data is None:
-            raise BadInput(
-                self.source, "", f"its capture is kept neither in a folder nor in the history {history.name}"
-            )
+            raise BadInput(self.source, "", "its capture is kept neither in a folder nor in the history")
         return data
 
 
-def choose_session(history: History, student: str, word: str) -> ChosenSession:
-    """The session that `word` means, of `student` where it is `last` or a day; raises `BadInput`, `DeviceError`."""
+def history_for(word: str, open_history: Callable[[], History]) -> History | None:
+    """The history; None where it cannot be reached and `word` is a folder or a file, which says itself what it is."""
+    try:
+        return open_history()
+    except DeviceError:
+        if os.path.exists(word):  # noqa: PTH110 - no error for long names
+            return None
+        raise
+
+
+def choose_session(history: History | None, student: str, word: str) -> ChosenSession:
+    """The session that `word` means, of `student` where it is `last` or a day; raises `BadInput`, `DeviceError`.
+
+    Without a history it means a folder or a capture.
+    """
+    return _in_files(None, word) if history is None else _chosen(history, student, word)
+
+
+def _chosen(history: History, student: str, word: str) -> ChosenSession:
     if is_count(word):
         row = history.session(int(word))
         if row is None:
@@ -95,12 +119,12 @@ def _only_one(history: History, student: str, day: date) -> SessionRow:
     return rows[0]
 
 
-def _in_files(history: History, word: str) -> ChosenSession:
+def _in_files(history: History | None, word: str) -> ChosenSession:
     path = Path(word)
     if os.path.isdir(path):  # noqa: PTH112 - no error for long names
         found = ChosenSession(_row_of(history, path), path, _capture_in(path))
         if found.row is None and found.capture is None:
-            raise BadInput(word, "", "no session is in this folder: it holds no capture")
+            raise BadInput(word, "", f"no session is in this folder: it holds no {CAPTURE_NAME}")
         return found
     if not os.path.exists(path):  # noqa: PTH110 - likewise
         raise BadInput(word, "", f"expected {HELP}; there is no such file")
@@ -109,11 +133,15 @@ def _in_files(history: History, word: str) -> ChosenSession:
     return ChosenSession(_row_of(history, path.parent) if is_sessions else None, None, path)
 
 
-def _row_of(history: History, folder: Path) -> SessionRow | None:
+def _row_of(history: History | None, folder: Path) -> SessionRow | None:
+    if history is None:
+        return None
     spelled = dict.fromkeys((str(folder), str(folder.absolute()), str(folder.resolve())))
-    return next((row for each in spelled if (row := history.session_in(each)) is not None), None)
+    with suppress(DeviceError):  # a folder says itself what it is
+        return next((row for each in spelled if (row := history.session_in(each)) is not None), None)
+    return None
 
 
 def _capture_in(folder: Path) -> Path | None:
-    """A session's folder has one, whatever was played."""
-    return next((path for path in sorted(folder.glob("*.capture")) if path.is_file()), None)
+    named = (folder / name for name in (CAPTURE_NAME, BATTLE_CAPTURE_NAME))
+    return next((path for path in named if path.is_file()), None)

@@ -1,6 +1,7 @@
 """`station battle` as it is typed."""
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +41,18 @@ def test_the_same_seed_is_the_same_battle_and_judging_it_again_gives_it_once_mor
     assert (tmp_path / "a" / "battle.json").read_bytes() == (tmp_path / "b" / "battle.json").read_bytes()
     assert document(capsys, *words, "--seed", "2", "--report", str(tmp_path / "c")) != first
     assert document(capsys, "--judge-again", str(tmp_path / "a")) == first
+
+
+def test_a_battle_is_judged_again_by_its_number_where_its_folder_is_gone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+    first = document(capsys, *SHORT, "--virtual-student", "beginner,seed=4", "--student", "Ann")
+    assert document(capsys, "--judge-again", "last", "--student", "Ann") == first
+    assert main(["history", "--json", "--student", "Ann"]) == 0
+    (kept,) = json.loads(capsys.readouterr().out)["sessions"]
+    shutil.rmtree(kept["folder"])
+    assert document(capsys, "--judge-again", str(kept["number"])) == first
 
 
 def test_people_are_measured_against_themselves(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

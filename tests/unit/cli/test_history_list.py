@@ -9,10 +9,11 @@ from pathlib import Path
 import pytest
 
 from station.cli.command_line import main
-from station.core.errors import BadInput
+from station.core.errors import BadInput, DeviceError
 from station.core.settings import load_settings
-from station.practice.history.session_choice import choose_session
+from station.practice.history.session_choice import choose_session, history_for
 from station.practice.history.session_files import student_folder
+from station.store.history import History
 from station.store.rows import SessionKind
 from tests.fakes.kept_sessions import kept, on_the_disk, users_history
 
@@ -173,6 +174,22 @@ def test_what_means_none_is_told_in_a_line(
         choose_session(users_history(), "Ann", word)
     with pytest.raises(BadInput, match="nothing of Zoë is kept"):
         choose_session(users_history(), "Zoë", "last")
+
+
+def test_a_folder_says_itself_what_it_is_where_the_history_is_away(tmp_path: Path) -> None:
+    session = kept("Ann", datetime(2026, 11, 23, 18, 30))
+    folder = on_the_disk(session)
+
+    def away() -> History:
+        raise DeviceError("the server is away")
+
+    for word in (str(folder), str(folder / "session.capture")):
+        history = history_for(word, away)
+        chosen = choose_session(history, "Ann", word)
+        assert (history, chosen.row, chosen.capture_data(None)) == (None, None, session.capture)
+    for word in ("1", "last", "2026-11-23"):
+        with pytest.raises(DeviceError, match="the server is away"):
+            history_for(word, away)
 
 
 def test_what_is_kept_nowhere_cannot_be_read(tmp_path: Path) -> None:
