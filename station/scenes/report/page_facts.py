@@ -37,6 +37,7 @@ from station.scenes.report.page_words import (
     foot,
     next_sentences,
     pass_rows,
+    passes_heading,
     remarks,
     word_lists,
 )
@@ -91,6 +92,7 @@ def _page(kept: KeptSession) -> SessionPage:
         by_bar=tuple(_by_bar(result, document, spreads)),
         loudness=_loudness(result, document),
         tempo=_tempo(result, document),
+        passes_heading=passes_heading(document),
         passes=pass_rows(document),
         lists=word_lists(document),
         foot=foot(document),

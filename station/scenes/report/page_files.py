@@ -23,10 +23,12 @@ def page_bytes(named: str, settings: Settings, ending: str) -> bytes:
 
 
 def _take(result: SessionResult, settings: Settings) -> str:
-    """The take as markup; where it cannot be made a sentence that says why, for the figures are there all the same."""
+    """The take as markup, nothing where nothing was played; where it cannot be made a sentence that says why."""
     from station.render.report.take.take_part import no_take_part, take_part
     from station.scenes.report.take_media import take_media
 
+    if not len(result.performance):
+        return ""
     try:
         return take_part(take_media(result, settings))
     except StationError as fault:

@@ -39,7 +39,7 @@ def _details(advice: Document | None) -> Iterator[str]:
         yield f"Measured: {signed(effect, spec)} {unit}{bears}".strip()
     drill = advice["drill"]
     pieces = ", ".join(_part_word(str(piece)) for piece in drill["pieces"])
-    bars = "all bars" if drill["bars"] is None else _bars_words(drill["bars"])
+    bars = "all bars" if drill["bars"] is None else _span(drill["bars"])
     yield f"Drill: {bars} at {drill['tempo_bpm']:.0f} bpm{f', {pieces} alone' if pieces else ''}"
 
 
@@ -99,6 +99,11 @@ def exam_result(exam: Document) -> ExamResult:
         for line in marks["lines"]
     )
     return ExamResult(shown_total(float(marks["total"])), str(marks["band"]), lines, SEEN_WORDS * exam["seen_before"])
+
+
+def passes_heading(document: Document) -> str:
+    """What stands above the passes."""
+    return "As the tempo rose" if document["session"]["tempi"] else "Pass by pass"
 
 
 def pass_rows(document: Document) -> tuple[PassRow, ...]:

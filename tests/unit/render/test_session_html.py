@@ -74,6 +74,7 @@ def hostile_page(word: str = HOSTILE[0]) -> SessionPage:
         tempo=TempoLine(
             np.array([0.0, 3.0]), np.array([79.0, 81.0]), np.zeros(1), np.array([80.0]), 6.0, word, 80.0, 0.1, None
         ),
+        passes_heading=word,
         passes=(PassRow(word, word, word, word, word),),
         lists=(WordList(word, (word,)),),
         foot=(word,),
@@ -185,4 +186,5 @@ def test_a_session_in_which_nothing_was_heard_is_a_page() -> None:
     )
     html = session_html(page)
     assert "How far from the beat" not in html
-    assert "nothing to measure" in html
+    assert "Piece by piece" not in html
+    assert "Bar by bar" in html

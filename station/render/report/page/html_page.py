@@ -32,7 +32,7 @@ class Drawn:
     """A chart as the templates take it."""
 
     title: str
-    words: str
+    says: str
     legend: str
     picture: Markup
 
@@ -85,4 +85,4 @@ def drawn(chart: Chart, paths: SvgPaths) -> Drawn:
     svg = (
         f'<svg viewBox="0 0 {width} {height}" role="img" aria-label="{label}">{paths.areas(chart.shapes)}{spots}</svg>'
     )
-    return Drawn(chart.title, chart.words, chart.legend, Markup(svg))
+    return Drawn(chart.title, chart.says, chart.legend, Markup(svg))

@@ -23,8 +23,6 @@ _BETWEEN = 18.0
 _POINTS = TypeStyle(34.0, INK, Face.BOLD)
 _LEGEND = (NoteState.MATCH, NoteState.EARLY, NoteState.LATE, NoteState.MISS, NoteState.WRONG_PIECE)
 _FIGURE_SHARES = (0.14, 0.07, 0.07, 0.08, 0.07, 0.07, 0.27, 0.23)
-_SAID = frozenset({"How far from the beat", "Tempo"})
-"""Charts whose words stand below them; of the others the table of figures has them."""
 
 
 def session_pdf(page: SessionPage) -> bytes:
@@ -150,7 +148,7 @@ def _charts(flow: PaperFlow, charts: Sequence[Chart]) -> None:
 
 
 def _said(chart: Chart) -> str:
-    return " ".join(filter(None, (chart.words if chart.title in _SAID else "", chart.legend)))
+    return " ".join(filter(None, (chart.says, chart.legend)))
 
 
 def _chart_height(flow: PaperFlow, chart: Chart, wide: float) -> float:
@@ -169,7 +167,7 @@ def _passes(flow: PaperFlow, page: SessionPage) -> None:
     if not page.passes:
         return
     flow.gap()
-    flow.heading("Pass by pass")
+    flow.heading(page.passes_heading)
     rows = [(row.which, row.tempo, row.bars, row.right, row.why) for row in page.passes]
     flow.table(rows, (0.1, 0.12, 0.14, 0.18, 0.46))
 

@@ -17,10 +17,9 @@ def session_charts(page: SessionPage, atlas: Atlas) -> Iterator[Chart]:
     on_time_ms = page.timing.on_time_ms
     if len(page.timing.asynchrony_ms):
         yield asynchrony_histogram(page.timing, atlas)
-    if any(group.notes for group in page.pieces):
         yield lean_chart("Piece by piece", page.pieces, on_time_ms, atlas)
-    if page.limbs:
-        yield lean_chart("Limb by limb", page.limbs, on_time_ms, atlas)
+        if page.limbs:
+            yield lean_chart("Limb by limb", page.limbs, on_time_ms, atlas)
     if page.by_bar:
         yield bar_chart(page.by_bar, on_time_ms, atlas)
     if len(page.tempo.at_s):

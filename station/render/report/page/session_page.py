@@ -219,6 +219,7 @@ class SessionPage:
     by_bar: tuple[BarFigures, ...]
     loudness: tuple[LoudnessRow, ...]
     tempo: TempoLine
+    passes_heading: str
     passes: tuple[PassRow, ...]
     lists: tuple[WordList, ...]
     foot: tuple[str, ...]

@@ -35,7 +35,7 @@ def asynchrony_histogram(timing: StrokeTiming, atlas: Atlas) -> Chart:
     reach = reach_ms(
         [float(x) for x in np.percentile(np.abs(values), [98])] if len(values) else [], _LEAST_MS, _MOST_MS
     )
-    axis, draw_list = Axis(-reach, reach, _LEFT, WIDTH - 10.0), DrawList(atlas)
+    axis, draw_list = Axis(-reach, reach, _LEFT, WIDTH - 22.0), DrawList(atlas)
     edges = np.arange(-reach, reach + _BIN_MS / 2, _BIN_MS)
     counts, _ = np.histogram(np.clip(values, -reach + 1e-6, reach - 1e-6), edges)
     time_axis(draw_list, axis, _TOP, _LOW, 20.0 if reach <= 80.0 else 40.0)
@@ -45,7 +45,9 @@ def asynchrony_histogram(timing: StrokeTiming, atlas: Atlas) -> Chart:
     figures, count = timing.figures, len(values)
     words = f"{count} {'stroke' if count == 1 else 'strokes'}, {timing_words(figures, timing.has_own_clock)}."
     legend = f"On time is within {timing.on_time_ms:g} ms."
-    return Chart("How far from the beat", words, draw_list.shapes(), (WIDTH, _HEIGHT), tuple(spots), legend)
+    if beyond := int((np.abs(values) > reach).sum()):
+        legend += f" Farther out than the ends: {beyond}."
+    return Chart("How far from the beat", words, draw_list.shapes(), (WIDTH, _HEIGHT), tuple(spots), legend, words)
 
 
 def _bars(draw_list: DrawList, axis: Axis, counts: list[int], on_time_ms: float, edges: list[float]) -> list[Spot]:

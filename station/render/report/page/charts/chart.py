@@ -39,7 +39,8 @@ class Spot:
 class Chart:
     """A chart under its `title`: `shapes` of `SHAPE_DTYPE`, how large they are, what they say, and its spots.
 
-    `legend` explains marks in a line below; empty where they explain themselves.
+    `says` stands below the chart; empty where the chart has its figures in it. `legend` explains marks there; empty
+    where they explain themselves.
     """
 
     title: str
@@ -48,6 +49,7 @@ class Chart:
     size: tuple[float, float]
     spots: tuple[Spot, ...] = ()
     legend: str = ""
+    says: str = ""
 
 
 @dataclass(frozen=True, slots=True)

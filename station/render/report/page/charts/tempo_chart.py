@@ -42,7 +42,7 @@ def tempo_chart(tempo: TempoLine, atlas: Atlas) -> Chart:
         for index, (at, bpm) in enumerate(zip(tempo.at_s.tolist(), tempo.beats_a_minute.tolist(), strict=True), 1)
     )
     legend = f"Dots are bars as they were played, the broken line is the {tempo.asks}."
-    return Chart("Tempo", _words(tempo), draw_list.shapes(), (WIDTH, _HEIGHT), spots, legend)
+    return Chart("Tempo", _words(tempo), draw_list.shapes(), (WIDTH, _HEIGHT), spots, legend, _words(tempo))
 
 
 def _grid(draw_list: DrawList, ends: tuple[float, float], end_s: float, axis: Axis) -> None:
