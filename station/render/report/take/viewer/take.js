@@ -174,7 +174,7 @@
 
     // boards under a spot, and a rug
     function floor(three) {
-        const size = 512;
+        const size = 1024;
         const paper = document.createElement("canvas");
         paper.width = paper.height = size;
         const pen = paper.getContext("2d");
@@ -291,8 +291,8 @@
                 mesh.castShadow = mesh.receiveShadow = true;
                 mesh.frustumCulled = false; // a skin's corners are not where its box is
                 if (hasCard || mesh.material.metalness < 0.5) return;
-                mesh.material.metalness = 0.4; // with nothing to mirror metal is black
-                mesh.material.color.multiplyScalar(0.45);
+                mesh.material.metalness = 0.25; // with nothing to mirror metal is black
+                mesh.material.color.multiplyScalar(0.5);
             });
             this.camera = new three.PerspectiveCamera(40, 1.5, 0.05, 30);
             this.orbit = new Orbit(times.views[0]);
