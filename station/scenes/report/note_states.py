@@ -44,7 +44,7 @@ def state_of(label: int, off_ms: float, windows: Windows | None) -> NoteState:
 
 
 def _of_rows(piece: str, label: NDArray[np.uint8], off_ms: NDArray[np.float64], windows: Windows | None) -> NotePasses:
-    """A note by its passes: what most of them were, early and late by their mean."""
+    """A note by its passes: missed where half of them missed it, else early and late by their mean."""
     is_played = label == Label.MATCH
     played, wrong, unknown = (int((label == each).sum()) for each in (Label.MATCH, Label.WRONG_PIECE, Label.UNKNOWN))
     mean_ms = float(off_ms[is_played].mean()) if played else None

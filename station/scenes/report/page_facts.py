@@ -89,6 +89,7 @@ def _page(kept: KeptSession) -> SessionPage:
         timing=_timing(document, spreads),
         pieces=tuple(_groups(_table(document["per_piece"]), spreads.pieces, name_of)),
         limbs=tuple(_groups(_table(document["per_limb"]), spreads.limbs, lambda limb: limb.replace("_", " "))),
+        hands=tuple(_hands(document)),
         by_bar=tuple(_by_bar(result, document, spreads)),
         loudness=_loudness(result, document),
         tempo=_tempo(result, document),
@@ -182,6 +183,18 @@ def _group(name: str, group: Document, sd_ci: Interval | None) -> GroupFigures:
         extras=None if group["extras"] is None else int(group["extras"]),
         timing=_figures(group["timing"], sd_ci),
     )
+
+
+def _hands(document: Document) -> Iterator[GroupFigures]:
+    """How each hand lies about the phase of the drill; nothing without sensors."""
+    phase = document.get("phase")
+    if phase is None:
+        return
+    for hand, lean in _table(phase)["hands"].items():
+        strokes, ci = int(lean["strokes"]), lean["ci"]
+        interval = None if ci is None else (float(ci[0]), float(ci[1]))
+        timing = TimingFigures(strokes, _number(lean["late_ms"]), interval, _number(lean["sd_ms"]))
+        yield GroupFigures(hand.replace("_", " "), strokes, strokes, 0, 0, None, timing)
 
 
 def _by_bar(result: SessionResult, document: Document, spreads: _Spreads) -> Iterator[BarFigures]:

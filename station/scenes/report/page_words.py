@@ -71,8 +71,12 @@ def _bars_words(bars: list[int]) -> str:
 
 
 def choices(document: Document) -> tuple[str, ...]:
-    """What may be begun next, each with its reason."""
-    return tuple(f"{step.label}{f': {step.why}' if step.why else ''}" for step in steps_in({**document}))
+    """What may be begun next, each with its reason where that was not said already."""
+    said = " ".join(map(str, document["session"]["next"])).casefold()
+    return tuple(
+        f"{step.label}: {step.why}" if step.why and step.why.casefold() not in said else step.label
+        for step in steps_in({**document})
+    )
 
 
 def remarks(document: Document) -> tuple[str, ...]:

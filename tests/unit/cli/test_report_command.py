@@ -52,6 +52,19 @@ def test_last_and_a_day_are_the_student_s(
     assert "the newest" in out.read_text()
 
 
+def test_a_session_whose_folder_is_gone_comes_from_the_history(
+    session: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_DOCUMENTS_DIR", str(tmp_path))
+    folder = Settings(student="Zoe").sessions_dir / "Zoe" / "2026-03-01T08-00-00_rock-1"
+    shutil.copytree(session, folder)
+    pages = [tmp_path / f"{number}.pdf" for number in range(2)]
+    for page in pages:
+        assert main(["report", "last", "--student", "Zoe", "--out", str(page)]) == 0
+        shutil.rmtree(folder, ignore_errors=True)
+    assert pages[0].read_bytes() == pages[1].read_bytes()
+
+
 def test_what_is_no_session_is_said_in_one_line(
     session: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -69,6 +69,7 @@ def hostile_page(word: str = HOSTILE[0]) -> SessionPage:
         timing=StrokeTiming(np.linspace(-30, 30, 9), figures, 25.0, has_own_clock=False),
         pieces=(group,),
         limbs=(group,),
+        hands=(group,),
         by_bar=(BarFigures(1, group, 8, 2),),
         loudness=(LoudnessRow(word, word, 80.0, np.array([70.0, 80.0])),),
         tempo=TempoLine(
@@ -180,6 +181,7 @@ def test_a_session_in_which_nothing_was_heard_is_a_page() -> None:
         timing=StrokeTiming(np.zeros(0), nothing, 25.0, has_own_clock=False),
         pieces=(empty,),
         limbs=(),
+        hands=(),
         by_bar=(BarFigures(1, empty, 0, 0),),
         loudness=(),
         tempo=TempoLine(np.zeros(0), np.zeros(0), np.zeros(1), np.array([80.0]), 6.0, "click", None, None, None),

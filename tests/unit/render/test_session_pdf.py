@@ -32,7 +32,7 @@ def places(text: str) -> list[tuple[float, float]]:
 
 @pytest.mark.parametrize(
     "word",
-    [HOSTILE[1], HOSTILE[4], "w" * 700, "many words " * 60],
+    [HOSTILE[1], HOSTILE[4], "w" * 300, "many words " * 60],
     ids=["markup", "right to left", "one word", "many words"],
 )
 def test_nothing_stands_beyond_the_paper(word: str) -> None:

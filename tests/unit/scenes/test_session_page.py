@@ -190,3 +190,53 @@ def test_letters_that_nobody_sees_are_no_part_of_a_page(folders: dict[str, Path]
     report["session"]["student"] = "a\u202eb\x1b[31mc"
     (named / "report.json").write_text(json.dumps(report))
     assert page_of(named).student == "a b [31mc"
+
+
+def test_what_sensors_told_is_said_and_drawn(folders: dict[str, Path], tmp_path: Path) -> None:
+    """As tests/unit/practice/test_stick_words.py and docs/report.md have the keys."""
+    felt, report = tmp_path / "felt", json.loads((folders["groove"] / "report.json").read_text())
+    shutil.copytree(folders["groove"], felt)
+    figures = {"strokes": 30, "height_cm": 21.6, "speed_m_s": 4.25, "rebound": 0.5, "clipped_share": 0.0}
+    remark = {
+        "remark": "uneven_heights",
+        "text": "Your left stick rises less.",
+        "effect": 1,
+        "ci": [0, 2],
+        "unit": "cm",
+    }
+    report["sticks"] = {"hands": {"left_hand": figures}, "remarks": [remark]}
+    report["sticking"] = {
+        "right": 7,
+        "wrong": 1,
+        "cannot_tell": 0,
+        "wrong_bars": [{"bar": 2, "wrong": 1}],
+        "played": {},
+    }
+    lean = {"sure": True, "strokes": 30, "late_ms": 12.0, "ci": [8.0, 16.0], "sd_ms": 9.0, "late_beats": 0.01}
+    report["phase"] = {"locked_share": 0.93, "hands": {"left_hand": {"fault": "hand_behind", **lean}}}
+    (felt / "report.json").write_text(json.dumps(report))
+    page = page_of(felt)
+    (hand,) = page.hands
+    told = hand.timing
+    assert (hand.name, told.mean_ms, told.mean_ci, told.sd_ms) == ("left hand", 12.0, (8.0, 16.0), 9.0)
+    said = {words.heading: words.lines for words in page.lists}
+    assert "left hand: 30 strokes, 22 cm high, 4.2 m/s fast" in said["Sticks and motion"]
+    assert "Your left stick rises less." in said["Sticks and motion"]
+    assert said["Sticks and motion"][0].startswith("Sticking: 7 of 8")
+    assert "93%" in said["Phase"][0]
+
+
+def test_advice_has_its_bars_effect_and_drill_in_words(tmp_path: Path) -> None:
+    folder = tmp_path / "late"
+    words = ("practice", "rock-1", "--headless", "--virtual-student", "sd_ms=6,fault=late_kick:60", "--loops", "6")
+    assert main([*words, "--no-pictures", "--report", str(folder)]) == 0
+    page, report = page_of(folder), json.loads((folder / "report.json").read_text())
+    advice = report["advice"][0]
+    assert advice["fault"] == "late_kick"
+    (where, measured, drill) = page.next_steps[0].details
+    assert page.next_steps[0].text == report["session"]["next"][0]
+    assert where.startswith("Heard in bar")
+    low, high = advice["ci"]
+    assert measured == f"Measured: +{advice['effect']:.0f} ms (95 %: +{low:.0f} to +{high:.0f})"
+    assert drill.startswith("Drill: ")
+    assert drill.endswith(f"at {advice['drill']['tempo_bpm']:.0f} bpm, kick alone")

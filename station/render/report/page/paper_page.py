@@ -116,7 +116,10 @@ def _bars(flow: PaperFlow, bars: JudgedBars) -> None:
         flow.words_at(STATE_WORDS[state], (x + 12.0, flow.y + 1.5), SOFT, 100.0)
         x += 92.0
     flow.gap(18.0)
-    often = f"Each note as it was in most of {bars.passes} passes, early and late by its mean. " * (bars.passes > 1)
+    often = (
+        f"Each note as it was over {bars.passes} passes: missed where half of them missed it, else early and late by"
+    )
+    often = f"{often} its mean. " * (bars.passes > 1)
     flow.paragraph(f"{often}On time is within {bars.on_time_ms:g} ms.", SOFT)
 
 

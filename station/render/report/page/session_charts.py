@@ -20,6 +20,8 @@ def session_charts(page: SessionPage, atlas: Atlas) -> Iterator[Chart]:
         yield lean_chart("Piece by piece", page.pieces, on_time_ms, atlas)
         if page.limbs:
             yield lean_chart("Limb by limb", page.limbs, on_time_ms, atlas)
+    if page.hands:
+        yield lean_chart("Hands beside their common motion", page.hands, on_time_ms, atlas)
     if page.by_bar:
         yield bar_chart(page.by_bar, on_time_ms, atlas)
     if len(page.tempo.at_s):

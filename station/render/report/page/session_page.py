@@ -192,7 +192,8 @@ class SessionPage:
     """One session.
 
     `labels` are rows of what and which, such as ("Tempo", "80 bpm"); `score` 0–100; `remarks` come before all figures,
-    for they change how those are read. `lists` are further words; `foot` small print.
+    for they change how those are read. `hands` are set against the motion that both have in common, where sensors on
+    the sticks tell it: late there is behind. `lists` are further words; `foot` small print.
     """
 
     title: str
@@ -216,6 +217,7 @@ class SessionPage:
     timing: StrokeTiming
     pieces: tuple[GroupFigures, ...]
     limbs: tuple[GroupFigures, ...]
+    hands: tuple[GroupFigures, ...]
     by_bar: tuple[BarFigures, ...]
     loudness: tuple[LoudnessRow, ...]
     tempo: TempoLine
