@@ -440,7 +440,7 @@ def main() -> None:
     faults = 0
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        os.environ["XDG_CONFIG_HOME"] = name
+        os.environ["XDG_CONFIG_HOME"] = os.environ["XDG_DATA_HOME"] = name
         os.chdir(folder)
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             for words in _FIRST:

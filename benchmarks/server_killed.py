@@ -67,7 +67,7 @@ def main() -> None:
         words = ["practice", "rock-1", "--no-demonstration", "--no-pictures", "--loops", "500", "--kit", KIT]
         with subprocess.Popen(
             [sys.executable, "-m", "station.cli.command_line", *words, "--report", f"{name}/session"],
-            env={**os.environ, "XDG_CONFIG_HOME": name, "HOME": name},
+            env={**os.environ, "XDG_CONFIG_HOME": name, "XDG_DATA_HOME": name, "HOME": name},
             stdin=slave,
             stdout=slave,
             stderr=slave,

@@ -92,7 +92,13 @@ def play(home: Path, period: int, seconds: float, a_second: float) -> Run:
             f"drums = '{pulse_kit(home / 'kit')}'\nlevels = 'click=0 demonstration=0'\n",
             "utf-8",
         )
-        environment = {**installed(str(home)), **server.env, **screen, "XDG_CONFIG_HOME": str(home)}
+        environment = {
+            **installed(str(home)),
+            **server.env,
+            **screen,
+            "XDG_CONFIG_HOME": str(home),
+            "XDG_DATA_HOME": str(home),
+        }
         words = ["practice", "--watch-seconds", f"{lasts_s:g}", "--no-demonstration", "--no-adapt"]
         words += ["--loops", str(ceil((seconds + _FIRST_S) / _PASS_S))]
         with (

@@ -41,8 +41,10 @@ def _documents(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
 
 @pytest.fixture(autouse=True)
 def _nobodys_sessions(_documents: Iterator[Path], monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every test begins without any session, and keeps none among the documents of whoever runs it."""
-    monkeypatch.setenv("XDG_DOCUMENTS_DIR", str(next(_documents)))
+    """Every test begins without any session or history, and keeps none where whoever runs it has theirs."""
+    documents = next(_documents)
+    monkeypatch.setenv("XDG_DOCUMENTS_DIR", str(documents))
+    monkeypatch.setenv("XDG_DATA_HOME", str(documents.with_name(f"data-{documents.name}")))
 
 
 @pytest.fixture(scope="session")

@@ -129,7 +129,13 @@ def main() -> None:
         return
     for environment in screen(asked.size):
         with tempfile.TemporaryDirectory() as config, JackServer(period_frames=256, patient=True) as jack:
-            inside = {**environment, **jack.env, "DISPLAY": environment["DISPLAY"], "XDG_CONFIG_HOME": config}
+            inside = {
+                **environment,
+                **jack.env,
+                "DISPLAY": environment["DISPLAY"],
+                "XDG_CONFIG_HOME": config,
+                "XDG_DATA_HOME": config,
+            }
             subprocess.run([sys.executable, *sys.argv, "--here"], env=inside, check=True)
 
 

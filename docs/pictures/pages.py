@@ -52,10 +52,12 @@ from station.gui.panels.playback_row import PREVIOUS_LABEL  # noqa: E402
 from station.gui.panels.practice_panel import PRACTICE  # noqa: E402
 from station.gui.panels.sound.sound_panel import CLICK_TAB, DRUMS_TAB, LEVELS_TAB, OUTPUT_TAB, SOUND, TRACK_TAB  # noqa: E402
 from station.gui.panels.view_popup import LOOK_LABEL  # noqa: E402
-from station.practice.history.session_files import session_folder  # noqa: E402
-from station.practice.records.memory import Memory  # noqa: E402
+from station.practice.history.old_mastery import mastery_row  # noqa: E402
+from station.practice.history.session_files import session_name  # noqa: E402
 from station.render.files.png_file import write_png  # noqa: E402
 from station.render.gpu.moving_parts import DoublePlace  # noqa: E402
+from station.store.opening import history_of  # noqa: E402
+from station.store.rows import KeptSession, SessionRow  # noqa: E402
 from station.sync.air.air_file import air_path, save_air  # noqa: E402
 from station.sync.air.air_zones import AirKit, AirZone  # noqa: E402
 from tests.fakes.stick_physics import Sensor, Stroke, measured, strokes_by_angle  # noqa: E402
@@ -88,7 +90,7 @@ def _learnt(drive: Drive) -> None:
     ):
         lesson = find_lesson(name)
         state = replace(new_item(item_of(lesson), today), probes=probes, review=review)
-        Memory.of(settings.sessions_dir, settings.student, name, lesson.loop).keep(state)
+        history_of(settings).remember(settings.student, [mastery_row(state)])
 
 
 def _courses(drive: Drive, ctx: Context) -> None:
@@ -103,7 +105,8 @@ def _who(drive: Drive, ctx: Context) -> None:
     settings = load_settings(drive.settings)
     for name, day in (("Ann Lee", 1), ("Bea", 2), ("Cem", 9)):
         started = datetime.now() - timedelta(days=day)
-        session_folder(settings.sessions_dir, name, "rock-1", started)
+        row = SessionRow(name, session_name(started, "rock-1"), started, "", lesson="rock-1")
+        history_of(settings).keep(KeptSession(row))
     ctx.item_click(f"//Lessons/{WHO_LABEL}")
     ctx.yield_(20)
 
@@ -418,7 +421,7 @@ def main() -> None:
                     "--here",
                     "--to",
                 ]
-                inside = {**environment, "XDG_CONFIG_HOME": config}
+                inside = {**environment, "XDG_CONFIG_HOME": config, "XDG_DATA_HOME": config}
                 subprocess.run([*asked, str(wish.to.absolute())], env=inside, check=True, stdout=subprocess.DEVNULL)
 
 

@@ -12,12 +12,14 @@ from imgui_bundle import imgui
 from window_sizes import main, run, shot
 
 from station.app.actions.today_actions import LookAtDay
+from station.core.settings import Settings
 from station.drills.library import find_lesson
 from station.drills.mastery.next_pass import new_item
 from station.drills.mastery.practice_steps import item_of
 from station.drills.mastery.reviews import Review
 from station.gui.panels.today_panel import TODAY
-from station.practice.records.memory import Memory
+from station.practice.history.old_mastery import mastery_row
+from station.store.opening import history_of
 from tests.gui.drive import Drive, open_panel
 from tests.gui.planned_day import practised
 
@@ -31,7 +33,7 @@ def draw(folder: Path, size: tuple[int, int]) -> None:
         drive = Drive(Path(sessions), None, 1, size)
 
         def scenario(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
-            _practised_before(drive.state.settings.sessions_dir)
+            _practised_before(drive.state.settings)
             open_panel(ctx, TODAY)
             drive.wait_until(ctx, lambda state: state.today.today is not None)
             ctx.mouse_move_to_pos(imgui.ImVec2(2.0, 2.0))
@@ -46,14 +48,14 @@ def draw(folder: Path, size: tuple[int, int]) -> None:
         run(drive, scenario)
 
 
-def _practised_before(sessions: Path) -> None:
+def _practised_before(settings: Settings) -> None:
     """Three days in the book, a lesson that was begun and one whose review is due."""
-    practised(sessions)
+    practised(settings)
     yesterday = date.today() - timedelta(days=1)
     for name, review in (("rock-1", Review()), ("rock-2", Review(yesterday, 0, date.today()))):
         item = item_of(find_lesson(name))
-        memory = Memory.of(sessions, "student", name, item.bars)
-        memory.keep(replace(new_item(item, yesterday), review=review))
+        state = replace(new_item(item, yesterday), review=review)
+        history_of(settings).remember("student", [mastery_row(state)])
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ from station.drills.course import Course
 from station.drills.lesson import Lesson
 from station.drills.lesson_row import row_of
 from station.drills.library import courses_in, find_lesson, lesson_rows, own_lessons, shipped_courses
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.lesson_progress import LessonProgress
 from station.practice.records.memory import LevelMemory
 from station.practice.records.student_progress import student_progress
@@ -69,7 +70,7 @@ class Catalog:
         """How far the student is, by the names of lessons, when a session was kept last."""
         settings = self._store.now
         if self._progress is None or self._progress[0] != settings.student:
-            self._progress = settings.student, student_progress(settings.sessions_dir, settings.student)
+            self._progress = settings.student, student_progress(StudentHistory.of(settings))
         return self._progress[1]
 
     def levels(self) -> Mapping[str, Level]:
@@ -78,8 +79,8 @@ class Catalog:
         if self._levels is None or self._levels[0] != settings.student:
             try:
                 levels, fault = self._level_memory.recall()
-            except DeviceError as refused:
-                levels, fault = {}, str(refused)
+            except DeviceError:  # the history is away, as was said when the window was opened
+                levels, fault = {}, None
             if fault is not None:
                 self._notify(fault)
             self._levels = settings.student, levels
@@ -96,7 +97,7 @@ class Catalog:
 
     @property
     def _level_memory(self) -> LevelMemory:
-        return LevelMemory.of(self._store.now.sessions_dir, self._store.now.student)
+        return LevelMemory(StudentHistory.of(self._store.now))
 
     def learnt(self) -> None:
         """A session was kept: what is known of progress and levels is out of date."""

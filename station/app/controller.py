@@ -58,6 +58,8 @@ class Controller:
             attempt(partial(part.advance, now_ns))
         attempt(lambda: parts.toasts.notify(parts.export.news() or parts.export.written() or ""))
         attempt(lambda: take_imported(parts))
+        if parts.history_opening.advance():
+            parts.look_again()
         if parts.shown.today:
             attempt(lambda: parts.today.advance(date.today(), parts.sessions.practice.stage))
         if parts.shown.teacher:

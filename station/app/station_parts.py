@@ -15,6 +15,7 @@ from station.app.equipment.mapping_editor import MappingEditor
 from station.app.equipment.sticks_editor import SticksEditor
 from station.app.exam_page import ExamPage, ExamSurroundings
 from station.app.export import Exporter
+from station.app.history.history_opening import HistoryOpening
 from station.app.history.history_page import HistoryPage
 from station.app.importer import Importer
 from station.app.phase_page import PhasePage
@@ -36,7 +37,6 @@ from station.app.toasts import Toasts
 from station.app.today_page import TodayPage
 from station.core.errors import StationError
 from station.core.events import DeviceLost
-from station.practice.records.recovery import offer
 
 
 class StationParts:
@@ -50,7 +50,6 @@ class StationParts:
         notify = self.toasts.notify
         if store.fault is not None:
             notify(f"{store.fault}; the defaults hold for what is wrong")
-        notify(offer(store.now) or "")
         self.shown = Show()
         """What is on the screen; nothing else is computed."""
         self.view_settings = view_settings_of(store.now)
@@ -94,6 +93,7 @@ class StationParts:
         self.sound = SoundPage(store, self.engine, self.sessions, rooms)
         self.assigned = AssignedPage(store, ThreadPoolExecutor(1, "assignments"))
         self.history = HistoryPage(store, ThreadPoolExecutor(1, "history"), processes.work)
+        self.history_opening = HistoryOpening(store, notify, ThreadPoolExecutor(1, "history opening"))
 
     def make_ready(self) -> None:
         """Let the kit be heard for what is played alone; raises `DeviceError` while it is measured."""
@@ -115,6 +115,13 @@ class StationParts:
             or self.battle.choice()
             or choice_beside(self.sessions.practice, self.store.now.kicks_start)
         )
+
+    def look_again(self) -> None:
+        """Sessions came into the history: what is known of students and lessons is out of date."""
+        self.sessions.catalog.learnt()
+        self.students.look_again()
+        self.today.look_again()
+        self.history.look_again()
 
     def _rest(self) -> Callable[[], bool]:
         """Let the engine's devices go; returns what says whether it has. Raises `DeviceError` while somebody plays."""
@@ -143,6 +150,7 @@ class StationParts:
             self.song,
             self.sound,
             self.chooser,
+            self.history_opening,
         ):
             part.close()
         if self.sessions.practice.is_playing:

@@ -124,6 +124,10 @@ class TodayPage:
             case _:
                 assert_never(action)
 
+    def look_again(self) -> None:
+        """Something came into the history that this page has not read."""
+        self._known = None
+
     def begin_anew(self) -> None:
         """Another student plays: nothing that is read of the one before is shown; what they wrote is kept."""
         self._coming.clear()

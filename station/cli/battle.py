@@ -7,6 +7,7 @@ from station.app.settings.settings_store import SettingsStore
 from station.cli.battling.battle_options import BattleOptions, battle_rules
 from station.cli.battling.battle_video import check_film, film_battle
 from station.cli.battling.meant_battle import meant_battle
+from station.cli.caught_up import caught_up
 from station.cli.console import print_json, say, write
 from station.cli.options.device_option import wanted_kits
 from station.cli.options.option_fields import Command
@@ -18,6 +19,7 @@ from station.practice.battle.battle_rules import BattleRules
 from station.practice.battle.records.battle_document import battle_document
 from station.practice.battle.records.battle_folder import BattleFolder, battles_cut_off, kept_battle, recovered_battle
 from station.practice.battle.records.battle_report import battle_report
+from station.practice.history.student_history import StudentHistory
 
 STAND_IN = "intermediate,seed=1"
 """Who plays where there is no kit, or where nobody is to be waited for."""
@@ -35,13 +37,13 @@ def run(options: BattleOptions) -> int:
     settings = _wanted(options)
     if options.recover is not None:
         result = recovered_battle(options.recover)
-        _leave(BattleFolder(options.recover, is_new=False), result, options)
+        _leave(BattleFolder(options.recover, StudentHistory.of(settings), is_new=False), result, options)
         film_battle(result, options.video, settings)
         return 0
     if options.network.is_wanted:
         return _over_network(options, settings)
     specs = _virtual_players(options, settings)
-    settings = whose(settings, options.student) if specs else settings
+    settings = caught_up(whose(settings, options.student) if specs else settings)
     rules = battle_rules(options, settings, specs)
     if not specs:
         _check_ports(rules)
@@ -68,7 +70,7 @@ def _over_network(options: BattleOptions, settings: Settings) -> int:
     if len(options.players) > 1:
         raise BadInput("--players", f"{len(options.players)}", "one plays at each station of a network")
     specs = _virtual_players(options, settings)
-    settings = whose(settings, options.student) if specs else settings
+    settings = caught_up(whose(settings, options.student) if specs else settings)
     rules = battle_rules(options, settings, specs)
     with BattleFolder.make(options.report, settings, "network") as folder:
         spec = specs[0] if specs else None
@@ -113,12 +115,14 @@ def _leave(folder: BattleFolder, result: BattleResult, options: BattleOptions) -
             print_json(battle_document(result))
         say("nobody has played a stroke: the battle is not kept")
         return
-    refused: StationError | None = None
+    refused, unkept = None, None
     try:
-        folder.write(result)
+        unkept = folder.write(result)
     except StationError as fault:
         refused = fault
     _print(result, options)
+    if unkept is not None:
+        say(unkept)
     if refused is not None:
         raise refused
     say(f"report   {folder.report}")
@@ -163,7 +167,7 @@ def _is_kit_there(wanted: str) -> bool:
 
 
 def _say_what_was_cut_off(settings: Settings) -> None:
-    for folder in battles_cut_off(settings.sessions_dir, settings.student)[:1]:
+    for folder in battles_cut_off(StudentHistory.of(settings))[:1]:
         say(f"a battle was cut off before it was judged: {folder.name}; station battle --recover {folder} judges it")
 
 

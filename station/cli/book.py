@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from datetime import date
 
+from station.cli.caught_up import caught_up
 from station.cli.console import print_json, say, write
 from station.cli.options.option_fields import Command, flag, option, whole_number
 from station.cli.today import settings_of
@@ -27,7 +28,7 @@ def run(options: BookOptions) -> int:
     from station.practice.book.book_words import book_document, book_text
     from station.practice.book.lesson_book import LessonBook
 
-    book = LessonBook(settings_of(options.student), say)
+    book = LessonBook(caught_up(settings_of(options.student)), say)
     pages = [book.page(day) for day in book.days()[::-1][: options.days]]
     if options.json:
         print_json(book_document(pages, book.returning()))

@@ -109,10 +109,10 @@ def ask(question: str) -> str:
 
 
 class Progress:
-    """Shows how many of `total` pictures are done, on standard error if that is a terminal, else not at all."""
+    """Shows how many of `total` things are done, on standard error if that is a terminal, else not at all."""
 
-    def __init__(self, total: int) -> None:
-        self._total = total
+    def __init__(self, total: int, things: str = "pictures") -> None:
+        self._total, self._things = total, things
         self._is_seen = sys.stderr is not None and sys.stderr.isatty()
         self._began_s = self._next_s = monotonic()
 
@@ -121,7 +121,7 @@ class Progress:
         now_s = monotonic()
         if self._is_seen and (now_s >= self._next_s or done == self._total):
             self._next_s = now_s + _EVERY_S
-            say(f"\r{progress_line(done, self._total, now_s - self._began_s)}\x1b[K", end="")
+            say(f"\r{progress_line(done, self._total, now_s - self._began_s, self._things)}\x1b[K", end="")
 
     def close(self) -> None:
         """Leave the line as it is, and go on below it."""
@@ -129,10 +129,10 @@ class Progress:
             say("")
 
 
-def progress_line(done: int, total: int, passed_s: float) -> str:
+def progress_line(done: int, total: int, passed_s: float, things: str = "pictures") -> str:
     """Such as `████████░░░░  45 %  270 of 600 pictures, 92 a second, 4 s left`."""
     filled = _WIDTH * done // total
-    line = f"{'█' * filled}{'░' * (_WIDTH - filled)} {100 * done // total:3d} %  {done} of {total} pictures"
+    line = f"{'█' * filled}{'░' * (_WIDTH - filled)} {100 * done // total:3d} %  {done} of {total} {things}"
     if not done or passed_s < _SURE_AFTER_S:
         return line
     left_s = passed_s * (total - done) / done

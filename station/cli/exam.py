@@ -7,6 +7,7 @@ from pathlib import Path
 
 from station.app.sessions.session_checks import check_settings
 from station.app.settings.settings_store import SettingsStore
+from station.cli.caught_up import caught_up
 from station.cli.console import print_json, say, write
 from station.cli.input.enter_keys import NextEnter, enter_keys
 from station.cli.options.device_option import devices_option, wanted_kits
@@ -62,6 +63,7 @@ def run(options: ExamOptions) -> int:
         return 0
     if options.virtual_student is not None:
         settings = whose(settings, options.student)
+    caught_up(settings)
     say(rubric_text(piece))
     fault = _hold(Sitting.begin(piece, settings, options.report), options, settings)
     if fault is not None:
@@ -76,6 +78,8 @@ def _hold(sitting: Sitting, options: ExamOptions, settings: Settings) -> Station
         saved = save(sitting.folder, result, document)
         sitting.keep(marks := sitting.marks(result))
     _print(sitting.document(marks), marks_text(marks, sitting.seen_before), options.json)
+    if saved.unkept is not None:
+        say(saved.unkept)
     say(f"report   {sitting.folder.path / TEXT_NAME}")
     return saved.fault or fault
 

@@ -62,13 +62,14 @@ def _catalog() -> _Catalog:
     from station.app.settings.settings_store import SettingsStore
     from station.drills.lesson_row import row_of
     from station.drills.library import courses_in, lesson_rows, own_lessons, shipped_courses
+    from station.practice.history.student_history import StudentHistory
     from station.practice.records.student_progress import student_progress
 
     settings = SettingsStore().now
     own, _ = courses_in(settings.courses_dir)
     rows = {row.name: row for row in lesson_rows()}
     rows |= {name: row_of(lesson) for name, lesson in own_lessons(own, settings.own_lessons_dir, rows).items()}
-    return _Catalog(rows, (*own, *shipped_courses()), student_progress(settings.sessions_dir, settings.student))
+    return _Catalog(rows, (*own, *shipped_courses()), student_progress(StudentHistory.of(settings)))
 
 
 def run(options: LessonsOptions) -> int:

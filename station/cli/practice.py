@@ -8,6 +8,7 @@ from typing import Any
 from station.app.equipment.diagnostics import has_screen
 from station.app.sessions.session_checks import check_settings
 from station.app.settings.settings_store import SettingsStore
+from station.cli.caught_up import caught_up
 from station.cli.console import say
 from station.cli.options.device_option import wanted_kits, wanted_sticks
 from station.cli.options.option_fields import Command
@@ -18,6 +19,7 @@ from station.cli.practising.practice_report import leave_report
 from station.core.errors import BadInput
 from station.core.settings import Settings, with_said
 from station.drills.lesson import Lesson
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.earlier_lags import fair_session
 from station.practice.records.lesson_order import first_words, followed_course, shipped_title
 from station.practice.records.memory import Memory, Remembered, following_lesson
@@ -36,7 +38,7 @@ def run(options: PracticeOptions) -> int:
     store = _wanted(options)
     settings = store.now
     if options.recover is not None:
-        return _recover(SessionFolder.left_over(options.recover), options, settings)
+        return _recover(SessionFolder.left_over(options.recover, settings), options, settings)
     return _todays_block(options, store) if options.today else _practise(options, store)
 
 
@@ -75,7 +77,7 @@ def _practise(options: PracticeOptions, store: SettingsStore) -> int:
 def _say_what_comes_first(lesson: Lesson, settings: Settings) -> None:
     """Name the lessons that should come before; the window does so itself."""
     if lesson.prerequisites:
-        progress = student_progress(settings.sessions_dir, settings.student)
+        progress = student_progress(StudentHistory.of(settings))
         for line in first_words(lesson.prerequisites, progress, shipped_title):
             say(line)
 
@@ -88,7 +90,7 @@ def _virtual(asked: AskedPractice, spec: str, options: PracticeOptions, settings
     from station.simulation.student_spec import parse_spec
 
     student, plan = parse_spec(spec), asked.plan
-    settings = whose(settings, options.student)
+    settings = caught_up(whose(settings, options.student))
     remembered = _remembered(asked, settings, options.student is not None) if options.adapt else None
     with SessionFolder.make(options.report, settings, plan.lesson.name) as folder:
         if remembered is None:
@@ -105,7 +107,7 @@ def _virtual(asked: AskedPractice, spec: str, options: PracticeOptions, settings
 def _live(asked: AskedPractice, options: PracticeOptions, settings: Settings) -> int:
     from station.cli.practising.terminal import practise_in_terminal
 
-    cut_off = offer(settings)
+    cut_off = offer(caught_up(settings))
     if cut_off is not None:
         say(cut_off)
     remembered = _remembered(asked, settings, keeps=True) if options.adapt else None
@@ -126,7 +128,7 @@ def _live(asked: AskedPractice, options: PracticeOptions, settings: Settings) ->
 def _remembered(asked: AskedPractice, settings: Settings, keeps: bool) -> Remembered:
     """Practice that follows the student; what could not be read is said at once."""
     lesson, bars, today = asked.plan.lesson, asked.plan.bars, date.today()
-    memory = Memory.of(settings.sessions_dir, settings.student, lesson.name, bars) if keeps else None
+    memory = Memory(StudentHistory.of(settings), lesson.name, bars) if keeps else None
     wishes = wishes_of(settings, today)
     followed = Remembered.of(lesson, asked.options, today, memory, followed_course(settings), wishes)
     if followed.fault is not None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from datetime import date
 from typing import TYPE_CHECKING
 
+from station.cli.caught_up import caught_up
 from station.cli.console import print_json, say, write
 from station.cli.options.option_fields import Command, flag, option, whole_number
 
@@ -29,7 +30,7 @@ def run(options: TodayOptions) -> int:
     from station.practice.book.book_words import today_document, today_text
     from station.practice.book.lesson_book import LessonBook
 
-    settings, today = settings_of(options.student), date.today()
+    settings, today = caught_up(settings_of(options.student)), date.today()
     book = LessonBook(settings, say)
     page = book.today(today, options.minutes)
     if options.leave_out and (following := page.progress.next) is not None:

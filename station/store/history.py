@@ -88,11 +88,19 @@ class History:
             return sessions.sessions_of(connection, student_key(student), state, since, until)
 
     def latest(
-        self, student: str, most: int, kind: SessionKind = SessionKind.LESSON, lesson: str | None = None
+        self,
+        student: str,
+        most: int,
+        kind: SessionKind = SessionKind.LESSON,
+        lesson: str | None = None,
+        until: datetime | None = None,
     ) -> list[SessionRow]:
-        """The last sessions of a kind that are kept, the newest first; of one lesson, or of any (None)."""
+        """The last sessions of a kind that are kept, the newest first; of one lesson, or of any (None).
+
+        Those that were begun before `until`, or whenever (None).
+        """
         with self.database.reading() as connection:
-            return sessions.latest_of(connection, student_key(student), most, kind, lesson)
+            return sessions.latest_of(connection, student_key(student), most, kind, lesson, until)
 
     def session_names(self, student: str, state: SessionState = SessionState.KEPT) -> frozenset[str]:
         """What a student's sessions are called."""
@@ -165,6 +173,11 @@ class History:
                 memory_rows.put_mastery(connection, student, row)
             for lesson, level in (levels or {}).items():
                 memory_rows.put_level(connection, student, lesson, level)
+
+    def remember_new(self, student: str, mastery: Iterable[MasteryRow], levels: Mapping[str, str]) -> None:
+        """Remember what is known of other bars and lessons than those that are remembered already."""
+        with self.database.writing() as connection:
+            memory_rows.put_new(connection, student, mastery, levels)
 
     def levels(self, student: str) -> Mapping[str, str]:
         """The level of each lesson of a student, by the lesson's name."""

@@ -1,12 +1,13 @@
 """What is remembered of a student beside their sessions: mastery, levels, teachers' notes; on one connection."""
 
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from datetime import datetime
 
 from sqlalchemy import Connection, select
 
 from station.store.rows import MasteryRow, TeacherNoteRow
+from station.store.student_names import student_key
 from station.store.students import student_id
 from station.store.tables import LEVELS, MASTERY, STUDENTS, TEACHER_NOTES
 from station.store.upserts import put, put_if_new
@@ -43,6 +44,19 @@ def levels_of(connection: Connection, key: str) -> Mapping[str, str]:
     """The level of each lesson of a student by its name."""
     wanted = select(LEVELS.c.lesson, LEVELS.c.level).join(STUDENTS).where(STUDENTS.c.key == key)
     return {each.lesson: each.level for each in connection.execute(wanted)}
+
+
+def put_new(connection: Connection, student: str, mastery: Iterable[MasteryRow], levels: Mapping[str, str]) -> None:
+    """Remember what is known of bars and lessons of which nothing is."""
+    key = student_key(student)
+    known = {(row.lesson, row.first_bar, row.last_bar) for row in mastery_of(connection, key)}
+    judged = levels_of(connection, key)
+    for row in mastery:
+        if (row.lesson, row.first_bar, row.last_bar) not in known:
+            put_mastery(connection, student, row)
+    for lesson, level in levels.items():
+        if lesson not in judged:
+            put_level(connection, student, lesson, level)
 
 
 def put_note(connection: Connection, student: str, row: TeacherNoteRow) -> None:

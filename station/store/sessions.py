@@ -98,12 +98,15 @@ def sessions_of(
     return [_row(each) for each in connection.execute(wanted.order_by(SESSIONS.c.started, SESSIONS.c.name))]
 
 
-def latest_of(connection: Connection, key: str, most: int, kind: SessionKind, lesson: str | None) -> list[SessionRow]:
+def latest_of(
+    connection: Connection, key: str, most: int, kind: SessionKind, lesson: str | None, until: datetime | None
+) -> list[SessionRow]:
     """The last sessions of a kind that a student has kept, the newest first; of one lesson, or of any (None)."""
     wanted = _all().where(
         STUDENTS.c.key == key, SESSIONS.c.state == SessionState.KEPT.value, SESSIONS.c.kind == kind.value
     )
     wanted = wanted if lesson is None else wanted.where(SESSIONS.c.lesson == lesson)
+    wanted = wanted if until is None else wanted.where(SESSIONS.c.started < until)
     newest = wanted.order_by(SESSIONS.c.started.desc(), SESSIONS.c.name.desc()).limit(most)
     return [_row(each) for each in connection.execute(newest)]
 

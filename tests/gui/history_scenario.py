@@ -17,6 +17,7 @@ from station.gui.panels.history.sessions_part import ALL_LABEL, SEARCH_LABEL, se
 from station.gui.panels.history.weeks_part import PART_LABELS
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.history.session_intake import take_in
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.report.session_report import practice_document
 from station.practice.records.save_session import SessionFolder
 from station.practice.session.plan import PlanOptions, plan_practice
@@ -95,7 +96,7 @@ def _kept(drive: Drive, sessions: Path) -> int:
     plan = plan_practice(find_lesson("rock-1"), PlanOptions(loops=2))
     played = practise_virtually(plan, parse_spec("seed=4,miss_pct=5"), folder / "session.capture")
     document = practice_document(played.result, settings)
-    SessionFolder(folder, is_new=False).write(played.result, document)
+    SessionFolder(folder, StudentHistory.of(settings), is_new=False).write(played.result, document)
     number = take_in(kept, settings.student, folder)
     assert number is not None
     drive.seen["score"] = document["score"]

@@ -12,6 +12,7 @@ from station.gui.panels.lessons.who_plays import NEW_NAME, WHO_LABEL
 from station.gui.panels.lessons_panel import ADD_LABEL
 from station.gui.panels.lessons_panel import IMPORT_LABEL as OPEN_IMPORT_LABEL
 from station.gui.widgets.level_choice import LEVEL_LABEL
+from station.store.opening import history_of
 from tests.gui.drive import Drive, open_panel, open_popup, to_list, to_options
 from tests.gui.dropped_files import drop_files
 
@@ -35,7 +36,7 @@ def search(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
 
 def whose(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Another student is written down and plays, a pad lets the first one play again; Start is always at one place."""
-    (Path(drive.state.settings.sessions_dir) / "Cem" / "mastery").mkdir(parents=True)
+    history_of(drive.state.settings).remember("Cem", levels={"rock-1": "beginner"})
     drive.choose(ctx, passes=3)
     places = drive.seen["start"] = [place_of_start(ctx)]
     to_options(ctx)

@@ -2,22 +2,23 @@
 
 import json
 from datetime import date, timedelta
-from pathlib import Path
 
 from imgui_bundle import imgui
 
 from station.app.room_state import Stage
 from station.app.window_state import State
+from station.core.settings import Settings
 from station.gui.panels.practice_panel import PRACTICE
 from station.gui.panels.today_panel import LEAVE_OUT_LABEL, START_LABEL, TODAY
 from station.practice.book.book_day import BookDay, BookFolder
+from station.practice.history.catching_up import catch_up
 from tests.gui.drive import Drive, open_panel
 
 
 def planned_day(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Everything in one window, after three days of practice."""
     seen, sessions = drive.seen, drive.state.settings.sessions_dir
-    practised(sessions)
+    practised(drive.state.settings)
     open_panel(ctx, TODAY)
     drive.wait_until(ctx, lambda state: state.today.today is not None)
     ctx.yield_(5)
@@ -56,8 +57,9 @@ def planned_day(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     seen["unread of practice"] = drive.unread(ctx)
 
 
-def practised(sessions: Path) -> None:
-    """Three days of a student's book, and the reports of what was played on them."""
+def practised(settings: Settings) -> None:
+    """Three days of a student's book, and what was played on them."""
+    sessions = settings.sessions_dir
     folder = BookFolder.of(sessions, "student")
     for ago, minutes in ((1, 18.0), (2, 9.0), (4, 21.0)):
         day = date.today() - timedelta(days=ago)
@@ -70,6 +72,7 @@ def practised(sessions: Path) -> None:
         if ago == 1:
             exam = {"schema": "drum-station/exam/1", "marks": {"total": 82.4, "band": "merit"}}
             (path / "exam.json").write_text(json.dumps(exam))
+    catch_up(settings, list[str]().append)
 
 
 def _plan(state: State) -> BookDay:

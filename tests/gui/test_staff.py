@@ -22,7 +22,7 @@ KICK = 'kick  = "| o- -- o- -- | o- -- oo -- |"\n'
 def environment(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
     for found in screen("1300x1320"):
         home = tmp_path_factory.mktemp("config")
-        yield {**found, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(home)}
+        yield {**found, "PYTHONPATH": str(ROOT), "XDG_CONFIG_HOME": str(home), "XDG_DATA_HOME": str(home / "data")}
 
 
 def test_a_groove_is_written_by_clicks_on_the_staff(environment: dict[str, str], tmp_path: Path) -> None:

@@ -32,7 +32,7 @@ def environment() -> Iterator[dict[str, str]]:
 
 def alone(environment: dict[str, str], folder: Path) -> dict[str, str]:
     """The same with settings and kits that are nobody's own, and this test's alone."""
-    return {**environment, "XDG_CONFIG_HOME": str(folder / "config")}
+    return {**environment, "XDG_CONFIG_HOME": str(folder / "config"), "XDG_DATA_HOME": str(folder / "data")}
 
 
 def run(scenario: str, environment: dict[str, str], folder: Path) -> dict[str, Any]:

@@ -23,7 +23,8 @@ def environment() -> Iterator[dict[str, str]]:
 
 @pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGINT])
 def test_a_signal_closes_the_window_in_order(end: signal.Signals, environment: dict[str, str], tmp_path: Path) -> None:
-    env = {**environment, "HOME": str(tmp_path), "XDG_CONFIG_HOME": str(tmp_path / "config")}
+    own = {f"XDG_{kind}_HOME": str(tmp_path / kind.lower()) for kind in ("CONFIG", "DATA")}
+    env = {**environment, "HOME": str(tmp_path), **own}
     with subprocess.Popen(WINDOW, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as window:
         assert window.stdout is not None
         assert "open_ns" in json.loads(window.stdout.readline())

@@ -46,6 +46,7 @@ from station.practice.battle.link.linked_station import LinkedStation
 from station.practice.battle.records.battle_report import played_on_words
 from station.practice.battle.records.earlier_rounds import after_earlier
 from station.practice.battle.vocabulary.lesson_bars import lesson_bars
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.memory import LevelMemory
 from station.practice.session.cues.click_options import parse_click
 from station.practice.session.cues.listening import Listening
@@ -219,7 +220,7 @@ class BattlePage:
         """Judge by the student's level until they choose another here."""
         now = self._store.now
         if self._level_of != now.student:
-            level = LevelMemory.of(now.sessions_dir, now.student).usual()
+            level = LevelMemory(StudentHistory.of(now)).usual()
             self._level_of, self._setup = now.student, replace(self._setup, level=level)
 
     def _read_ahead(self) -> None:
@@ -234,7 +235,7 @@ class BattlePage:
         if self._setup.is_linked:
             self._ask_friend()
             return
-        rules = after_earlier(self._rules(), self._store.now.sessions_dir, self._setup.is_fair)
+        rules = after_earlier(self._rules(), self._store.now, self._setup.is_fair)
         self._around.make_ready()
         self._sessions.battle(battle_here(rules))
         self._is_open, self._leaf = True, 0
@@ -243,7 +244,7 @@ class BattlePage:
         """Host, or join: the battle begins once a friend is there."""
         if self._friend.waits or self.stage is BattleStage.PLAYING:
             return
-        rules = after_earlier(self._rules(), self._store.now.sessions_dir, has_handicap=False)
+        rules = after_earlier(self._rules(), self._store.now, has_handicap=False)
         self._around.make_ready()
         if self.stage is BattleStage.OVER:
             self._sessions.leave_battle()

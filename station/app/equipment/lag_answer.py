@@ -4,18 +4,18 @@ A result like those of the four ways to measure, `groove`: it is stored as they 
 as taps have.
 """
 
+import json
 from dataclasses import replace
 from datetime import date
 from typing import Any
 
 from station.app.equipment.calibration_results import CalibrationResult, CalibrationResults, with_rows
-from station.core.disk.file_names import folder_name
-from station.core.errors import BadInput, DeviceError
+from station.core.errors import DeviceError
 from station.core.measured_latency import GROOVE, StoredCalibration
 from station.core.settings import Settings
 from station.engine.latency_measurement import Devices
-from station.practice.history.kept_json import kept_document
 from station.practice.history.session_files import DOCUMENT_NAME
+from station.practice.history.student_history import StudentHistory
 from station.practice.lag.session_lag import LagAnswer, LagTarget, SessionLag
 from station.practice.session.device_latency import Latency
 from station.scoring.analysis.device_lag import LagCause, SharedLag
@@ -56,10 +56,9 @@ def with_lag_left(known: StoredCalibration, target: LagTarget) -> StoredCalibrat
 
 def last_lag(settings: Settings) -> tuple[CalibrationResults, LagTarget]:
     """The lag that the student's last session left open, as a measurement; raises `DeviceError` where it left none."""
-    folder = settings.sessions_dir / folder_name(settings.student)
-    sessions = sorted((path for path in folder.glob("*/") if (path / DOCUMENT_NAME).is_file()), reverse=True)
+    last = StudentHistory.of(settings).ask(lambda history, student: history.documents(student, DOCUMENT_NAME, 1))
     try:
-        document: Any = kept_document(sessions[0] / DOCUMENT_NAME) if sessions else None
+        document: Any = json.loads(last[0][1]) if last else None
         session, lag = document["session"], document["lag"]
         if lag["answer"] != LagAnswer.OPEN.value:
             raise DeviceError(_NOTHING)
@@ -68,7 +67,7 @@ def last_lag(settings: Settings) -> tuple[CalibrationResults, LagTarget]:
         low_ms, high_ms = (float(each) for each in lag["ci"])
         found = SharedLag(LagCause(lag["cause"]), float(lag["found_ms"]), low_ms, high_ms)
         moments = sum(int(run["moments"]) for run in lag["runs"])
-    except (BadInput, KeyError, TypeError, ValueError):
+    except (KeyError, TypeError, ValueError, RecursionError):
         raise DeviceError(_NOTHING) from None
     devices = Devices(session["device"], session["output"])
     return CalibrationResults(devices, (_row(target, found, moments, before_ms),)), target

@@ -192,8 +192,8 @@ class BattleSession:
 
     def judged_as(self, level: Level) -> BattleResult:
         """The battle that is over, judged by other windows from what was kept of it; raises `BadInput`."""
-        assert self._folder is not None, "it was begun"
-        return kept_battle(self._folder.path, level)
+        assert self.folder is not None, "it was begun"
+        return kept_battle(self.folder, level)
 
     def finish(self) -> StationError | None:
         """End it, judge all once more and keep it; returns what went wrong."""
@@ -218,7 +218,7 @@ class BattleSession:
             self._folder = None
             folder.discard()
             return
-        folder.write(outcome)
+        self._notify(folder.write(outcome) or "")
 
 
 NewBattle = Callable[[EngineClient, Latency, Body, Notify], BattleSession]

@@ -9,7 +9,7 @@ import numpy as np
 
 from station.app.room_state import FreeRequest
 from station.app.settings.settings_store import SettingsStore
-from station.core.errors import StationError
+from station.core.errors import DeviceError, StationError
 from station.core.settings import setting_source
 from station.core.units import NS_PER_S
 from station.devices.capture.capture import read_capture
@@ -28,6 +28,7 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.free_play import BEATS, FreeClick, FreePlay, listening_back, take_of
 from station.render.snapshot import Hud, SeenStrike, Snapshot, Strip
 from station.scenes.session_scene import STRIKE_SHOWN_NS, strikes
+from station.store.rows import SessionKind
 
 IN_SIGHT = 256
 """The last strokes that the strip may show while a take runs: eight seconds of 32 a second; our choice."""
@@ -76,7 +77,7 @@ class FreeSession:
         settings = self._store.now
         pattern = parse_click(settings.click_pattern, setting_source("click_pattern")) if request.click else None
         play = FreePlay(FreeClick(request.tempo_bpm, pattern), self._latency)
-        folder = SessionFolder.make(None, settings, FOLDER)
+        folder = SessionFolder.make(None, settings, FOLDER, SessionKind.TAKE)
         try:
             begin(engine, play, folder.capture)
         except StationError:
@@ -104,7 +105,8 @@ class FreeSession:
         self._take = Performance.from_hits(self._play.hits)
         if self._folder is not None:
             try:
-                self._folder.keep_take(self._play.document(self._store.now.student))
+                unkept = self._folder.keep_take(self._play.document(self._store.now.student))
+                fault = fault or (None if unkept is None else DeviceError(unkept))
             except StationError as refused:
                 fault = refused
         return fault

@@ -9,7 +9,6 @@ from station.practice.battle.battle import Battle
 from station.practice.battle.battle_result import BattleResult
 from station.practice.battle.battle_view import BattleView
 from station.practice.battle.drummed import drummed
-from station.practice.battle.records.battle_folder import BattleFolder
 from station.scenes.battle.kept_views import KeptViews
 from station.scenes.battle.motion_chain import Body
 
@@ -20,7 +19,12 @@ class KeptBattle(BattleSession):
     def __init__(self, engine: EngineClient, outcome: BattleResult, folder: str, player: Body, notify: Notify) -> None:
         super().__init__(engine, Battle(outcome.rules, drummed), player, notify)
         self.outcome = outcome
-        self._folder = BattleFolder(Path(folder), is_new=False) if folder else None
+        self._where = Path(folder) if folder else None
+
+    @property
+    def folder(self) -> Path | None:
+        """Where it is kept, None where that is gone."""
+        return self._where
 
     def handle(self, event: EngineEvent) -> None:
         """Strokes of now are none of it; what the engine says of kits and sound is taken in."""

@@ -4,8 +4,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from station.app.sessions.shown_result import SavedSession, shown_result
-from station.core.errors import StationError
+from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
+from station.practice.history.student_history import StudentHistory
 from station.practice.lag.fair_judgement import FairResult, as_it_came
 from station.practice.lag.session_lag import LagAnswer
 from station.practice.records.report.next_steps import steps_in
@@ -39,9 +40,12 @@ def judged_again(saved: SavedSession, settings: Settings, latency: Latency | Non
         now, before = table_in(document, "session"), saved.report.document["session"]
         document["session"] = {**before, **{key: now[key] for key in _TAKEN_OUT}}  # type: ignore[dict-item]
     document |= {key: saved.report.document[key] for key in _KEPT if key in saved.report.document}  # type: ignore[misc]
-    fault = None
+    fault: StationError | None = None
     try:
-        SessionFolder(Path(saved.report.folder), is_new=False).write(fair.result, document)
+        folder = SessionFolder(Path(saved.report.folder), StudentHistory.of(settings), is_new=False)
+        folder.write(fair.result, document)
+        unkept = folder.keep()
+        fault = None if unkept is None else DeviceError(unkept)
     except StationError as refused:
         fault = refused
     shown = shown_result(fair.result, document, saved.report.folder, saved.report.before)

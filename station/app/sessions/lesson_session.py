@@ -245,6 +245,8 @@ class LessonSession:
         fair = fair_session(result, settings) if self.sitting is None else FairResult(result)
         document = practice_document(fair.result, settings, fair.lag, self._following_lesson(settings))
         saved = save(self._folder, fair.result, document, self._followed)
+        if saved.unkept is not None:
+            self._notify(saved.unkept)
         marks, refused = self._marked(result)
         fault = saved.fault or refused or fault
         steps = steps_in(saved.document) if marks is None else ()
@@ -267,5 +269,5 @@ class LessonSession:
         return marks, None
 
     def _report(self, saved: SessionRecord, folder: SessionFolder) -> ShownResult:
-        before = find_previous(folder.path, self.plan.lesson.name)
+        before = find_previous(folder.whose, folder.path, self.plan.lesson.name)
         return shown_result(saved.result, saved.document, str(folder.path), before)

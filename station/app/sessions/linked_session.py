@@ -68,7 +68,7 @@ class LinkedSession(BattleSession):
         """Write what came of it, and how both stations agree."""
         del outcome
         record = linked_record(self._play.battle)
-        folder.keep(record.document, record.report)
+        self._notify(folder.keep(record.document, record.report) or "")
 
 
 def battle_linked(station: LinkedStation, agreed: Agreed) -> NewBattle:

@@ -16,6 +16,7 @@ from station.drills.lesson import Lesson
 from station.motion.kit.kit import DEFAULT_KIT, Kit, load_kit
 from station.motion.sticking.hand_notes import Hands
 from station.practice.exam.exam_sitting import Sitting
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.lesson_order import followed_course
 from station.practice.records.memory import Memory, Remembered
 from station.practice.records.teachers_wishes import wishes_of
@@ -84,7 +85,7 @@ class SessionPreparation:
         plan = plan_practice(lesson, options)
         if not adapts:
             return PreparedSession(plan)
-        memory = Memory.of(settings.sessions_dir, settings.student, lesson.name, plan.bars)
+        memory = Memory(StudentHistory.of(settings), lesson.name, plan.bars)
         today = date.today()
         followed = Remembered.of(lesson, options, today, memory, followed_course(settings), wishes_of(settings, today))
         return PreparedSession(followed.adaptation.plan, followed)

@@ -70,7 +70,7 @@ class Students:
         settings = self._store.now
         if self._read is None or self._read[0] != settings.student:
             named = [settings.student, *(each.name for each in settings.students)]
-            self._read = settings.student, known_students(settings.sessions_dir, named)
+            self._read = settings.student, known_students(settings, named)
         return self._read[1]
 
     def look_again(self) -> None:

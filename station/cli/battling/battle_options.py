@@ -39,6 +39,7 @@ from station.practice.battle.records.earlier_rounds import after_earlier
 from station.practice.battle.repeating.answer_marks import ACCURACY_WORDS
 from station.practice.battle.repeating.demands import MOST_STEP
 from station.practice.battle.repeating.staircase import FIRST_STEPS
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.memory import LevelMemory
 from station.practice.session.cues.click_options import parse_click
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
@@ -151,7 +152,7 @@ def battle_rules(options: BattleOptions, settings: Settings, specs: Sequence[str
     if options.first_step is not None and not 0 <= options.first_step <= MOST_STEP:
         raise BadInput("--first-step", f"{options.first_step}", f"expected 0 to {MOST_STEP}")
     players = _who(options, settings, specs)
-    level = options.level or LevelMemory.of(settings.sessions_dir, players[0].name).usual()
+    level = options.level or LevelMemory(StudentHistory(settings, players[0].name)).usual()
     rules = BattleRules(
         ground=_ground(options),
         mode=options.mode,
@@ -168,7 +169,7 @@ def battle_rules(options: BattleOptions, settings: Settings, specs: Sequence[str
         click=parse_click(settings.click_pattern, setting_source("click_pattern")),
         keeps_time=keeps_time,
     )
-    return after_earlier(rules, settings.sessions_dir, options.handicap, bool(specs))
+    return after_earlier(rules, settings, options.handicap, bool(specs))
 
 
 def _who(options: BattleOptions, settings: Settings, specs: Sequence[str]) -> tuple[Player, ...]:

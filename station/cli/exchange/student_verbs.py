@@ -6,6 +6,7 @@ from datetime import UTC, date, datetime
 from pathlib import Path
 
 from station.app.settings.settings_store import SettingsStore
+from station.cli.caught_up import caught_up
 from station.cli.console import print_json, say, write
 from station.cli.options.option_fields import argument, flag, option, required, whole_number
 from station.core.counts import counted
@@ -61,7 +62,7 @@ class ReturnOptions:
 
 def settings_of(student: str | None) -> Settings:
     """The settings of this user, for `student` where one is named."""
-    return SettingsStore(said={} if student is None else {"student": student}, source="assignment").now
+    return caught_up(SettingsStore(said={} if student is None else {"student": student}, source="assignment").now)
 
 
 def check_out(out: Path, kind: Kind, overwrite: bool) -> None:

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from station.app.settings.settings_store import SettingsStore
 from station.app.settings.students import Students, forgotten
+from station.cli.caught_up import caught_up
 from station.cli.console import ask, is_attended, say
 from station.cli.options.option_fields import flag, required
 from station.core.did_you_mean import did_you_mean
@@ -30,6 +31,7 @@ def run(options: DeleteOptions) -> int:
     if store.fault is not None:  # another history may be meant than the one that the defaults name
         raise store.fault
     history = history_of(store.now)
+    caught_up(store.now)
     _check_known(store, history, options.student)
     theirs = what_is_theirs(history, store.now, options.student)
     _tell(theirs)

@@ -5,10 +5,11 @@ from dataclasses import dataclass, replace
 from station.cli.console import say
 from station.cli.input.tapping import TAP, tapped_tempo
 from station.cli.practising.practice_options import PracticeOptions
-from station.core.errors import BadInput
+from station.core.errors import BadInput, DeviceError
 from station.core.settings import Settings, setting_source
 from station.core.units import PPQ
 from station.drills.lesson import Lesson
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.memory import LevelMemory
 from station.practice.session.backing_track import BackingRequest, song_request
 from station.practice.session.cues.click_options import parse_click
@@ -120,10 +121,13 @@ def _level(options: PracticeOptions, lesson: Lesson, settings: Settings) -> Leve
         raise BadInput("--level", asked, f"{lesson.name} is judged as {lesson.levels.strictest} at the strictest")
     if options.virtual_student is not None and options.student is None:
         return lesson.levels.level(asked)
-    memory = LevelMemory.of(settings.sessions_dir, settings.student)
-    if asked is not None:
-        memory.keep(lesson.name, asked)
-    levels, fault = memory.recall()
+    memory = LevelMemory(StudentHistory.of(settings))
+    try:
+        if asked is not None:
+            memory.keep(lesson.name, asked)
+        levels, fault = memory.recall()
+    except DeviceError:  # the history is away, as was said; the level that is asked for holds for now
+        levels, fault = {}, None
     if fault is not None:
         say(fault)
     return lesson.levels.level(asked, levels.get(lesson.name))

@@ -29,6 +29,8 @@ def leave_report(
     if may_ask:
         telling.attempt(ask_first, saved.document)
     telling.attempt(_print_report, saved.document, as_json=options.json)
+    if saved.unkept is not None:
+        telling.attempt(say, saved.unkept)
     if saved.fault is not None:
         raise saved.fault
     paths = [folder.path / TEXT_NAME]

@@ -23,6 +23,7 @@ from station.practice.book.book_day import BookDay, BookFolder, one_line
 from station.practice.book.day_progress import DayProgress, day_progress
 from station.practice.book.practised import PractisedSession, days_practised, practised_on
 from station.practice.book.teachers_words import TeacherNote, TeachersWords, teachers_words
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.lesson_order import Progress, followed_course, is_finished
 from station.practice.records.lesson_progress import progress_of
 from station.practice.records.memory import remembered
@@ -99,12 +100,12 @@ class LessonBook:
 
     def days(self) -> list[date]:
         """The days of which there is anything, in order."""
-        practised = days_practised(self._settings.sessions_dir, self._settings.student)
+        practised = days_practised(StudentHistory.of(self._settings))
         return sorted({*practised, *self._folder.days(), *(note.day for note in self._teachers.notes)})
 
     def returning(self) -> list[Returning]:
         """What returns and when, the nearest first."""
-        states = remembered(self._settings.sessions_dir, self._settings.student)
+        states = remembered(StudentHistory.of(self._settings))
         due = sorted({(state.review.due, state.item.name) for state in states if state.review.due is not None})
         rows = _lessons(self._settings)[0] if due else {}
         return [Returning(name, rows[name].title if name in rows else name, day) for day, name in due]
@@ -121,7 +122,7 @@ class LessonBook:
         return kept
 
     def _page(self, kept: BookDay) -> DayPage:
-        sessions = practised_on(self._settings.sessions_dir, self._settings.student, [kept.day])
+        sessions = practised_on(StudentHistory.of(self._settings), [kept.day])
         return DayPage(kept, day_progress(kept, sessions), tuple(sessions), self._teachers.on(kept.day))
 
     @cached_property
@@ -145,7 +146,7 @@ def day_facts(
 
     Who follows none is given the first of the shipped ones that is not finished.
     """
-    states = remembered(settings.sessions_dir, settings.student)
+    states = remembered(StudentHistory.of(settings))
     rows, own = _lessons(settings)
     progress = progress_of(states)
     followed = followed_course(settings)

@@ -1,24 +1,11 @@
-"""What was practised on which day: read from the reports that sessions and free takes leave in their folders.
-
-A day may hold hundreds of sessions, and a student years of days: only the folders of the days that are asked for are
-looked into, and of each report a few keys.
-"""
+"""What was practised on which day, as the history has it: sessions of lessons and free takes."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
-from datetime import date, datetime
-from pathlib import Path
-from typing import Any
+from dataclasses import dataclass
+from datetime import date, datetime, timedelta
 
-from station.core.errors import BadInput
-from station.practice.history.exam_words import exam_result
-from station.practice.history.kept_json import kept_document
-from station.practice.history.session_files import DOCUMENT_NAME, EXAM_NAME, TAKE_NAME, student_folder
-
-MOST_BYTES = 30_000_000
-"""A report of an hour has a few (our choice): more is nobody's report."""
-_STARTED, _STARTED_LETTERS = "%Y-%m-%dT%H-%M-%S", 19
-_MOST_S = 86_400.0
+from station.practice.history.student_history import StudentHistory
+from station.store.rows import SessionKind, SessionRow
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,71 +25,33 @@ class PractisedSession:
     beats_a_minute: float | None = None
     exam: str = ""
 
+    @classmethod
+    def of(cls, row: SessionRow) -> "PractisedSession":
+        """What a row says."""
+        return cls(
+            row.started,
+            row.lesson,
+            row.title,
+            row.played_s,
+            row.complete,
+            row.score,
+            row.beats_a_minute if row.kind is SessionKind.LESSON else None,
+            row.exam,
+        )
 
-def practised_on(sessions: Path, student: str, days: Iterable[date]) -> list[PractisedSession]:
-    """All sessions of those days, in the order in which they began; folders that are none are left out."""
-    top = student_folder(sessions, student)
-    found = (_session(path) for day in set(days) for path in top.glob(f"{day.isoformat()}T*"))
-    return sorted((one for one in found if one is not None), key=lambda one: one.started)
+
+def practised_on(whose: StudentHistory, days: Iterable[date]) -> list[PractisedSession]:
+    """All sessions of those days but battles, in the order in which they began."""
+    rows = (row for day in sorted(set(days)) for row in _rows_of(whose, day))
+    return [PractisedSession.of(row) for row in rows if row.kind is not SessionKind.BATTLE]
 
 
-def days_practised(sessions: Path, student: str) -> list[date]:
+def days_practised(whose: StudentHistory) -> list[date]:
     """The days on which anything was, in order."""
-    top = student_folder(sessions, student)
-    started = (_started(path.name) for path in top.glob("????-??-??T*"))
-    return sorted({one.date() for one in started if one is not None})
+    return sorted({row.started.date() for row in whose.ask(lambda history, student: history.sessions(student)) or []})
 
 
-def _session(folder: Path) -> PractisedSession | None:
-    started = _started(folder.name)
-    if started is None:
-        return None
-    try:
-        if (folder / DOCUMENT_NAME).exists():
-            return replace(_lesson(started, _document(folder / DOCUMENT_NAME)), exam=_exam(folder))
-        if (folder / TAKE_NAME).exists():
-            take = _document(folder / TAKE_NAME)
-            return PractisedSession(started, "", "Just play", _seconds(take["length_s"]), complete=True)
-    except (ValueError, KeyError, TypeError, BadInput):
-        return None  # a session that was cut off, or somebody else's folder
-    return None
-
-
-def _exam(folder: Path) -> str:
-    try:
-        return exam_result(_document(folder / EXAM_NAME))
-    except (BadInput, TypeError):
-        return ""
-
-
-def _lesson(started: datetime, document: dict[str, Any]) -> PractisedSession:
-    session, score = document["session"], document["score"]
-    return PractisedSession(
-        started,
-        lesson=str(session["lesson"]),
-        title=str(session["title"]),
-        played_s=_seconds(session.get("played_s", 0.0)),  # old reports tell none
-        complete=bool(session["complete"]),
-        score=float(score) if isinstance(score, float | int) else None,
-        beats_a_minute=float(session["beats_a_minute"]),
-    )
-
-
-def _document(path: Path) -> dict[str, Any]:
-    document = kept_document(path, MOST_BYTES)
-    if not isinstance(document, dict):
-        raise TypeError
-    return document
-
-
-def _seconds(value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value <= _MOST_S:
-        raise ValueError
-    return float(value)
-
-
-def _started(name: str) -> datetime | None:
-    try:
-        return datetime.strptime(name[:_STARTED_LETTERS], _STARTED)
-    except ValueError:
-        return None
+def _rows_of(whose: StudentHistory, day: date) -> list[SessionRow]:
+    begin = datetime.combine(day, datetime.min.time())
+    end = begin + timedelta(days=1) if day < date.max else None
+    return whose.ask(lambda history, student: history.sessions(student, begin, end)) or []

@@ -1,24 +1,21 @@
 """What is kept of an exam and told of it: `exam.json` beside the session's report, and both as text.
 
-Schema `drum-station/exam/1` (docs/exam.md). Which unseen pieces a student has met is read from these files: a piece
-that was shown once is unseen no more, and its next exam says so.
+Schema `drum-station/exam/1` (docs/exam.md). Which unseen pieces a student has met the history knows by these documents:
+a piece that was shown once is unseen no more, and its next exam says so.
 """
 
-from collections.abc import Iterator
+import json
 from pathlib import Path
 
 from station.core.counts import counted
-from station.core.errors import BadInput
 from station.drills.exam.exam_piece import ExamPiece, Unseen
 from station.drills.exam.rubric import BANDS, Marks, Rubric
 from station.practice.history.exam_words import SCHEMA, shown_total
-from station.practice.history.kept_json import kept_document
-from station.practice.history.session_files import EXAM_NAME, student_folder, write_document
+from station.practice.history.session_files import EXAM_NAME, write_document
+from station.practice.history.student_history import StudentHistory
 from station.scoring.report.assessment_document import Json
 
 _WIDTH = 10
-_MOST_BYTES = 100_000
-"""Of a file that is ours: a few hundred are usual."""
 
 
 def exam_document(piece: ExamPiece, marks: Marks | None, seen_before: bool) -> dict[str, Json]:
@@ -62,26 +59,20 @@ def keep_exam(folder: Path, document: dict[str, Json]) -> None:
     write_document(folder / EXAM_NAME, document)
 
 
-def was_seen(sessions: Path, student: str, unseen: Unseen) -> bool:
-    """Whether this student has had that piece in an exam before."""
+def was_seen(whose: StudentHistory, unseen: Unseen) -> bool:
+    """Whether this student has had that piece in an exam before, or looked at it."""
     wanted = {"level": unseen.level, "seed": unseen.seed}
-    return any(document.get("unseen") == wanted for document in _kept(student_folder(sessions, student)))
+    kept = whose.ask(lambda history, student: history.documents(student, EXAM_NAME)) or []
+    return any(_unseen_of(body) == wanted for _, body in kept)
 
 
-def _kept(student: Path) -> Iterator[dict[str, object]]:
-    """The exams of a student; a file that cannot be read tells nothing."""
-    for path in student.glob(f"*/{EXAM_NAME}"):
-        document = _document(path)
-        if document is not None:
-            yield document
-
-
-def _document(path: Path) -> dict[str, object] | None:
+def _unseen_of(body: bytes) -> object:
+    """What an exam's document says of its piece; nothing where it cannot be read."""
     try:
-        document = kept_document(path, _MOST_BYTES)
-    except BadInput:
+        document = json.loads(body)
+    except (ValueError, RecursionError):
         return None
-    return document if isinstance(document, dict) else None
+    return document.get("unseen") if isinstance(document, dict) else None
 
 
 # --- in words ---------------------------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@ from station.drills.exam.exam_piece import ExamPiece
 from station.drills.exam.rubric import Marks
 from station.practice.exam.exam_record import exam_document, keep_exam, was_seen
 from station.practice.exam.exam_take import exam_marks, exam_plan
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.save_session import SessionFolder
 from station.practice.session.plan import Plan
 from station.practice.session.session import SessionResult
@@ -37,7 +38,7 @@ class Sitting:
     def begin(cls, piece: ExamPiece, settings: Settings, wanted: Path | None = None) -> "Sitting":
         """Keep that this student has seen it, in a folder of their own or the `wanted` one; raises `StationError`."""
         plan = exam_plan(piece, settings)
-        seen = piece.unseen is not None and was_seen(settings.sessions_dir, settings.student, piece.unseen)
+        seen = piece.unseen is not None and was_seen(StudentHistory.of(settings), piece.unseen)
         sitting = cls(piece, plan, SessionFolder.make(wanted, settings, plan.lesson.name), seen)
         try:
             sitting.keep(None)
@@ -55,5 +56,6 @@ class Sitting:
         return exam_document(self.piece, marks, self.seen_before)
 
     def keep(self, marks: Marks | None) -> None:
-        """Write `exam.json`; raises `DeviceError`."""
+        """Write `exam.json`, and have the history keep it; raises `DeviceError`."""
         keep_exam(self.folder.path, self.document(marks))
+        self.folder.keep()

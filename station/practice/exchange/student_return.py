@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from station.core.disk.files import read_regular
 from station.core.errors import BadInput, StationError
@@ -23,9 +24,12 @@ from station.practice.exchange.return_file import (
 )
 from station.practice.exchange.session_figures import SessionFigures, length_s, report_figures
 from station.practice.exchange.student_store import TakenAssignment, session_key, verdicts_on
-from station.practice.history.session_files import CAPTURE_NAME, DOCUMENT_NAME, PAIRS_NAME, student_folder
+from station.practice.history.session_files import CAPTURE_NAME, DOCUMENT_NAME, PAIRS_NAME
+from station.practice.history.student_history import StudentHistory
 
-_STARTED, _STARTED_LETTERS = "%Y-%m-%dT%H-%M-%S", 19
+if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
+    from station.store.history import History
+
 _ROOM = Kind.RETURN.value.most_bytes - (1 << 20)
 """For the sessions: what the table and the page in words take is left free (our choice)."""
 
@@ -45,31 +49,26 @@ def practised(settings: Settings, one: TakenAssignment) -> list[PractisedSession
 
     What cannot be read is left out.
     """
+    return StudentHistory.of(settings).ask(lambda history, student: _practised(history, student, one)) or []
+
+
+def _practised(history: "History", student: str, one: TakenAssignment) -> list[PractisedSession]:
     name_of = {here: name for name, here in one.taken.lessons}
     verdicts = verdicts_on(one)
     found: list[PractisedSession] = []
-    for path in sorted(
-        student_folder(settings.sessions_dir, settings.student).glob(f"*/{DOCUMENT_NAME}"), reverse=True
-    ):
-        played = _started(path.parent)
-        if played is None or played < one.taken.when:
+    for row in reversed(history.sessions(student, since=one.taken.when)):
+        report = history.document(row.id, DOCUMENT_NAME) if row.lesson in name_of else None
+        if report is None:
             continue
         try:
-            figures = report_figures(read_regular(path, MOST_JSON_BYTES), str(path), "")
+            figures = report_figures(report, f"{row.folder}/{DOCUMENT_NAME}", "")
         except BadInput:
             continue
         if one.assignment.id in figures.assignments and figures.lesson in name_of:
             name = name_of[figures.lesson]
-            ruled = overruled(figures, verdicts.get(session_key(name, played)))
-            found.append(PractisedSession(path.parent, name, played, ruled))
+            ruled = overruled(figures, verdicts.get(session_key(name, row.started)))
+            found.append(PractisedSession(Path(row.folder), name, row.started, ruled))
     return found
-
-
-def _started(folder: Path) -> datetime | None:
-    try:
-        return datetime.strptime(folder.name[:_STARTED_LETTERS], _STARTED)
-    except ValueError:
-        return None
 
 
 @dataclass(frozen=True, slots=True)

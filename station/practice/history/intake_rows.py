@@ -42,7 +42,7 @@ def lesson_row(blank: SessionRow, report: Table, exam: object) -> SessionRow:
         lesson=_words(session["lesson"], "lesson"),
         title=_words(session.get("title")),
         device=_words(session.get("device")),
-        played_s=_number(session.get("played_s"), 0.0, _MOST_S) or 0.0,  # old reports tell none
+        played_s=_needed(_number(session.get("played_s", 0.0), 0.0, _MOST_S)),  # old reports tell none
         complete=session.get("complete") is True,
         score=_number(report.get("score"), 0.0, 100.0),
         level=_words(report.get("level"), "level"),
@@ -94,12 +94,13 @@ def battle_row(blank: SessionRow, battle: Table) -> SessionRow:
 
 
 def _battle_s(rules: Table, turns: list[Table]) -> float:
-    """To the end of its last turn."""
-    if not turns:
+    """To the end of its last turn; 0 where nobody says how long a bar is."""
+    meter = rules.get("meter")
+    beats, unit = meter if isinstance(meter, list) and len(meter) == 2 else (None, None)
+    beats, unit, tempo = (_number(each, 1.0, _MOST) for each in (beats, unit, rules.get("tempo_bpm")))
+    if not turns or beats is None or unit is None or tempo is None:
         return 0.0
-    beats, unit = _listed(rules["meter"])
-    tempo = _needed(_number(rules["tempo_bpm"], 1.0, _MOST))
-    bar_s = _needed(_number(beats, 1, _MOST)) * 4.0 / _needed(_number(unit, 1, _MOST)) * 60.0 / tempo
+    bar_s = beats * 4.0 / unit * 60.0 / tempo
     ends = (
         (_number(turn.get("starts_s"), 0.0, _MOST_S) or 0.0) + (_number(turn.get("bars"), 0, _MOST) or 0.0) * bar_s
         for turn in turns

@@ -13,6 +13,8 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
+from zlib import crc32
 
 from station.core.disk.files import read_regular
 from station.core.errors import BadInput
@@ -24,6 +26,7 @@ from station.practice.history.intake_rows import (
     lesson_row,
     take_row,
 )
+from station.practice.history.learnt import NOTHING_LEARNT, Learnt, learnt_in
 from station.practice.history.session_files import (
     BATTLE_CAPTURE_NAME,
     BATTLE_NAME,
@@ -36,7 +39,6 @@ from station.practice.history.session_files import (
     started_in,
     student_folder,
 )
-from station.store.history import History
 from station.store.rows import JudgementRow, KeptSession, SessionKind, SessionRow, SessionState
 
 MOST_CAPTURE_BYTES = 64 * 2**20
@@ -48,6 +50,9 @@ _OVER = (DOCUMENT_NAME, TAKE_NAME, BATTLE_NAME)
 """One of them is in the folder of a session that is over."""
 _BEGUN = (CAPTURE_NAME, BATTLE_CAPTURE_NAME, EXAM_NAME)
 """One of them is in the folder of a session that was begun."""
+if TYPE_CHECKING:  # with a library that takes longer to load than a folder is read
+    from station.store.history import History
+
 _UNKEPT = re.compile("[\0\ud800-\udfff]")
 """What a folder may be called and no database holds."""
 _DAMAGED = (ValueError, TypeError, KeyError, AttributeError, RecursionError, csv.Error)
@@ -64,44 +69,83 @@ class TakenIn:
     faults: tuple[str, ...] = ()
 
 
-def take_in(history: History, student: str, folder: Path) -> int | None:
-    """Keep what lies in the folder of a session of `student`; its id, None where no session was begun in it.
+def take_in(history: "History", student: str, folder: Path, learnt: Learnt = NOTHING_LEARNT) -> int | None:
+    """Keep what lies in the folder of a session of `student`, and what was learnt in it; its id.
 
-    It takes the place of what was kept of it before. Raises `BadInput` for a report that cannot be read, `DeviceError`.
+    It takes the place of what was kept of it before. None where no session was begun in the folder. Raises `BadInput`
+    for a report that cannot be read, `DeviceError`.
     """
-    there = _folder_text(folder)
-    known = history.session_in(there)
-    started = started_in(folder.name)
+    kept = read_session(folder, blank_row(history, student, folder))
+    return None if kept is None else history.keep(kept, learnt.mastery, learnt.levels)
+
+
+def blank_row(history: "History", student: str, folder: Path) -> SessionRow:
+    """The row of a session in a folder as far as it is known before anything is read; raises `DeviceError`."""
+    known = history.session_in(folder_text(folder))
     if known is not None:
-        blank = SessionRow(known.student, known.name, known.started, there)
-    elif started is not None:
-        blank = SessionRow(student, kept_text(folder.name), started, there)
-    else:
-        began = _changed(folder)
-        blank = SessionRow(student, session_name(began, folder.name), began, there)
-    kept = read_session(folder, blank)
-    return None if kept is None else history.keep(kept)
+        return _blank(known)
+    return new_row(student, folder, started_in(folder.name) or _changed(folder))
+
+
+def new_row(student: str, folder: Path, started: datetime) -> SessionRow:
+    """The row of a session that nobody knows yet: named as its folder, which may lie anywhere."""
+    there, name = folder_text(folder), kept_text(folder.name)
+    if started_in(folder.name) is None:
+        name = f"{session_name(started, folder.name)}-{crc32(there.encode()):08x}"
+    return SessionRow(student, name, started, there)
 
 
 def everything_in(
-    history: History, sessions: Path, student: str, progress: Progress = lambda _done, _all: None
+    history: "History", sessions: Path, student: str, progress: Progress = lambda _done, _all: None
 ) -> TakenIn:
     """Take in what the history does not know of a student's folders under the folder of all sessions.
 
     Each is a transaction of its own: what was taken in stays, wherever it ends. Raises `DeviceError`.
     """
-    folders = _folders(student_folder(sessions, student))
-    kept = history.session_names(student)
-    begun = history.session_names(student, SessionState.BEGUN)
-    new = [path for name, path in folders if name not in kept and (name not in begun or is_over(path))]
+    new = _new_folders(history, student_folder(sessions, student), student)
     taken, faults = 0, []
-    for done, path in enumerate(new):
+    for done, (path, blank) in enumerate(new):
         progress(done, len(new))
         try:
-            taken += take_in(history, student, path) is not None
+            kept = read_session(path, blank)
         except BadInput as fault:
             faults.append(str(fault))
+            continue
+        if kept is not None:
+            learnt = _still_news(history, kept.row, learnt_in(path))
+            history.keep(kept, learnt.mastery, learnt.levels)
+            taken += 1
     return TakenIn(taken, tuple(faults))
+
+
+def _new_folders(history: "History", ours: Path, student: str) -> list[tuple[Path, SessionRow]]:
+    """Those of which the history knows nothing, and those of begun sessions that are over, wherever they lie."""
+    kept = history.session_names(student)
+    begun = {row.name: row for row in history.sessions(student, state=SessionState.BEGUN)}
+    found: list[tuple[Path, SessionRow]] = []
+    for name, path, started in _folders(ours):
+        row = begun.pop(name, None)
+        if name not in kept and (row is None or is_over(path)):
+            found.append((path, new_row(student, path, started)))
+    elsewhere = ((Path(row.folder), row) for row in begun.values())
+    return found + [(path, _blank(row)) for path, row in elsewhere if is_over(path)]
+
+
+def _blank(row: SessionRow) -> SessionRow:
+    return SessionRow(row.student, row.name, row.started, row.folder)
+
+
+def _still_news(history: "History", row: SessionRow, learnt: Learnt) -> Learnt:
+    """What was learnt while the history was away, but for what has been learnt since, or better."""
+    later = {each.lesson for each in learnt.mastery if _has_later(history, row, each.lesson)}
+    known = later if learnt.on_top else {each.lesson for each in history.mastery(row.student)}
+    judged = later if learnt.on_top else set(history.levels(row.student))
+    mastery = tuple(each for each in learnt.mastery if each.lesson not in known)
+    return Learnt(mastery, {lesson: level for lesson, level in learnt.levels.items() if lesson not in judged})
+
+
+def _has_later(history: "History", row: SessionRow, lesson: str) -> bool:
+    return any(each.started > row.started for each in history.latest(row.student, 1, lesson=lesson))
 
 
 def read_session(folder: Path, blank: SessionRow) -> KeptSession | None:
@@ -163,10 +207,10 @@ def _judgements(table: bytes | None) -> tuple[JudgementRow, ...]:
 # --- files ------------------------------------------------------------------------------------------------------------
 
 
-def _folders(student: Path) -> list[tuple[str, Path]]:
+def _folders(student: Path) -> list[tuple[str, Path, datetime]]:
     """The folders of a student that are called as sessions are, in the order in which these began."""
-    found = [path for path in _entries(student) if started_in(path.name) is not None and path.is_dir()]
-    return [(kept_text(path.name), path) for path in sorted(found, key=lambda path: path.name)]
+    found = ((path, started_in(path.name)) for path in sorted(_entries(student), key=lambda path: path.name))
+    return [(kept_text(path.name), path, began) for path, began in found if began is not None and path.is_dir()]
 
 
 def _entries(folder: Path) -> list[Path]:
@@ -190,7 +234,8 @@ def _json(data: bytes | None) -> object:
         return None
 
 
-def _folder_text(folder: Path) -> str:
+def folder_text(folder: Path) -> str:
+    """Where a session's files lie, as its row says it."""
     return kept_text(str(folder.absolute()))
 
 

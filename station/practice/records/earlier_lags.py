@@ -1,15 +1,14 @@
 """What a student's last sessions show of a lag on the devices that they play now."""
 
-from pathlib import Path
+import json
 from typing import Any
 
-from station.core.disk.file_names import folder_name
-from station.core.errors import BadInput, StationError
+from station.core.errors import BadInput
 from station.core.measured_latency import load_calibration
 from station.core.settings import Settings
 from station.core.units import NS_PER_MS
-from station.practice.history.kept_json import kept_document
 from station.practice.history.session_files import DOCUMENT_NAME
+from station.practice.history.student_history import StudentHistory
 from station.practice.lag.fair_judgement import FairResult, judged_fairly
 from station.practice.lag.lag_document import runs_in
 from station.practice.lag.session_lag import LagAnswer
@@ -34,12 +33,10 @@ def fair_session(result: SessionResult, settings: Settings) -> FairResult:
 
 def earlier_runs(result: SessionResult, settings: Settings) -> tuple[LagRun, ...]:
     """What the student's last sessions show of the devices of `result`, with as much taken out as here."""
-    try:
-        folder = settings.sessions_dir / folder_name(settings.student)
-        sessions = sorted((path for path in folder.iterdir() if path.is_dir()), reverse=True)[:MOST_SESSIONS]
-    except (OSError, StationError):
-        return ()
-    return tuple(run for path in sessions for run in _runs_in(path, _equipment(result)))
+    last = StudentHistory.of(settings).ask(
+        lambda history, student: history.documents(student, DOCUMENT_NAME, MOST_SESSIONS)
+    )
+    return tuple(run for row, body in last or [] for run in _runs_in(row.name, body, _equipment(result)))
 
 
 def _equipment(result: SessionResult) -> tuple[object, ...]:
@@ -48,14 +45,14 @@ def _equipment(result: SessionResult) -> tuple[object, ...]:
     return result.device, result.output, into / NS_PER_MS, out / NS_PER_MS
 
 
-def _runs_in(session: Path, now: tuple[object, ...]) -> tuple[LagRun, ...]:
-    """The runs of one session; none on other devices, and none of a folder that holds no report of ours."""
+def _runs_in(session: str, report: bytes, now: tuple[object, ...]) -> tuple[LagRun, ...]:
+    """The runs of one session; none on other devices, and none of what is no report of ours."""
     try:
-        document: Any = kept_document(session / DOCUMENT_NAME)
+        document: Any = json.loads(report)
         facts = document["session"]
         there = tuple(facts[key] for key in ("device", "output", "input_latency_ms", "output_latency_ms"))
         lag = document["lag"]
         counts = lag is not None and there == now and lag["answer"] != LagAnswer.TAKEN_OUT.value
-        return runs_in(lag, session.name) if counts else ()  # what was taken out is in what the devices are known by
-    except (BadInput, KeyError, TypeError, ValueError, AttributeError):
-        return ()  # a session that was cut off, or from before reports had a lag
+        return runs_in(lag, session) if counts else ()  # what was taken out is in what the devices are known by
+    except (KeyError, TypeError, ValueError, AttributeError, RecursionError):
+        return ()  # from before reports had a lag

@@ -1,84 +1,95 @@
-"""What the station remembers of a student and a lesson between sessions: one small file for each.
+"""What the station remembers of a student and a lesson between sessions: mastery and levels, in the history alone.
 
-`<sessions>/<student>/mastery/<lesson>_<bars>.json`, written whole after a session, holds the document of
-`station.drills.mastery.mastery_json`; `levels.json` beside it the level of each lesson. A file that cannot be read is
-set aside under another name, never written over.
+A row for some bars of a lesson holds the document of `station.drills.mastery.mastery_json`. One that cannot be read, as
+a newer station's may be, is set aside in the student's folder before another takes its place.
 """
 
+import json
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from station.core.disk.file_names import folder_name
-from station.core.errors import BadInput
+from station.core.disk.files import write_whole
+from station.core.errors import BadInput, DeviceError, StationError
 from station.core.settings import Settings
 from station.drills.course import Course
 from station.drills.daily.asked import Asked
 from station.drills.lesson import Lesson
 from station.drills.library import shipped_courses
 from station.drills.mastery.agenda import Turn, next_turn, other_turn
-from station.drills.mastery.mastery_json import document_of, state_from
+from station.drills.mastery.mastery_json import state_from
 from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.rules import DEFAULT_RULES
-from station.practice.history.kept_json import kept_document, recalled
-from station.practice.history.session_files import student_folder, write_document
+from station.practice.history.learnt import NOTHING_LEARNT, Learnt
+from station.practice.history.old_mastery import mastery_row, untold_faults
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.lesson_order import ahead_of, followed_course
 from station.practice.records.lesson_progress import progress_of
 from station.practice.records.teachers_wishes import NO_WISHES, Wishes, wishes_of
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
+from station.store.rows import MasteryRow
 
-FOLDER = "mastery"
-LEVELS_NAME = "levels.json"
-LEVELS_SCHEMA = "drum-station/levels/1"
-_ITEMS = "*_*.json"
+if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
+    pass
+
+UNREAD = "mastery-unread"
+"""The folder of documents that could not be read, in the student's."""
 
 
 @dataclass(frozen=True, slots=True)
 class Memory:
-    """Where a student's mastery of one lesson is kept."""
+    """A student's mastery of `bars` (first, last, from 0) of a lesson."""
 
-    path: Path
-
-    @classmethod
-    def of(cls, sessions: Path, student: str, lesson: str, bars: tuple[int, int]) -> "Memory":
-        """The memory of `student` for `bars` (first, last, from 0) of `lesson`, under the folder of all sessions."""
-        name = f"{folder_name(lesson)}_{bars[0] + 1}-{bars[1] + 1}.json"
-        return cls(student_folder(sessions, student) / FOLDER / name)
+    whose: StudentHistory
+    lesson: str
+    bars: tuple[int, int]
 
     def recall(self) -> tuple[ItemState | None, str | None]:
         """What is remembered, None where nothing is; and a line for the student where it could not be read.
 
-        Raises `DeviceError` where the file can neither be read nor set aside.
+        Raises `DeviceError` where the history cannot be reached, or what cannot be read cannot be set aside.
         """
-        return recalled(self.path, state_from, "mastery begins anew")
+        with self.whose.reached() as history:
+            rows = history.mastery(self.whose.student, self.lesson)
+            faults = untold_faults(history, self.whose.folder)
+        row = next((each for each in rows if (each.first_bar, each.last_bar) == self.bars), None)
+        if row is None:
+            return None, "; ".join(faults) or None
+        try:
+            return _state(row), "; ".join(faults) or None
+        except BadInput as fault:
+            return None, "; ".join([*faults, f"{fault}; {self._set_aside(row)}, mastery begins anew"])
 
-    def keep(self, state: ItemState) -> None:
-        """Remember `state` from now on; raises `DeviceError`, and then what was remembered stays."""
-        write_document(self.path, document_of(state))
+    def _set_aside(self, row: MasteryRow) -> str:
+        bars = f"{row.first_bar + 1}-{row.last_bar + 1}"
+        path = self.whose.folder / UNREAD / f"{folder_name(row.lesson)}_{bars}_{date.today()}.json"
+        write_whole(path, row.document.encode("utf-8", "backslashreplace"))
+        return f"it is kept as {path}"
 
 
 @dataclass(frozen=True, slots=True)
 class LevelMemory:
-    """Where the level at which a student is judged is kept for each lesson: as they chose it, or came to it."""
+    """The level at which a student is judged in each lesson: as they chose it, or came to it."""
 
-    path: Path
-
-    @classmethod
-    def of(cls, sessions: Path, student: str) -> "LevelMemory":
-        """That of `student`, under the folder of all sessions."""
-        return cls(student_folder(sessions, student) / FOLDER / LEVELS_NAME)
+    whose: StudentHistory
 
     def recall(self) -> tuple[Mapping[str, Level], str | None]:
-        """The level of each lesson by its name, and a line for the student where the file could not be read.
+        """The level of each lesson by its name, and a line for the student where something could not be read.
 
         A lesson that is remembered from before there was a choice has the level by which it was judged. Raises
-        `DeviceError` where the file can neither be read nor set aside.
+        `DeviceError` where the history cannot be reached.
         """
-        kept, fault = recalled(self.path, _levels_from, "levels begin anew")
-        return {state.item.name: state.level for state in _all_in(self.path.parent)} | (kept or {}), fault
+        with self.whose.reached() as history:
+            kept, rows = history.levels(self.whose.student), history.mastery(self.whose.student)
+            faults = untold_faults(history, self.whose.folder)
+        levels = {state.item.name: state.level for state in _states(rows)}
+        levels |= {lesson: OUR_LEVELS[level] for lesson, level in kept.items() if level in OUR_LEVELS}
+        return levels, "; ".join(faults) or None
 
     def usual(self) -> Level:
         """The level of what is no lesson: the middle one of the student's lessons, of two the wider.
@@ -86,37 +97,24 @@ class LevelMemory:
         It is a beginner's where there are none. What cannot be read says nothing.
         """
         try:
-            kept = _levels_from(kept_document(self.path), str(self.path))
-        except BadInput:
-            kept = {}
-        levels = {state.item.name: state.level for state in _all_in(self.path.parent)} | kept
+            levels, _ = self.recall()
+        except StationError:
+            levels = {}
         in_order = sorted(levels.values(), key=lambda level: level.rank)
         return in_order[(len(in_order) - 1) // 2] if in_order else Level.BEGINNER
 
     def keep(self, lesson: str, level: Level) -> None:
         """Judge `lesson` at `level` from now on; raises `DeviceError`, and then all stays as it was."""
-        kept, _ = recalled(self.path, _levels_from, "levels begin anew")
-        write_document(self.path, {"schema": LEVELS_SCHEMA, "levels": {**(kept or {}), lesson: level}})
-
-
-def _levels_from(document: object, source: str) -> dict[str, Level]:
-    """The levels in a document; raises `BadInput` that names `source`, the place and the fault."""
-    if not isinstance(document, dict) or document.get("schema") != LEVELS_SCHEMA:
-        raise BadInput(source, "schema", f"is not {LEVELS_SCHEMA}")
-    levels = document.get("levels")
-    if not isinstance(levels, dict):
-        raise BadInput(source, "levels", "is no table")
-    for lesson, level in levels.items():
-        if level not in list(OUR_LEVELS):
-            raise BadInput(source, f"levels.{lesson}", f"{level!r} is no level")
-    return {lesson: OUR_LEVELS[level] for lesson, level in levels.items()}
+        with self.whose.reached() as history:
+            history.remember(self.whose.student, levels={lesson: level.value})
 
 
 @dataclass(frozen=True, eq=False)
 class Remembered:
     """Practice that follows a student, `memory` where it is remembered (None: nowhere), `fault` a line for the user.
 
-    `course` is the one that they follow, None where they follow none; `wishes` are their teachers'.
+    `is_known`: it could be asked what was remembered; else what is learnt here is on top of nothing. `course` is the
+    one that they follow, None where they follow none; `wishes` are their teachers'.
     """
 
     adaptation: Adaptation
@@ -124,6 +122,7 @@ class Remembered:
     fault: str | None = None
     course: Course | None = None
     wishes: Wishes = NO_WISHES
+    is_known: bool = True
 
     @classmethod
     def of(
@@ -135,19 +134,23 @@ class Remembered:
         course: Course | None = None,
         wishes: Wishes = NO_WISHES,
     ) -> "Remembered":
-        """Practice of `lesson` from what `memory` holds; raises `BadInput` and `DeviceError` as its parts do."""
-        known, fault = memory.recall() if memory is not None else (None, None)
-        return cls(Adaptation(lesson, options, today, known), memory, fault, course, wishes)
+        """Practice of `lesson` from what `memory` holds; raises `BadInput` and `DeviceError` as its parts do.
+
+        Where the history cannot be reached it begins anew, which is its `fault`.
+        """
+        known, fault, is_known = None, None, True
+        try:
+            known, fault = memory.recall() if memory is not None else (None, None)
+        except DeviceError as refused:
+            fault, is_known = f"{refused}; what you have learnt cannot be asked for: mastery begins anew", False
+        return cls(Adaptation(lesson, options, today, known), memory, fault, course, wishes, is_known)
 
     def next_turn(self) -> Turn | None:
-        """What the student should practise next of all that is remembered; None where nothing is.
-
-        A file that cannot be read is reported when its own lesson is practised.
-        """
+        """What the student should practise next of all that is remembered; None where nothing is."""
         if self.memory is None:
             return None
         here = self.adaptation.state
-        known = _all_in(self.memory.path.parent)
+        known = remembered(self.memory.whose)
         others = [state for state in known if (state.item.name, state.item.bars) != (here.item.name, here.item.bars)]
         followed = self.adaptation
         asked = self.wishes.next([here, *others], followed.today, followed.rules)
@@ -159,18 +162,17 @@ class Remembered:
         if self.memory is None:
             return None
         here = self.adaptation
-        known = _all_in(self.memory.path.parent)
+        known = remembered(self.memory.whose)
         asked = self.wishes.next(known, here.today, here.rules)
         return _other(here.lesson, self.course, known, here.today, asked)
 
-    def keep(self) -> None:
-        """Remember what was learnt; raises `DeviceError`."""
+    def learnt(self) -> Learnt:
+        """What was learnt, to be kept with the session; nothing where nothing is remembered."""
         if self.memory is None:
-            return
-        self.memory.keep(self.adaptation.state)
-        if self.adaptation.has_grown:
-            levels = LevelMemory(self.memory.path.with_name(LEVELS_NAME))
-            levels.keep(self.adaptation.lesson.name, self.adaptation.next_level)
+            return NOTHING_LEARNT
+        lesson, level = self.adaptation.lesson.name, self.adaptation.next_level
+        levels = {lesson: level.value} if self.adaptation.has_grown else {}
+        return Learnt((mastery_row(self.adaptation.state),), levels, self.is_known)
 
 
 def following_lesson(settings: Settings, lesson: Lesson, today: date) -> Turn | None:
@@ -178,7 +180,7 @@ def following_lesson(settings: Settings, lesson: Lesson, today: date) -> Turn | 
 
     Who follows no course goes on in the first that ships with the lesson.
     """
-    known = remembered(settings.sessions_dir, settings.student)
+    known = remembered(StudentHistory.of(settings))
     asked = wishes_of(settings, today).next(known, today, DEFAULT_RULES)
     return _other(lesson, followed_course(settings), known, today, asked)
 
@@ -198,17 +200,22 @@ def _course_with(lesson: Lesson, followed: Course | None) -> Course | None:
     return next((course for course in shipped_courses() if lesson.name in course.lesson_names), None)
 
 
-def remembered(sessions: Path, student: str) -> list[ItemState]:
-    """All that is remembered of `student` under the folder of all sessions; what cannot be read is left out."""
-    return _all_in(student_folder(sessions, student) / FOLDER)
+def remembered(whose: StudentHistory) -> list[ItemState]:
+    """All that is remembered of a student, by lesson and bars; what cannot be read is left out."""
+    return _states(whose.ask(lambda history, student: history.mastery(student)) or [])
 
 
-def _all_in(folder: Path) -> list[ItemState]:
-    return [state for path in sorted(folder.glob(_ITEMS)) if (state := _known(path)) is not None]
+def _states(rows: Sequence[MasteryRow]) -> list[ItemState]:
+    found = []
+    for row in rows:
+        with suppress(BadInput):
+            found.append(_state(row))
+    return found
 
 
-def _known(path: Path) -> ItemState | None:
+def _state(row: MasteryRow) -> ItemState:
     try:
-        return state_from(kept_document(path), str(path))
-    except BadInput:
-        return None
+        document = json.loads(row.document)
+    except (ValueError, RecursionError):
+        document = None
+    return state_from(document, f"mastery of {row.lesson}")

@@ -1,35 +1,34 @@
-"""An earlier session of the same lesson, from its folder, to be heard and seen beside the one that is over.
+"""An earlier session of the same lesson, from the history, to be heard and seen beside the one that is over.
 
 "Yesterday" is the last session of an earlier day, or where there is none the last one before. Its strokes are taken
-from `pairs.csv`: each has its bar and beat of the lesson, and how many seconds from there it fell; so it can be laid
+from its judgements: each has its bar and beat of the lesson, and how many seconds from there it fell; so it can be laid
 over the lesson at another tempo, as early or late in seconds as it was. Tables that were written before they held bar
 and beat cannot be, and that is said.
 """
 
-import csv
+from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.disk.file_names import folder_name
-from station.core.errors import BadInput
 from station.core.pieces import Articulation, Piece, Zone
 from station.music.performance import HIT_DTYPE
-from station.practice.history.kept_json import kept_document
-from station.practice.history.session_files import DOCUMENT_NAME, PAIRS_NAME
-from station.practice.records.report.session_pairs import SESSION_COLUMNS
+from station.practice.history.session_files import started_in
+from station.practice.history.student_history import StudentHistory
+from station.store.rows import JudgementRow
+
+if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
+    from station.store.history import History
 
 NONE_KEPT = "no earlier session of this lesson is kept"
 _TOO_OLD = "the session of {:%Y-%m-%d} was kept before its table had bars and beats: it cannot be shown"
 MOST_READ = 40
 """So many sessions are looked into; our choice, a fraction of a second of reading."""
-_STARTED = "%Y-%m-%dT%H-%M-%S"
-_STARTED_LETTERS = 19
-_MOST = 1e6
-"""No pass, bar, beat or second of a session is beyond it (our choice: a million seconds are twelve days)."""
 _HARDEST = 127
 
 
@@ -80,78 +79,56 @@ def day_in_words(day: date, today: date) -> str:
     return {0: "earlier", 1: "yesterday"}.get((today - day).days) or f"{day.day} {day:%b}"
 
 
-def find_previous(folder: Path, lesson: str) -> PreviousSession | str:
+def find_previous(whose: StudentHistory, folder: Path, lesson: str) -> PreviousSession | str:
     """The session to compare with that in `folder`, of the same student; or why there is none to be had."""
-    started = _started(folder)
+    started = started_in(folder.name)
     if started is None:
         return NONE_KEPT
-    others = [
-        (when, path)
-        for path in folder.parent.glob(f"*_{folder_name(lesson)}*")
-        if (when := _started(path)) is not None and when < started
-    ]
-    others.sort(key=lambda other: (other[0].date() < started.date(), other[0]), reverse=True)
-    fault = NONE_KEPT
-    for when, path in others[:MOST_READ]:
-        if _lesson_of(path) != lesson:
-            continue
-        found = _read((when, started.date()), path / PAIRS_NAME)
-        if found is not None:
-            return found
-        if fault == NONE_KEPT:
-            fault = _TOO_OLD.format(when)
-    return fault
+    found = whose.ask(lambda history, student: _found(history, student, lesson, started))
+    return NONE_KEPT if found is None else found
 
 
-def _started(folder: Path) -> datetime | None:
-    try:
-        return datetime.strptime(folder.name[:_STARTED_LETTERS], _STARTED)
-    except ValueError:
-        return None
+def _found(history: "History", student: str, lesson: str, started: datetime) -> PreviousSession | str:
+    today = datetime.combine(started, datetime.min.time())
+    before = history.latest(student, MOST_READ, lesson=lesson, until=today)
+    earlier = [row for row in history.latest(student, MOST_READ, lesson=lesson, until=started) if row.started >= today]
+    rows = (*before, *earlier)
+    for row in rows:
+        judged = history.judgements(row.id)
+        with suppress(ValueError, KeyError):
+            if judged:
+                return _read((row.started, started.date()), [one for one in judged if one.hit_index is not None])
+    return _TOO_OLD.format(rows[0].started) if rows else NONE_KEPT
 
 
-def _lesson_of(folder: Path) -> str | None:
-    try:
-        document = kept_document(folder / DOCUMENT_NAME)
-        return str(document["session"]["lesson"]) if isinstance(document, dict) else None
-    except (KeyError, TypeError, BadInput):
-        return None  # a session that was cut off, or somebody else's folder
+def _read(days: tuple[datetime, date], played: Sequence[JudgementRow]) -> PreviousSession:
+    """The strokes of the session of the first of `days`, seen from the second."""
+    at = np.array([_at(row) for row in played], np.float64).reshape(-1, 4)
+    due_s = np.array([np.nan if row.note_time_s is None else row.note_time_s for row in played])
+    return PreviousSession(*days, at, _strokes(played), due_s)
 
 
-def _read(days: tuple[datetime, date], table: Path) -> PreviousSession | None:
-    """What the table of the session of the first of `days` holds, seen from the second; None where it lacks some."""
-    try:
-        if not table.is_file():  # a pipe would never end
-            return None
-        with table.open(encoding="utf-8", newline="") as lines:
-            rows = csv.DictReader(lines)
-            if not set(SESSION_COLUMNS) <= set(rows.fieldnames or ()):
-                return None
-            played = [row for row in rows if row["hit_index"]]
-            at = np.array([_at(row) for row in played], np.float64).reshape(-1, 4)
-            due_s = np.array([float(row["note_time_s"]) if row["note_index"] else np.nan for row in played])
-            if not (np.abs(at) <= _MOST).all() or not np.all(np.isnan(due_s) | (np.abs(due_s) <= _MOST)):
-                return None
-            return PreviousSession(*days, at, _strokes(played), due_s)
-    except (OSError, ValueError, KeyError, TypeError, csv.Error):
-        return None
+def _at(row: JudgementRow) -> tuple[float, float, float, float]:
+    late_s = _known(row.hit_time_s) - row.note_time_s if row.note_time_s is not None else 0.0
+    return float(row.pass_number), float(row.bar), row.beat, late_s
 
 
-def _at(row: dict[str, str]) -> tuple[float, float, float, float]:
-    late_s = float(row["hit_time_s"]) - float(row["note_time_s"]) if row["note_index"] else 0.0
-    return float(row["pass"]), float(row["bar"]), float(row["beat"]), late_s
-
-
-def _strokes(rows: list[dict[str, str]]) -> NDArray[np.void]:
+def _strokes(rows: Sequence[JudgementRow]) -> NDArray[np.void]:
     strokes = np.zeros(len(rows), HIT_DTYPE)
     strokes["position"] = np.nan
     strokes["limb"] = -1
     for stroke, row in zip(strokes, rows, strict=True):
-        stroke["piece"], stroke["zone"] = Piece[row["hit_piece"].upper()], Zone[row["hit_zone"].upper()]
-        stroke["articulation"] = Articulation[row["hit_articulation"].upper()]
-        velocity, openness = float(row["hit_velocity"]), float(row["hit_openness"] or "nan")
-        if not 1 <= velocity < _HARDEST + 1 or not (np.isnan(openness) or 0.0 <= openness <= 1.0):
+        stroke["piece"], stroke["zone"] = Piece[str(row.hit_piece).upper()], Zone[str(row.hit_zone).upper()]
+        stroke["articulation"] = Articulation[str(row.hit_articulation).upper()]
+        velocity = _known(row.hit_velocity)
+        if not 1 <= velocity < _HARDEST + 1:
             raise ValueError(row)
         stroke["velocity_fraction"], stroke["velocity"] = np.modf(velocity)
-        stroke["openness"] = openness
+        stroke["openness"] = np.nan if row.hit_openness is None else row.hit_openness
     return strokes
+
+
+def _known(value: float | None) -> float:
+    if value is None:
+        raise ValueError("no data")
+    return value

@@ -15,11 +15,14 @@ from station.core.pieces import Limb
 from station.core.settings import Settings
 from station.devices.capture.capture import Capture, RecordKind, read_capture
 from station.drills.lesson import Lesson
-from station.practice.history.session_files import CAPTURE_NAME, DOCUMENT_NAME, TAKE_NAME, student_folder
+from station.practice.history.session_files import CAPTURE_NAME
+from station.practice.history.session_intake import is_over
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.rejudge import judge_again
 from station.practice.session.adaptation import whole
 from station.practice.session.plan import Plan
 from station.practice.session.session import SessionResult
+from station.store.rows import SessionKind, SessionState
 
 MOST_READ = 20
 """So many captures without a report are looked into, the newest; our choice, a fraction of a second of reading."""
@@ -28,19 +31,20 @@ LARGEST = 64 * 2**20
 """A larger capture is looked into only when it is named; our choice: hours of strokes are a few megabytes."""
 
 
-def cut_off(sessions: Path, student: str) -> list[Path]:
-    """The folders of a student's sessions that were cut off after a stroke, the newest first.
+def cut_off(whose: StudentHistory) -> list[Path]:
+    """The folders of a student's sessions that were cut off after a stroke, the newest first, wherever they lie.
 
-    `sessions` is the folder of all sessions. One that runs in another program right now is among them.
+    One that runs in another program right now is among them.
     """
-    captures = sorted(student_folder(sessions, student).glob(f"*/{CAPTURE_NAME}"), reverse=True)
-    without = [path.parent for path in captures if not _is_reported(path.parent)]
-    return [folder for folder in without[:MOST_READ] if _is_worth_it(folder / CAPTURE_NAME)]
+    rows = whose.ask(lambda history, student: history.sessions(student, state=SessionState.BEGUN)) or []
+    captures = [Path(row.folder) / CAPTURE_NAME for row in reversed(rows) if row.kind is SessionKind.LESSON]
+    without = [path for path in captures if path.is_file() and not is_over(path.parent)]
+    return [path.parent for path in without[:MOST_READ] if _is_worth_it(path)]
 
 
 def offer(settings: Settings) -> str | None:
     """The line that tells the student of sessions that were cut off; None where there are none."""
-    folders = cut_off(settings.sessions_dir, settings.student)
+    folders = cut_off(StudentHistory.of(settings))
     if not folders:
         return None
     more = f" (and {len(folders) - 1} more)" if len(folders) > 1 else ""
@@ -101,10 +105,6 @@ def _apart_from_limbs(notes: NDArray[np.void]) -> bytes:
     notes = notes.copy()
     notes["limb"] = Limb.UNKNOWN
     return notes.tobytes()
-
-
-def _is_reported(folder: Path) -> bool:
-    return (folder / DOCUMENT_NAME).exists() or (folder / TAKE_NAME).exists()
 
 
 def _is_worth_it(capture: Path) -> bool:

@@ -1,4 +1,4 @@
-"""Keeps a session: the folder with its capture and report, what is remembered of it, and a way out of a full disk.
+"""Keeps a session: the folder with its capture and report, the history, and a way out of a full disk.
 
 Pictures need the drummer, who lives above: whoever has one draws them into the folder (`station.scenes.pictures`).
 """
@@ -12,6 +12,7 @@ from station.core.disk.files import write_whole
 from station.core.errors import BadInput, StationError
 from station.core.settings import Settings
 from station.music.formats.smf.track_writer import write_performance
+from station.practice.history.learnt import NOTHING_LEARNT, Learnt
 from station.practice.history.session_files import (
     CAPTURE_NAME,
     DOCUMENT_NAME,
@@ -21,41 +22,54 @@ from station.practice.history.session_files import (
     session_folder,
     write_document,
 )
+from station.practice.history.session_keeping import begin_session, forget_session, keep_session
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.memory import Remembered
 from station.practice.records.report.mastery_report import with_mastery
 from station.practice.records.report.session_pairs import session_pairs_csv
 from station.practice.records.report.session_report import report_text
 from station.practice.session.session import SessionResult
 from station.scoring.report.assessment_document import Json
+from station.store.rows import SessionKind
 
 
 @dataclass(frozen=True, slots=True)
 class SessionFolder:
-    """One session's folder at `path`; as a context manager it takes one that `is_new` away again if it stayed empty."""
+    """One session's folder at `path`, as the history of `whose` sessions knows it.
+
+    As a context manager it takes one that `is_new` away again if it stayed empty.
+    """
 
     path: Path
+    whose: StudentHistory
     is_new: bool
 
     @classmethod
-    def make(cls, wanted: Path | None, settings: Settings, name: str) -> "SessionFolder":
-        """One made at the start, so that a disk that refuses shows before anybody plays.
+    def make(
+        cls, wanted: Path | None, settings: Settings, name: str, kind: SessionKind = SessionKind.LESSON
+    ) -> "SessionFolder":
+        """One made at the start, so that a disk that refuses shows before anybody plays, and known to the history.
 
         `name` says what is practised, `wanted` is a folder that the user named, None for a new one of the student's.
         Raises `BadInput` or `DeviceError` where it cannot be made.
         """
+        whose = StudentHistory.of(settings)
         if wanted is None:
-            return cls(session_folder(settings.sessions_dir, settings.student, name, datetime.now()), is_new=True)
-        is_new = not wanted.exists()
-        return cls(_made(wanted), is_new)
+            path, is_new = session_folder(settings.sessions_dir, settings.student, name, datetime.now()), True
+        else:
+            is_new = not wanted.exists()
+            path = _made(wanted)
+        begin_session(whose, path, kind, name if kind is SessionKind.LESSON else "")
+        return cls(path, whose, is_new)
 
     @classmethod
-    def left_over(cls, path: Path) -> "SessionFolder":
+    def left_over(cls, path: Path, settings: Settings) -> "SessionFolder":
         """That of a session that was cut off; raises `BadInput` where none was begun in it, or it has its report."""
         if (path / DOCUMENT_NAME).exists():
             raise BadInput(path, "", "this session has its report")
         if not (path / CAPTURE_NAME).is_file():
             raise BadInput(path, "", f"no session was begun in this folder: it holds no {CAPTURE_NAME}")
-        return cls(path, is_new=False)
+        return cls(path, StudentHistory.of(settings), is_new=False)
 
     @property
     def capture(self) -> Path:
@@ -69,8 +83,11 @@ class SessionFolder:
         self.discard()
 
     def discard(self) -> None:
-        """Take the folder away again if nothing is in it."""
-        if self.is_new and self.path.is_dir() and not any(self.path.iterdir()):
+        """Take the folder away again if nothing is in it; the history forgets it."""
+        if not self.path.is_dir() or any(self.path.iterdir()):
+            return
+        forget_session(self.whose, self.path)
+        if self.is_new:
             self.path.rmdir()
 
     def write(self, result: SessionResult, document: dict[str, Json]) -> None:
@@ -79,18 +96,33 @@ class SessionFolder:
         write_whole(self.path / TEXT_NAME, report_text(document).encode())
         write_whole(self.path / PAIRS_NAME, session_pairs_csv(result).encode())
 
-    def keep_take(self, document: dict[str, object]) -> None:
-        """Write what is kept of a free take beside its capture; raises `DeviceError`."""
+    def keep_take(self, document: dict[str, object]) -> str | None:
+        """Keep a free take beside its capture and in the history; raises `DeviceError`.
+
+        Returns None, or a line that says why the history does not have it.
+        """
         write_document(self.path / TAKE_NAME, document)
+        return self.keep()
+
+    def keep(self, learnt: Learnt = NOTHING_LEARNT) -> str | None:
+        """Have the history keep what was written, and what was learnt; None, or a line that says why it has not.
+
+        Raises `DeviceError` where what was learnt can be kept nowhere.
+        """
+        return keep_session(self.whose, self.path, learnt)
 
 
 @dataclass(frozen=True, eq=False)
 class SessionRecord:
-    """What a session leaves: its `result`, the report as a `document`, and the `fault` where the disk refused some."""
+    """What a session leaves: its `result`, the report as a `document`, and the `fault` where the disk refused some.
+
+    `unkept` says why the history does not have it yet, where it has not.
+    """
 
     result: SessionResult
     document: dict[str, Json]
     fault: StationError | None
+    unkept: str | None = None
 
 
 def save(
@@ -99,14 +131,13 @@ def save(
     """Keep a session that is over; where the tempo has `followed` the student the report tells of every pass."""
     if followed is not None:
         document = with_mastery(document, followed.adaptation, followed.next_turn(), followed.other_turn())
-    fault = None
+    fault, unkept = None, None
     try:
         folder.write(result, document)
-        if followed is not None:
-            followed.keep()
+        unkept = folder.keep(NOTHING_LEARNT if followed is None else followed.learnt())
     except StationError as refused:
         fault = _rescued(refused, result, document)
-    return SessionRecord(result, document, fault)
+    return SessionRecord(result, document, fault, unkept)
 
 
 def _rescued(fault: StationError, result: SessionResult, document: dict[str, Json]) -> StationError:

@@ -1,19 +1,15 @@
-"""Who practises here: the students whose folders lie under the folder of all sessions, and which names stay apart."""
+"""Who practises here: the students whom the history knows, and which names stay apart."""
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from datetime import date, datetime
+from dataclasses import dataclass, replace
+from datetime import date
 from pathlib import Path
 
-from station.core.disk.file_names import alike, folder_name
-from station.core.errors import BadInput
-from station.practice.history.kept_json import kept_document
-from station.practice.history.session_files import DOCUMENT_NAME, OWN_FOLDERS, VIRTUAL_STUDENT, student_folder
+from station.core.disk.file_names import alike
+from station.core.settings import Settings
+from station.practice.history.session_files import VIRTUAL_STUDENT, student_folder
+from station.practice.history.student_history import StudentHistory
 from station.store.student_names import student_key
-
-_SESSIONS = "????-??-??T??-??-??_*"
-_MARKS = ("mastery", "book")
-"""What else a student's folder has."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,25 +27,19 @@ class KnownStudent:
         return {0: "played today", 1: "played yesterday"}.get(ago) or f"played on {self.last.day} {self.last:%B %Y}"
 
 
-def known_students(sessions: Path, named: Iterable[str]) -> tuple[KnownStudent, ...]:
-    """Those who are `named`, in this order, then whoever else has a folder under `sessions`, who played last first.
-
-    Who is not named goes by the word of their last report, else by the folder's name.
-    """
-    found: dict[str, tuple[str, list[str]]] = {}
+def known_students(settings: Settings, named: Iterable[str]) -> tuple[KnownStudent, ...]:
+    """Those who are `named`, in this order, then whoever else the history knows, who played last first."""
+    rows = StudentHistory.of(settings).ask(lambda history, _: history.students()) or []
+    found: dict[str, KnownStudent] = {}
     for name in named:
-        folder = student_folder(sessions, name)
-        found.setdefault(alike(folder.name), (name, _started(folder)))
-    first = len(found)
-    for folder in _folders(sessions):
-        started = _started(folder)
-        if folder.name == folder_name(VIRTUAL_STUDENT):
-            continue
-        if alike(folder.name) not in found and (started or any((folder / mark).is_dir() for mark in _MARKS)):
-            found[alike(folder.name)] = _reported_name(folder, started), started
-    everyone = list(found.values())
-    others = sorted(everyone[first:], key=lambda one: max(one[1], default=""), reverse=True)
-    return tuple(KnownStudent(name, _day(started)) for name, started in [*everyone[:first], *others])
+        found.setdefault(student_key(name), KnownStudent(name))
+    for row in rows:
+        key, last = student_key(row.name), None if row.last is None else row.last.date()
+        if key in found:
+            found[key] = replace(found[key], last=last)
+        elif row.name != VIRTUAL_STUDENT:
+            found[key] = KnownStudent(row.name, last)
+    return tuple(found.values())
 
 
 def shares_folder(name: str, other: str) -> bool:
@@ -65,35 +55,3 @@ def sharing(sessions: Path, name: str, others: Sequence[str]) -> str | None:
 
 def _folder_of(sessions: Path, name: str) -> str:
     return alike(student_folder(sessions, name).name)
-
-
-def _folders(sessions: Path) -> list[Path]:
-    try:
-        inside = sorted(sessions.iterdir())
-    except OSError:
-        return []
-    return [path for path in inside if path.is_dir() and path.name.casefold() not in OWN_FOLDERS]
-
-
-def _started(folder: Path) -> list[str]:
-    """The names of its sessions, which begin with when they began, in order."""
-    return sorted(path.name for path in folder.glob(_SESSIONS) if path.is_dir())
-
-
-def _day(started: Sequence[str]) -> date | None:
-    try:
-        return datetime.strptime(started[-1][:10], "%Y-%m-%d").date() if started else None
-    except ValueError:
-        return None
-
-
-def _reported_name(folder: Path, started: Sequence[str]) -> str:
-    """What the last report calls the student, where that name has this folder."""
-    try:
-        document = kept_document(folder / started[-1] / DOCUMENT_NAME) if started else None
-    except BadInput:
-        return folder.name
-    session = document.get("session") if isinstance(document, dict) else None
-    name = session.get("student") if isinstance(session, dict) else None
-    is_theirs = isinstance(name, str) and name.isprintable() and student_folder(folder.parent, name) == folder
-    return str(name) if is_theirs else folder.name

@@ -5,6 +5,7 @@ from datetime import date
 from station.core.errors import StationError
 from station.core.settings import Settings
 from station.practice.history.session_intake import everything_in
+from station.practice.history.student_history import StudentHistory
 from station.practice.session.session import SessionResult
 from station.scenes.report.kept_session import kept_session
 from station.scenes.report.page_facts import session_page
@@ -40,9 +41,8 @@ def week_bytes(settings: Settings, day: date, today: date, ending: str) -> bytes
     from station.render.report.page.week_html import week_html
     from station.render.report.page.week_paper import week_pdf
     from station.scenes.report.week_facts import week_page
-    from station.store.opening import history_of
 
-    history = history_of(settings)
+    history = StudentHistory.of(settings).open()
     everything_in(history, settings.sessions_dir, settings.student)
     page = week_page(history, settings, day, today)
     return week_pdf(page) if ending == ".pdf" else week_html(page).encode("utf-8", "replace")

@@ -20,6 +20,7 @@ from station.practice.history.session_files import (
     TAKE_NAME,
 )
 from station.practice.history.session_intake import everything_in
+from station.practice.history.student_history import StudentHistory
 from station.store.history import History
 from station.store.rows import SessionKind
 
@@ -39,9 +40,7 @@ class SessionPlace:
 
 def session_place(word: str, settings: Settings) -> SessionPlace:
     """The session that `word` means; raises `BadInput` where it is none, and says what to do with what it is."""
-    from station.store.opening import history_of
-
-    history = history_of(settings)
+    history = StudentHistory.of(settings).open()
     if not os.path.exists(word):  # noqa: PTH110 - no error for long names
         everything_in(history, settings.sessions_dir, settings.student)  # what was played since it was last looked at
     chosen = choose_session(history, settings.student, word)

@@ -41,13 +41,15 @@ from station.motion.sticking.hand_notes import Hands
 from station.practice.demonstration.compare_by_ear import Whose
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.history.session_files import CAPTURE_NAME, session_folder
-from station.practice.records.memory import LevelMemory
+from station.practice.records.memory import remembered
 from station.practice.session.backing_track import BackingRequest
 from station.practice.session.event_log import Tracked, said_in
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.scenes.session_part import AHEAD
 from station.scoring.matching.hit_windows import Level
 from station.simulation.student_spec import parse_spec
+from station.store import memory_rows
+from tests.fakes.known_students import one_student
 from tests.fakes.stations import Line, choose, just_play, room, shown, station_on, store_with
 
 TARGET_BPM = find_lesson("rock-1").target_tempo_bpm
@@ -192,7 +194,7 @@ def test_where_the_tempo_follows_the_student_the_next_pass_begins_by_itself(tmp_
     mastery = report.document["mastery"]
     assert isinstance(mastery, dict)
     assert [one["tempo_bpm"] for one in mastery["passes"]] == [pytest.approx(0.7 * TARGET_BPM)] * 2
-    assert len(list(tmp_path.glob("*/mastery/rock-1_*.json"))) == 1
+    assert [state.item.name for state in remembered(one_student(tmp_path, "student"))] == ["rock-1"]
     assert report.facts.words.subtitle.endswith(" · Not yet shown in a blind pass.")
 
 
@@ -530,8 +532,11 @@ def test_a_session_that_was_cut_off_is_told_of_when_the_window_opens(tmp_path: P
     folder = session_folder(tmp_path, store.now.student, "rock-1", datetime(2026, 3, 1, 10))
     practise_virtually(PLAN, parse_spec("pro"), folder / CAPTURE_NAME)
     station = station_on([Line()], store, Launch(PLAN))
-    station.update(1)
-    told = station.view().toast
+    deadline = time.monotonic() + MOST_READING_S
+    while not station.view().toast and time.monotonic() < deadline:
+        station.update(1)
+    taken, told = station.view().toast.splitlines()
+    assert taken == "1 session taken into the history"
     assert told.startswith("a session was cut off before it was judged: 2026-03-01T10-00-00_rock-1; station practice")
 
 
@@ -571,12 +576,14 @@ def test_a_choice_of_level_holds_for_that_lesson_and_the_next_time(tmp_path: Pat
     assert again.view().selection.level is Level.BEGINNER
 
 
-def test_a_level_that_the_disk_refuses_is_not_shown_as_chosen(tmp_path: Path) -> None:
+def test_a_level_that_the_disk_refuses_is_not_shown_as_chosen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     station = station_at([Line()], tmp_path)
-    folder = LevelMemory.of(tmp_path, "student").path.parent
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    folder.write_text("no folder")
+
+    def refused(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(memory_rows, "put_level", refused)
     station.dispatch(JudgeAt("rock-1", Level.STUDIO))
     station.update(1)
-    assert f"{folder.name}/levels.json: cannot be read" in station.view().toast
+    assert "No space left on device" in station.view().toast
     assert station.view().selection.level is Level.BEGINNER

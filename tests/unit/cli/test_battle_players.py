@@ -7,7 +7,7 @@ import pytest
 
 from station.app.settings.settings_store import SettingsStore
 from station.cli.command_line import main
-from station.core.settings import with_said
+from station.core.settings import load_settings, with_said
 from station.practice.records.students import known_students
 
 SHORT = ("battle", "--headless", "--rounds", "1", "--no-final", "--tempo", "150")
@@ -33,7 +33,7 @@ def test_a_virtual_student_s_battle_is_nobody_s_who_practises_here(
     assert main([*SHORT, "--virtual-student", "beginner"]) == 0
     assert capsys.readouterr().out.startswith("Virtual beginner against The steady one\n")
     assert folders(sessions) == ["virtual-student"]
-    assert [one.name for one in known_students(sessions, ["Olga"])] == ["Olga"], "nobody to choose in the window"
+    assert [one.name for one in known_students(load_settings(), ["Olga"])] == ["Olga"], "nobody to choose in the window"
 
 
 def test_so_is_a_session_and_an_exam(sessions: Path, capsys: pytest.CaptureFixture[str]) -> None:

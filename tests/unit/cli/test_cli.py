@@ -19,6 +19,7 @@ from station.drills.library import find_lesson
 from station.music.formats.smf.track_writer import write_performance
 from station.music.performance import Performance
 from tests.fakes.captures import capture_bytes
+from tests.fakes.kept_sessions import users_history
 
 
 @pytest.fixture(autouse=True)
@@ -79,7 +80,8 @@ def test_the_tempo_follows_the_student_where_it_is_asked_to(capsys: pytest.Captu
     tempi = [one["mastery"]["passes"][0]["tempo_bpm"] for one in (first, second, nobody)]  # type: ignore[index]
     assert tempi[0] == tempi[2] < tempi[1]
     assert first["counts"]["notes"] == 3 * 24  # type: ignore[index]
-    assert len(list(tmp_path.rglob("mastery/rock-1_1-2.json"))) == 1
+    assert [(row.lesson, row.first_bar, row.last_bar) for row in users_history().mastery("anna")] == [("rock-1", 0, 1)]
+    assert [each.name for each in users_history().students() if users_history().mastery(each.name)] == ["anna"]
 
 
 def test_a_session_has_a_folder_of_the_students_own(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -13,8 +13,8 @@ from station.drills.library import find_lesson, lesson_rows, shipped_courses
 from station.drills.mastery.next_pass import new_item
 from station.drills.mastery.practice_steps import item_of
 from station.drills.mastery.reviews import Review
-from station.practice.records.memory import Memory
 from station.scoring.matching.hit_windows import Level
+from tests.fakes.known_students import know, one_student
 
 TODAY = date(2026, 3, 1)
 OWN = """
@@ -38,7 +38,7 @@ def sessions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     for name, level in (("rock-1", Level.ELEMENTARY), ("rock-2", Level.BEGINNER)):
         lesson = find_lesson(name)
         state = replace(new_item(item_of(lesson), TODAY), review=Review(TODAY, 0, None, level))
-        Memory.of(tmp_path, Settings().student, name, lesson.loop).keep(state)
+        know(one_student(tmp_path, Settings().student), state)
     (tmp_path / "courses").mkdir()
     (tmp_path / "courses" / "mine.course.toml").write_text(OWN)
     return tmp_path

@@ -10,12 +10,14 @@ from station.drills.exam.exam_piece import ExamPiece, Unseen, prepared_piece, re
 from station.drills.library import find_lesson
 from station.music.performance import Performance
 from station.practice.exam.exam_record import exam_document, keep_exam, marks_text, rubric_text, was_seen
+from station.practice.exam.exam_sitting import Sitting
 from station.practice.exam.exam_take import exam_marks, exam_plan, exam_runner
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.session.device_latency import Latency
 from station.practice.session.plan import Phase
 from station.practice.session.session import SessionResult
 from station.simulation.student_spec import parse_spec
+from tests.fakes.known_students import one_student, take_all_in
 
 
 @pytest.fixture(scope="module")
@@ -67,15 +69,24 @@ def test_computer_keys_are_not_marked_for_loudness() -> None:
 
 
 def test_a_piece_that_was_shown_is_unseen_no_more(piece: ExamPiece, tmp_path: Path) -> None:
-    assert not was_seen(tmp_path, "Ada L.", piece.unseen or Unseen(0, 0))
-    folder = tmp_path / "Ada-L" / "2026-01-01"
+    ada = one_student(tmp_path, "Ada L.")
+    assert not was_seen(ada, piece.unseen or Unseen(0, 0))
+    folder, broken = (ada.folder / f"2026-01-0{day}T10-00-00_reading" for day in (1, 2))
     folder.mkdir(parents=True)
     keep_exam(folder, exam_document(piece, None, seen_before=False))
-    (tmp_path / "Ada-L" / "broken").mkdir()
-    (tmp_path / "Ada-L" / "broken" / "exam.json").write_text("[[[")
-    assert was_seen(tmp_path, "Ada L.", Unseen(2, 11))
-    assert not was_seen(tmp_path, "Ada L.", Unseen(2, 12))
-    assert not was_seen(tmp_path, "Grace", Unseen(2, 11))
+    broken.mkdir()
+    (broken / "exam.json").write_text("[[[")
+    take_all_in(ada)
+    assert was_seen(ada, Unseen(2, 11))
+    assert not was_seen(ada, Unseen(2, 12))
+    assert not was_seen(one_student(tmp_path, "Grace"), Unseen(2, 11))
+
+
+def test_a_piece_is_seen_as_soon_as_it_is_looked_at(piece: ExamPiece, tmp_path: Path) -> None:
+    ada = one_student(tmp_path, "Ada L.")
+    Sitting.begin(piece, ada.settings)
+    assert was_seen(ada, Unseen(2, 11))
+    assert Sitting.begin(piece, ada.settings).seen_before
 
 
 def test_the_rubric_says_before_what_the_marks_say_after(piece: ExamPiece, result: SessionResult) -> None:

@@ -12,10 +12,12 @@ from station.drills.exam.exam_piece import Unseen
 from station.practice.book.book_day import BookFolder
 from station.practice.book.practised import practised_on
 from station.practice.exam.exam_record import was_seen
+from station.practice.history.catching_up import catch_up
 from station.practice.history.kept_json import kept_document, recalled
 from station.practice.history.session_files import DOCUMENT_NAME
 from station.practice.records.assigned_lessons import all_taken
 from station.practice.records.memory import remembered
+from tests.fakes.known_students import one_student
 
 DAY = date(2026, 11, 23)
 
@@ -74,9 +76,11 @@ def test_nothing_of_a_student_hangs_on_what_lies_in_its_place(made: Callable[[Pa
     made(student / "2026-11-23T10-00-00_a" / DOCUMENT_NAME)
     made(student / "mastery" / "a.json")
     made(student / "assignments" / "a" / "taken.json")
-    assert not was_seen(tmp_path, "Kim", Unseen(1, 1))
-    assert practised_on(tmp_path, "Kim", [DAY]) == []
-    assert remembered(tmp_path, "Kim") == []
+    kim = one_student(tmp_path, "Kim")
+    catch_up(kim.settings, list[str]().append)
+    assert not was_seen(kim, Unseen(1, 1))
+    assert practised_on(kim, [DAY]) == []
+    assert remembered(kim) == []
     assert all_taken(tmp_path, "Kim") == {}
 
 

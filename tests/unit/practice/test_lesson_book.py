@@ -18,6 +18,7 @@ from station.practice.book.day_progress import BlockState, day_progress
 from station.practice.book.lesson_book import LessonBook
 from station.practice.book.practised import PractisedSession, practised_on
 from station.practice.book.teachers_words import TeacherNote
+from tests.fakes.known_students import one_student, take_all_in
 
 DAY = date(2026, 11, 23)
 MORNING = datetime(2026, 11, 23, 9)
@@ -164,7 +165,9 @@ def test_reports_and_takes_of_a_day_are_found_and_other_folders_left_alone(tmp_p
     ]:
         (tmp_path / "Ann" / name).mkdir(parents=True)
         (tmp_path / "Ann" / name / file).write_text(document, encoding="utf-8")
-    found = practised_on(tmp_path, "Ann", [DAY])
+    whose = one_student(tmp_path, "Ann")
+    take_all_in(whose)
+    found = practised_on(whose, [DAY])
     assert [(one.lesson, one.played_s, one.score) for one in found] == [("", 61.5, None), ("rock-1", 48.0, 90.5)]
 
 
@@ -187,7 +190,9 @@ def test_an_exam_stands_in_the_book_with_its_band(tmp_path: Path, document: obje
     folder.mkdir(parents=True)
     (folder / "report.json").write_text(json.dumps({"score": 90.0, "session": report}), encoding="utf-8")
     (folder / "exam.json").write_text(json.dumps(document), encoding="utf-8")
-    (one,) = practised_on(tmp_path, "Ann", [DAY])
+    whose = one_student(tmp_path, "Ann")
+    take_all_in(whose)
+    (one,) = practised_on(whose, [DAY])
     assert session_words(one) == f"10:00   0.8 min  {words}"
 
 

@@ -1,6 +1,5 @@
 """The level of a student and a lesson: judged live and in the report, kept, and narrower once the lesson is held."""
 
-import json
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
@@ -11,10 +10,12 @@ from station.core.settings import Settings
 from station.core.units import NS_PER_MS
 from station.drills.lesson import Lesson
 from station.drills.library import find_lesson
+from station.drills.mastery.mastery_json import document_of
 from station.drills.mastery.practice_steps import PassKind
 from station.music.judgement import Judgement, Label
 from station.practice.headless.live_text import LiveText
 from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
+from station.practice.history.session_files import write_document
 from station.practice.records.memory import LevelMemory, Memory, Remembered
 from station.practice.records.recovery import recovered
 from station.practice.records.report.mastery_report import mastery_words, with_mastery
@@ -25,6 +26,7 @@ from station.practice.session.session import Session
 from station.scenes.result_tables import session_facts
 from station.scoring.matching.hit_windows import Level
 from station.simulation.student_spec import parse_spec
+from tests.fakes.known_students import one_student, remember
 
 TODAY, TOMORROW = date(2026, 3, 1), date(2026, 3, 2)
 ROCK = find_lesson("rock-1")
@@ -35,7 +37,7 @@ PROBES_TWICE = PlanOptions(tempo_bpm=ROCK.target_tempo_bpm, loops=10, demonstrat
 
 
 def remembered(sessions: Path, options: PlanOptions, today: date = TODAY, lesson: Lesson = ROCK) -> Remembered:
-    memory = Memory.of(sessions, "anna", lesson.name, lesson.loop)
+    memory = Memory(one_student(sessions, "anna"), lesson.name, lesson.loop)
     return Remembered.of(lesson, options, today, memory)
 
 
@@ -59,8 +61,8 @@ def test_who_holds_the_lesson_blind_at_the_target_tempo_is_judged_at_the_next_le
     assert document["level"] == "beginner", "what was played stays judged as it was"
     told = "10 passes of bars 1–2 at 110 bpm · Mastered at beginner; asked for again on 02 March."
     assert session_facts(virtual.result, document).words.subtitle == told
-    followed.keep()
-    levels, fault = LevelMemory.of(tmp_path, "anna").recall()
+    remember(followed)
+    levels, fault = LevelMemory(one_student(tmp_path, "anna")).recall()
     assert (levels, fault) == ({"rock-1": Level.ELEMENTARY}, None)
 
 
@@ -73,7 +75,7 @@ def test_one_pass_before_that_nothing_is_said() -> None:
 def test_the_narrower_level_has_to_be_held_anew(tmp_path: Path) -> None:
     followed = remembered(tmp_path, PROBES_TWICE)
     practise_adaptively(followed.adaptation, parse_spec(STEADY))
-    followed.keep()
+    remember(followed)
     again = remembered(tmp_path, replace(PROBES_TWICE, loops=1, level=Level.ELEMENTARY), TOMORROW).adaptation
     assert again.plan.level is Level.ELEMENTARY
     assert not again.has_grown
@@ -124,32 +126,31 @@ def test_a_session_that_was_cut_off_is_judged_at_its_level(tmp_path: Path) -> No
 
 
 def test_each_student_and_lesson_has_a_level_of_its_own(tmp_path: Path) -> None:
-    anna = LevelMemory.of(tmp_path, "anna")
+    anna = LevelMemory(one_student(tmp_path, "anna"))
     anna.keep("rock-1", Level.STUDIO)
     anna.keep("rock-2", Level.BEGINNER)
     anna.keep("rock-1", Level.ADVANCED)
     assert anna.recall() == ({"rock-1": Level.ADVANCED, "rock-2": Level.BEGINNER}, None)
-    assert LevelMemory.of(tmp_path, "ben").recall() == ({}, None)
+    assert LevelMemory(one_student(tmp_path, "ben")).recall() == ({}, None)
 
 
 def test_what_is_remembered_from_before_there_was_a_choice_was_intermediate(tmp_path: Path) -> None:
-    followed = remembered(tmp_path, PlanOptions())
-    followed.keep()
-    path = Memory.of(tmp_path, "anna", ROCK.name, ROCK.loop).path
-    document = json.loads(path.read_text())
+    document = document_of(Adaptation(ROCK, PlanOptions(), TODAY).state)
     del document["item"]["level"], document["item"]["review"]["level"]
-    path.write_text(json.dumps(document))
-    assert LevelMemory.of(tmp_path, "anna").recall() == ({"rock-1": Level.INTERMEDIATE}, None)
+    write_document(one_student(tmp_path, "anna").folder / "mastery" / "rock-1_1-2.json", document)
+    assert LevelMemory(one_student(tmp_path, "anna")).recall() == ({"rock-1": Level.INTERMEDIATE}, None)
 
 
 @pytest.mark.parametrize("text", ["{", "[]", '{"schema": "drum-station/levels/1", "levels": {"rock-1": "expert"}}'])
 def test_levels_that_cannot_be_read_are_set_aside(text: str, tmp_path: Path) -> None:
-    memory = LevelMemory.of(tmp_path, "anna")
-    memory.path.parent.mkdir(parents=True)
-    memory.path.write_text(text)
-    levels, fault = memory.recall()
+    whose = one_student(tmp_path, "anna")
+    file = whose.folder / "mastery" / "levels.json"
+    file.parent.mkdir(parents=True)
+    file.write_text(text)
+    levels, fault = LevelMemory(whose).recall()
     assert levels == {}
     assert fault is not None
+    assert str(file) in fault
     assert fault.endswith("levels begin anew")
-    assert memory.path.with_name("levels.json.unread-1").read_text() == text
-    assert memory.recall() == ({}, None)
+    assert (whose.folder / "mastery-before-history" / "levels.json").read_text() == text
+    assert LevelMemory(whose).recall() == ({}, None)

@@ -1,4 +1,4 @@
-"""An earlier session of a lesson: found by day, read from its table, laid over the bars of another one.
+"""An earlier session of a lesson: found by day, read from its judgements, laid over the bars of another one.
 
 The lesson has two bars of four quarters on the snare, the first pass of which is bar 1; times are counted by hand.
 """
@@ -24,6 +24,7 @@ from station.practice.records.report.session_pairs import SESSION_COLUMNS, sessi
 from station.practice.session.plan import TAIL_NS, PlanOptions, plan_practice
 from station.practice.session.session import Session, SessionResult
 from station.scoring.report.pairs_table import COLUMNS
+from tests.fakes.known_students import one_student, take_all_in
 
 HEAD = ",".join(COLUMNS + SESSION_COLUMNS)
 ROWS = (
@@ -48,7 +49,9 @@ NOW = "2026-03-05T18-00-00_quarters"
 
 
 def found(student: Path) -> PreviousSession | str:
-    return find_previous(student / NOW, "quarters")
+    whose = one_student(student.parent, student.name)
+    take_all_in(whose)
+    return find_previous(whose, student / NOW, "quarters")
 
 
 def result(tempo_bpm: float, *late_ms: float) -> SessionResult:
@@ -114,7 +117,7 @@ def test_nothing_and_other_people_s_folders_are_none(tmp_path: Path) -> None:
     (tmp_path / "2026-03-04T09-00-00_quarters").mkdir()
     (tmp_path / "my_quarters").mkdir()
     assert found(tmp_path) == NONE_KEPT
-    assert find_previous(tmp_path / "somewhere", "quarters") == NONE_KEPT
+    assert find_previous(one_student(tmp_path, "Ann"), tmp_path / "somewhere", "quarters") == NONE_KEPT
 
 
 def test_its_last_pass_is_laid_over_a_bar_at_another_tempo(tmp_path: Path) -> None:

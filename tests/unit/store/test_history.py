@@ -83,6 +83,19 @@ def test_sessions_of_some_days_and_the_latest(history: History) -> None:
     assert [row.name for row in history.latest("Ann", 2)] == ["day-5", "day-4"]
     assert [row.name for row in history.latest("Ann", 5, lesson="lesson-1")] == ["day-5", "day-3"]
     assert [row.name for row in history.latest("Ann", 5, SessionKind.BATTLE)] == ["fight"]
+    assert [row.name for row in history.latest("Ann", 5, until=datetime(2026, 5, 5, 18, 30))] == ["day-4", "day-3"]
+
+
+def test_what_is_remembered_already_outlives_what_is_remembered_anew(history: History) -> None:
+    history.remember("Ann", [MasteryRow("rock-1", 0, 3, "known")], {"rock-1": "studio"})
+    new = [MasteryRow("rock-1", 0, 3, "other"), MasteryRow("rock-1", 0, 1, "new"), MasteryRow("rock-2", 0, 3, "new")]
+    history.remember_new("ann", new, {"rock-1": "beginner", "rock-2": "beginner"})
+    assert [(row.lesson, row.last_bar, row.document) for row in history.mastery("Ann")] == [
+        ("rock-1", 1, "new"),
+        ("rock-1", 3, "known"),
+        ("rock-2", 3, "new"),
+    ]
+    assert history.levels("Ann") == {"rock-1": "studio", "rock-2": "beginner"}
 
 
 def test_one_student_by_any_spelling_and_none_by_another(history: History) -> None:

@@ -17,24 +17,26 @@ from station.practice.battle.battle_result import BattleResult
 from station.practice.battle.records.battle_document import battle_document
 from station.practice.battle.records.battle_report import battle_report
 from station.practice.battle.records.judge_battle_again import judge_battle_again
-from station.practice.history.session_files import (
-    BATTLE_CAPTURE_NAME,
-    BATTLE_NAME,
-    session_folder,
-    student_folder,
-    write_document,
-)
+from station.practice.history.session_files import BATTLE_CAPTURE_NAME, BATTLE_NAME, session_folder, write_document
+from station.practice.history.session_intake import is_over
+from station.practice.history.session_keeping import begin_session, forget_session, keep_session
+from station.practice.history.student_history import StudentHistory
 from station.scoring.matching.hit_windows import Level
 from station.scoring.report.assessment_document import Json
+from station.store.rows import SessionKind, SessionState
 
 TEXT_NAME = "battle.txt"
 
 
 @dataclass(frozen=True, slots=True)
 class BattleFolder:
-    """One battle's folder; as a context manager it takes one that `is_new` away again if it stayed empty."""
+    """One battle's folder, as the history of `whose` sessions knows it.
+
+    As a context manager it takes one that `is_new` away again if it stayed empty.
+    """
 
     path: Path
+    whose: StudentHistory
     is_new: bool
 
     @classmethod
@@ -43,17 +45,14 @@ class BattleFolder:
 
         Raises `BadInput` or `DeviceError` where it cannot be made.
         """
+        whose, is_new = StudentHistory.of(settings), wanted is None or not wanted.exists()
         if wanted is None:
             name = f"battle-{opponent}"
-            return cls(session_folder(settings.sessions_dir, settings.student, name, datetime.now()), is_new=True)
-        if (wanted / BATTLE_CAPTURE_NAME).exists() or (wanted / BATTLE_NAME).exists():
-            raise BadInput(wanted, "", "there is a battle in this folder already")
-        is_new = not wanted.exists()
-        try:
-            wanted.mkdir(parents=True, exist_ok=True)
-        except OSError as fault:
-            raise BadInput(wanted, "", f"no folder can be made: {fault.strerror or fault}") from fault
-        return cls(wanted, is_new)
+            path = session_folder(settings.sessions_dir, settings.student, name, datetime.now())
+        else:
+            path = _made(wanted)
+        begin_session(whose, path, SessionKind.BATTLE)
+        return cls(path, whose, is_new)
 
     @property
     def capture(self) -> Path:
@@ -65,14 +64,18 @@ class BattleFolder:
         """Where the report in words is kept."""
         return self.path / TEXT_NAME
 
-    def write(self, result: BattleResult) -> None:
-        """Keep a battle that is over; raises `DeviceError`."""
-        self.keep(battle_document(result), battle_report(result))
+    def write(self, result: BattleResult) -> str | None:
+        """Keep a battle that is over; None, or why the history does not have it. Raises `DeviceError`."""
+        return self.keep(battle_document(result), battle_report(result))
 
-    def keep(self, document: Mapping[str, Json], report: str) -> None:
-        """Keep a battle that is over as a document and in words; raises `DeviceError`."""
+    def keep(self, document: Mapping[str, Json], report: str) -> str | None:
+        """Keep a battle that is over as a document and in words, and in the history; raises `DeviceError`.
+
+        Returns None, or a line that says why the history does not have it.
+        """
         write_document(self.path / BATTLE_NAME, document)
         write_whole(self.report, report.encode())
+        return keep_session(self.whose, self.path)
 
     def discard(self) -> None:
         """Leave nothing of a battle that nobody played; raises `DeviceError`."""
@@ -86,8 +89,21 @@ class BattleFolder:
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self.is_new and self.path.is_dir() and not any(self.path.iterdir()):
+        if not self.path.is_dir() or any(self.path.iterdir()):
+            return
+        forget_session(self.whose, self.path)
+        if self.is_new:
             self.path.rmdir()
+
+
+def _made(path: Path) -> Path:
+    if (path / BATTLE_CAPTURE_NAME).exists() or (path / BATTLE_NAME).exists():
+        raise BadInput(path, "", "there is a battle in this folder already")
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as fault:
+        raise BadInput(path, "", f"no folder can be made: {fault.strerror or fault}") from fault
+    return path
 
 
 def kept_battle(path: Path, level: Level | None = None) -> BattleResult:
@@ -105,7 +121,8 @@ def recovered_battle(folder: Path) -> BattleResult:
     return kept_battle(folder)
 
 
-def battles_cut_off(sessions: Path, student: str) -> list[Path]:
-    """The folders of a student's battles that lack their report, the newest first; `sessions` holds all students."""
-    captures = sorted(student_folder(sessions, student).glob(f"*/{BATTLE_CAPTURE_NAME}"), reverse=True)
-    return [path.parent for path in captures if not (path.parent / BATTLE_NAME).exists()]
+def battles_cut_off(whose: StudentHistory) -> list[Path]:
+    """The folders of a student's battles that lack their report, the newest first, wherever they lie."""
+    rows = whose.ask(lambda history, student: history.sessions(student, state=SessionState.BEGUN)) or []
+    folders = [Path(row.folder) for row in reversed(rows) if row.kind is SessionKind.BATTLE]
+    return [path for path in folders if (path / BATTLE_CAPTURE_NAME).is_file() and not is_over(path)]

@@ -1,17 +1,17 @@
-"""What players have done in earlier battles, by the documents that these have left: what is expected of them."""
+"""What players have done in earlier battles, as the history has them: what is expected of them."""
 
+import json
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 
-from station.core.errors import BadInput
+from station.core.settings import Settings
 from station.practice.battle.battle_rules import BattleMode, BattleRules
 from station.practice.battle.people.handicap import Earlier, Expectation, expectation
 from station.practice.battle.people.player import is_virtual
 from station.practice.battle.repeating.demands import MOST_STEP
-from station.practice.history.kept_json import kept_document
 from station.practice.history.session_files import BATTLE_NAME
+from station.practice.history.student_history import StudentHistory
 from station.practice.session.log_values import rows_in, table_in, whole
 
 MOST_READ = 60
@@ -21,18 +21,19 @@ MOST_POINTS = 100.0
 """Of a turn."""
 
 
-def expected_of(sessions: Path, name: str, virtual: bool = False) -> Expectation:
-    """What is expected of the player called `name`; `sessions` is the folder of all students' sessions.
+def expected_of(whose: StudentHistory, virtual: bool = False) -> Expectation:
+    """What is expected of a player, by the battles of everybody in which they have played.
 
     What `virtual` players have done under a name tells of them alone, and of no person. A document that cannot be read
     tells nothing, nor does a battle in which no stroke of theirs was heard.
     """
     answers: list[Earlier] = []
     points: list[float] = []
-    documents = sorted(sessions.glob(f"*/*/{BATTLE_NAME}"), key=lambda path: path.parent.name)
-    for path in documents[-MOST_READ:]:
-        with suppress(BadInput, ValueError, TypeError, KeyError, AttributeError):
-            document = table_in(kept_document(path))
+    name = whose.student
+    documents = whose.ask(lambda history, _: history.every_document(BATTLE_NAME, MOST_READ)) or []
+    for body in reversed(documents):
+        with suppress(ValueError, TypeError, KeyError, AttributeError, RecursionError):
+            document = table_in(json.loads(body))
             if not _has_played(document, name, virtual):
                 continue
             turns = list(_turns(document, name))
@@ -41,14 +42,14 @@ def expected_of(sessions: Path, name: str, virtual: bool = False) -> Expectation
     return expectation(answers, points)
 
 
-def after_earlier(rules: BattleRules, sessions: Path, has_handicap: bool, virtual: bool = False) -> BattleRules:
+def after_earlier(rules: BattleRules, settings: Settings, has_handicap: bool, virtual: bool = False) -> BattleRules:
     """The rules as the players' earlier battles ask: what is expected of each for a handicap, else the first step.
 
     A first step that `rules` have stays, and `virtual` players begin at their level's, so that their battle is the same
     for the same seed. Else it is the lowest of the players' own, so that nobody is out before a phrase comes that they
     can play.
     """
-    expected = [expected_of(sessions, player.name, virtual) for player in rules.players]
+    expected = [expected_of(StudentHistory(settings, player.name), virtual) for player in rules.players]
     if has_handicap and not rules.is_solo:
         return replace(rules, expectations=tuple(expected))
     if virtual or rules.first_step is not None or rules.mode is not BattleMode.REPEAT:

@@ -43,6 +43,7 @@ from station.practice.records.memory import LevelMemory
 from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.scoring.matching.hit_windows import Level
+from tests.fakes.known_students import one_student
 from tests.fakes.stations import Line, station_on, store_with
 
 PLAN = plan_practice(find_lesson("rock-1"), PlanOptions(loops=1, demonstrations=0))
@@ -162,7 +163,7 @@ def test_a_battle_is_judged_by_the_level_of_the_students_lessons_and_begins_low_
     line: Line, station: Controller, tmp_path: Path
 ) -> None:
     assert shown(station).setup.level is Level.BEGINNER, "of whom no lesson is known"
-    levels = LevelMemory.of(tmp_path, "Cleo")
+    levels = LevelMemory(one_student(tmp_path, "Cleo"))
     for lesson, level in (("rock-1", Level.ADVANCED), ("rock-2", Level.STUDIO), ("rock-3", Level.ELEMENTARY)):
         levels.keep(lesson, level)
     station.dispatch(PlayAs("Cleo"))
@@ -180,7 +181,7 @@ def test_what_nobody_chose_is_the_same_in_the_window_and_in_a_terminal(tmp_path:
     settings = Settings(student="Ann", sessions=str(tmp_path))
     options = BattleOptions(network=NetworkOptions(), video=FilmOptions(), sound=SoundOptions())
     typed = battle_rules(options, settings)
-    chosen = after_earlier(chosen_rules(ChosenBattle(seed=1), "Ann", (), PLAIN), tmp_path, has_handicap=False)
+    chosen = after_earlier(chosen_rules(ChosenBattle(seed=1), "Ann", (), PLAIN), settings, has_handicap=False)
     for rules in (typed, chosen):
         assert (rules.rounds, rules.bars, rules.lives, rules.target) == (6, 2, 3, 0.9)
         assert (rules.level, rules.first_step) == (Level.BEGINNER, 1)

@@ -24,6 +24,7 @@ from station.engine.engine import Engine
 from station.engine.messages import Play, RecordCapture
 from station.practice.headless.virtual_session import practise_virtually
 from station.practice.history.session_intake import take_in
+from station.practice.history.student_history import StudentHistory
 from station.practice.records.report.session_report import practice_document
 from station.practice.records.save_session import SessionFolder
 from station.practice.session.cues.click_pattern import PLAIN
@@ -84,7 +85,8 @@ def lesson(folder: Path, room: Room, lesson: str = "rock-fill-1") -> Path:
         parse_spec("seed=4,miss_pct=5"),
         folder / "session.capture",
     )
-    SessionFolder(folder, is_new=False).write(virtual.result, practice_document(virtual.result, room.store.now))
+    document = practice_document(virtual.result, room.store.now)
+    SessionFolder(folder, StudentHistory.of(room.store.now), is_new=False).write(virtual.result, document)
     return folder
 
 

@@ -15,19 +15,21 @@ from station.practice.battle.records.battle_report import battle_report
 from station.practice.battle.records.earlier_rounds import expected_of
 from station.practice.battle.turn_plan import PlannedTurn, TurnKind
 from station.practice.session.device_latency import Latency
+from tests.fakes.known_students import one_student, take_all_in
 from tests.unit.practice.battle.test_earlier_rounds import leave
 
 
 def battle(sessions: Path, ann: float, ben: float) -> BattleResult:
     """A round of one improvised turn each, worth so many points."""
     names = ("Ann", "Ben")
+    take_all_in(one_student(sessions, "Ann"))
     rules = BattleRules(
         Ground(100.0),
         BattleMode.IMPROVISE,
         players=tuple(map(Player, names)),
         rounds=1,
         has_final=False,
-        expectations=tuple(expected_of(sessions, name) for name in names),
+        expectations=tuple(expected_of(one_student(sessions, name)) for name in names),
     )
     turns = tuple(
         JudgedTurn(

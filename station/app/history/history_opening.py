@@ -1,0 +1,51 @@
+"""The history as the window opens: what lies in folders comes in beside what goes on, and what came is shown then."""
+
+from collections.abc import Callable
+from concurrent.futures import Executor, Future
+from dataclasses import dataclass
+
+from station.app.settings.settings_store import SettingsStore
+from station.core.errors import DeviceError
+from station.core.settings import Settings
+from station.practice.history.catching_up import catch_up
+from station.practice.records.recovery import offer
+
+
+@dataclass(frozen=True, slots=True)
+class _Came:
+    """How many sessions came in, and what a user should read."""
+
+    sessions: int
+    lines: tuple[str, ...]
+
+
+class HistoryOpening:
+    """The history of the settings of `store`, opened by `worker`; `notify` hears what a user should read."""
+
+    def __init__(self, store: SettingsStore, notify: Callable[[str], None], worker: Executor) -> None:
+        self._notify, self._worker = notify, worker
+        self._is_closed = False
+        self._coming: Future[_Came] | None = worker.submit(self._opened, store.now)
+
+    def advance(self) -> bool:
+        """Tell what came; returns whether pages are to be read anew, as they are once where sessions came."""
+        if self._coming is None or not self._coming.done():
+            return False
+        came, self._coming = self._coming.result(), None
+        for line in came.lines:
+            self._notify(line)
+        return came.sessions > 0
+
+    def close(self) -> None:
+        """End it after the session that comes in now: the others come another day."""
+        self._is_closed = True
+        self._worker.shutdown(wait=False, cancel_futures=True)
+
+    def _opened(self, settings: Settings) -> _Came:
+        lines: list[str] = []
+        sessions = catch_up(settings, lines.append, self._go_on)
+        return _Came(sessions, tuple(filter(None, (*lines, offer(settings)))))
+
+    def _go_on(self, _done: int, _all: int) -> None:
+        if self._is_closed:
+            raise DeviceError("the window was closed")

@@ -1,0 +1,74 @@
+"""The history as one student's; whoever asks goes on without an answer where it cannot be reached."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+from station.core.errors import DeviceError, StationError
+from station.core.settings import Settings
+from station.practice.history.old_mastery import take_in_old
+from station.practice.history.session_files import student_folder
+
+if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
+    from station.store.history import History
+
+AGAIN_S = 300.0
+"""So long a history that made us wait in vain is not asked (our choice: a window stands still now and then, not in
+every frame)."""
+_PATIENT_S = 1.0
+"""What is refused sooner is no wait (our choice)."""
+_alone_until: dict[str, float] = {}
+"""Until when each history is left alone, by the clock that only rises."""
+_T = TypeVar("_T")
+
+
+@dataclass(frozen=True, slots=True)
+class StudentHistory:
+    """What the history of `settings` knows of `student`."""
+
+    settings: Settings
+    student: str
+
+    @classmethod
+    def of(cls, settings: Settings) -> "StudentHistory":
+        """That of who plays by these settings."""
+        return cls(settings, settings.student)
+
+    @property
+    def folder(self) -> Path:
+        """Where the student's sessions lie."""
+        return student_folder(self.settings.sessions_dir, self.student)
+
+    def open(self) -> "History":
+        """The history, which remembers what lay in files before; raises `BadInput`, `DeviceError`."""
+        from station.store.opening import history_of  # noqa: PLC0415 - a fifth of a second that only an answer needs
+
+        history = history_of(self.settings)
+        take_in_old(history, self.folder, self.student)
+        return history
+
+    @contextmanager
+    def reached(self) -> Iterator["History"]:
+        """The history while it is asked or written to; raises `DeviceError` whatever keeps it away.
+
+        One that made us wait in vain is left alone for a while.
+        """
+        key = self.settings.history
+        if time.monotonic() < _alone_until.get(key, 0.0):
+            raise DeviceError("the history has not answered, and is left alone for a while")
+        asked_s = time.monotonic()
+        try:
+            yield self.open()
+        except StationError as fault:
+            if time.monotonic() - asked_s > _PATIENT_S:
+                _alone_until[key] = time.monotonic() + AGAIN_S
+            raise DeviceError(str(fault)) from fault
+
+    def ask(self, question: Callable[["History", str], _T]) -> _T | None:
+        """The answer for this student; None where the history cannot be reached, as was said at the start."""
+        with suppress(DeviceError), self.reached() as history:
+            return question(history, self.student)
+        return None
