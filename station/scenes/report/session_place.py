@@ -10,7 +10,7 @@ from station.core.errors import BadInput
 from station.core.settings import Settings
 from station.devices.capture.capture import Capture, parse_capture
 from station.practice.history.kept_json import MOST_BYTES
-from station.practice.history.session_choice import ChosenSession, choose_session
+from station.practice.history.session_choice import ChosenSession, choose_session, history_for
 from station.practice.history.session_files import (
     BATTLE_CAPTURE_NAME,
     BATTLE_NAME,
@@ -40,8 +40,8 @@ class SessionPlace:
 
 def session_place(word: str, settings: Settings) -> SessionPlace:
     """The session that `word` means; raises `BadInput` where it is none, and says what to do with what it is."""
-    history = StudentHistory.of(settings).open()
-    if not os.path.exists(word):  # noqa: PTH110 - no error for long names
+    history = history_for(word, StudentHistory.of(settings).open)
+    if history is not None and not os.path.exists(word):  # noqa: PTH110 - no error for long names
         everything_in(history, settings.sessions_dir, settings.student)  # what was played since it was last looked at
     chosen = choose_session(history, settings.student, word)
     folder = _own_folder(chosen)
@@ -72,8 +72,8 @@ def _check_kind(chosen: ChosenSession, folder: Path | None) -> None:
         raise BadInput(chosen.source, "", f"is free play, of which nothing was judged; {command} writes it down")
 
 
-def _file(history: History, chosen: ChosenSession, folder: Path | None, name: str) -> bytes | None:
+def _file(history: History | None, chosen: ChosenSession, folder: Path | None, name: str) -> bytes | None:
     """A file of a session: its folder's, else the history's."""
     if folder is not None:
         return read_regular(folder / name, MOST_BYTES) if (folder / name).exists() else None
-    return None if chosen.row is None else history.document(chosen.row.id, name)
+    return None if chosen.row is None or history is None else history.document(chosen.row.id, name)

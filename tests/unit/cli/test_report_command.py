@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from station.cli.command_line import main
-from station.core.settings import Settings
+from station.core.settings import Settings, save_settings
 from tests.unit.cli.test_cli import refused
 
 
@@ -120,3 +120,15 @@ def test_an_exam_has_its_marks_on_the_page(tmp_path: Path) -> None:
     page = out.read_text()
     assert f"Exam: {marks['band']}, {int(marks['total'] * 10) / 10:.1f} of 100" in page
     assert page.count("<tr><td>Notes</td>") == 1
+
+
+def test_a_folder_has_its_page_where_the_history_is_away(
+    session: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+    assert main(["report", str(session), "--out", str(tmp_path / "there.pdf")]) == 0
+    save_settings(Settings(history="postgresql://nobody@127.0.0.1:1/nothing"))
+    assert main(["report", str(session), "--out", str(tmp_path / "away.pdf")]) == 0
+    assert (tmp_path / "away.pdf").read_bytes() == (tmp_path / "there.pdf").read_bytes()
+    capsys.readouterr()
+    assert "127.0.0.1" in refused(capsys, "report", "last", "--out", str(tmp_path / "last.pdf"))
