@@ -121,8 +121,8 @@ class MotionPlan:
         busy = self.score.onset_s[self._kicks[0]], np.union1d(self.visits.time_s, moving)
         return heel_curves(self.ground, style, busy)
 
-    def hands(self, style: Style) -> tuple[HandPart, HandPart]:
-        """Both hands' parts with what `style` makes them hold."""
+    def hands(self, style: Style, searches: int | None = None) -> tuple[HandPart, HandPart]:
+        """Both hands' parts with what `style` makes them hold; `searches` as in `optimised`."""
         legs = thighs(self.kit, self.figure, self.footings, style.heel)
         right, left = (
             HandPart.of(self.score, self.kit, self.figure, hold, limb, events, own)
@@ -135,7 +135,7 @@ class MotionPlan:
         lively = self._body(stage.grid, body_keys.curves(self.ground, LIVELY, body_keys.keys(self.ground, LIVELY)))
         shoulders = list(zip(stage.roots, lively[4:], strict=True))  # leaning too would bend wrists
         right, left = (hand.eased(self.figure, stage.grid, r) for hand, r in zip((right, left), shoulders, strict=True))
-        hands, _ = optimised((right, left), stage)
+        hands, _ = optimised((right, left), stage, searches)
         return hands
 
     def left_over(self, style: Style, parts: tuple[HandPart, HandPart]) -> tuple[InfeasibleDemand, ...]:

@@ -42,8 +42,13 @@ def looks(*event_s: Array) -> Array:
     return np.union1d(np.arange(times.min() - 1.0, times.max() + 1.0, 1 / RATE_HZ), times)
 
 
-def optimised(parts: tuple[HandPart, HandPart], stage: Stage) -> tuple[tuple[HandPart, HandPart], Array]:
-    """Both parts with the least wrong that was found, and what still is at each moment of the stage, (n,)."""
+def optimised(
+    parts: tuple[HandPart, HandPart], stage: Stage, searches: int | None = None
+) -> tuple[tuple[HandPart, HandPart], Array]:
+    """Both parts with the least wrong that was found, and what still is at each moment of the stage, (n,).
+
+    After so many `searches`, of which each takes about 40 ms, no more moves are looked for; None: as many as it takes.
+    """
     known: dict[tuple[object, ...], Found | None] = {}
     hopeless: set[tuple[int, int]] = set()
     tries: Counter[tuple[int, int]] = Counter()
@@ -56,9 +61,10 @@ def optimised(parts: tuple[HandPart, HandPart], stage: Stage) -> tuple[tuple[Han
             if pair in hopeless or _near(pair, changed):
                 continue  # what helped its neighbour may have helped it too; if not, its turn is next
             key, kind, worst = _figure_of(hands, pair), _kind_of(hands, pair), float(cost[moments].max())
-            if key not in known and worst <= _NO_WORSE * alike.get(kind, 0.0):
+            if key not in known and (worst <= _NO_WORSE * alike.get(kind, 0.0) or searches == 0):
                 known[key] = None
             if key not in known:
+                searches = None if searches is None else searches - 1
                 known[key] = _found(hands, pair, best_move(hands, pair, moments, cost))
             found = known[key]
             tries[pair] += 1

@@ -14,6 +14,8 @@ from station.core.pieces import Limb
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.motion.drummer import Drummer
+from station.motion.kinematics.posture import seated
+from station.motion.motion_plan import MotionPlan
 from station.motion.sticking.limbs import limbs_and_reasons
 from station.motion.style.automation_lanes import in_passes
 from station.music.as_played import score_as_played
@@ -37,6 +39,9 @@ RING_S = 1.5
 """A take goes on so long after its last stroke, so that what rings is heard (our choice)."""
 LONGEST_S = 480.0
 """So much of a take is shown: a page of eight minutes has some 12 MB (our choice)."""
+SEARCHES = 30
+"""Who strikes at random has hundreds of moments at which sticks are in each other's way, and planning them took half a
+minute: in the worst of them a way round is looked for, which takes one or two seconds (our choice)."""
 _BLOCK_S = 1.0
 
 
@@ -81,7 +86,8 @@ def take_drummer(result: SessionResult, clock: TakeClock, demonstrator: Demonstr
     score = replace(score, end_tick=max(score.end_tick, clock.lead.end_tick + plan.score.end_tick))
     passes = plan.score.bar_count // plan.section.bar_count
     style = in_passes(as_taught(demonstrator.style, plan.lesson.cues), plan.first_bar, plan.section.bar_count, passes)
-    return Drummer(score, plan.kit, demonstrator.figure, style)
+    motion = MotionPlan.of(score, seated(plan.kit, demonstrator.figure), demonstrator.figure)
+    return Drummer(score, motion.kit, motion.figure, style, motion, motion.hands(style, SEARCHES))
 
 
 def _with_limbs(result: SessionResult) -> Performance:

@@ -60,6 +60,19 @@ def test_less_is_wrong_than_before_and_strikes_stay() -> None:
     assert all(np.array_equal(a.way.rows, b.way.rows) for a, b in zip(led, again, strict=True))
 
 
+def test_fewer_searches_mend_less_and_none_leaves_all_as_it_is() -> None:
+    parts = straight()
+    plan = crossing()._plan
+    stage = plan._stage(parts, thighs(plan.kit, plan.figure, plan.footings, "down"))
+    before = Hands(stage, parts).cost(np.arange(len(stage.grid)))
+    (right, left), untouched = optimised(parts, stage, 0)
+    assert (right, left) == parts
+    assert untouched == pytest.approx(before)
+    _, few = optimised(parts, stage, 6)
+    _, all_of_them = optimised(parts, stage)
+    assert all_of_them.sum() < few.sum() < before.sum()
+
+
 def test_hands_that_cannot_but_meet_are_named_with_their_bar_and_a_groove_has_none() -> None:
     """Both hands lie on the snare's head for cross-sticks at once, in bar 2: two hands are 18 cm broad, the head 36."""
     clicks = [Note(4 * PPQ, Piece.SNARE, Zone.RIM, 80, Articulation.CROSS_STICK, limb=limb) for limb in (R, L)]
