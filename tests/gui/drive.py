@@ -47,6 +47,8 @@ MOST_FRAMES = 1000
 MOST_CLICKS = 5
 PICTURE_EVERY = 25
 """Without a graphics card the picture takes nine tenths of a frame; a test of the panels sees it now and then."""
+IDLE_FRAMES_PER_S = 20.0
+"""Of a window that waits: what it waits for has the processor."""
 NEWCOMER = "newcomer"
 """Not a student's spec: nobody has answered the questions of the first start yet."""
 OPTIONAL = imgui.test_engine.TestOpFlags_.no_error
@@ -98,6 +100,7 @@ class Drive:
             options, picture_every=picture_every, shown=self._frame_is_shown, screen=self._monitors_are_asked_for
         )
         self.window = Window(self.station, options, self.clock)
+        self.window.params.callbacks.before_imgui_render = self._panels_are_drawn_now_and_then
         self.monitors: TwoMonitors | None = None
         """There once the window is open."""
         self.all_seen: list[dict[str, object]] = []
@@ -167,6 +170,11 @@ class Drive:
         self.monitors = TwoMonitors()
         return self.monitors
 
+    def _panels_are_drawn_now_and_then(self) -> None:
+        """With the picture: a viewport of no pixels is laid out, and draws nothing."""
+        if self.window.frames % self.window.picture_every:
+            imgui.get_main_viewport().framebuffer_scale = imgui.ImVec2(1e-6, 1e-6)
+
     def _frame_is_shown(self, snapshot: Snapshot | None) -> bool:
         """Whether the window shall stay."""
         del snapshot
@@ -214,17 +222,18 @@ class Drive:
 
     def _wait_for_lessons(self, ctx: imgui.test_engine.TestContext) -> None:
         """Let frames pass until the list is read, which may take seconds where nothing is cached."""
-        deadline = time.monotonic() + TIMEOUT_S
-        while len(self.state.selection.lessons) == 1:
-            assert time.monotonic() < deadline, "the lessons are not read"
-            ctx.yield_()
+        self.wait_until(ctx, lambda state: len(state.selection.lessons) > 1)
 
     def wait_until(self, ctx: imgui.test_engine.TestContext, holds: Callable[[State], bool]) -> None:
-        """Let frames pass until what other processes do is done."""
-        deadline = time.monotonic() + TIMEOUT_S
-        while not holds(self.state):
-            assert time.monotonic() < deadline, "nothing has come of it"
-            ctx.yield_()
+        """Let frames pass until what other processes do is done, as few a second as of a user's window that idles."""
+        idling, deadline = self.window.params.fps_idling, time.monotonic() + TIMEOUT_S
+        idling.fps_idle, idling.time_active_after_last_event = IDLE_FRAMES_PER_S, 0.0
+        try:
+            while not holds(self.state):
+                assert time.monotonic() < deadline, "nothing has come of it"
+                ctx.yield_()
+        finally:
+            idling.fps_idle = 0.0
 
     def imported(self, ctx: imgui.test_engine.TestContext, title: str) -> list[object]:
         """Wait for an import: what is chosen, what is on the player, and how long the longest frame took meanwhile."""

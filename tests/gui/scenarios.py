@@ -1,13 +1,12 @@
-"""Plays scenarios in one window and writes what they saw to a JSON file: `scenarios.py NAME[+NAME…] SESSIONS OUT`.
+"""Plays scenarios in one window and writes what they saw to a JSON file (`play_scenarios.py` is what is run).
 
 A window takes seconds to open: scenarios that leave nothing behind share one, which the first of them sizes and staffs.
-With a fourth argument `FILE.png` the window's last frame is kept there.
+With a picture's name (`FILE.png`) the window's last frame is kept there.
 
 A process of its own, because imgui and OpenGL keep state for as long as a process lives.
 """
 
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -129,6 +128,7 @@ STUDENTS = {
 
 
 def main(names: str, sessions: str, out: str, picture: str | None = None) -> None:
+    """Play the scenarios `names`, joined by `+`."""
     scenarios = names.split("+")
     every, size = PICTURE_EVERY if picture is None else 1, SIZES.get(scenarios[0], SIZE)
     drive = Drive(Path(sessions), STUDENTS.get(scenarios[0]), every, size)
@@ -140,7 +140,3 @@ def main(names: str, sessions: str, out: str, picture: str | None = None) -> Non
         write_png(np.ascontiguousarray(hello_imgui.final_app_window_screenshot()), Path(picture))
     assert kept is None, kept
     Path(out).write_text(json.dumps(dict(zip(scenarios, drive.all_seen, strict=False))))
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])

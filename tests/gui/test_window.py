@@ -20,7 +20,7 @@ from tests.gui.x_server import screen
 pytestmark = [pytest.mark.gui, pytest.mark.timeout(400)]
 
 ROOT = Path(__file__).parents[2]
-DRIVE = Path(__file__).with_name("scenarios.py")
+DRIVE = Path(__file__).with_name("play_scenarios.py")
 TIMEOUT_S = 360.0  # everything is drawn without a graphics card, on a machine that may be busy
 
 
