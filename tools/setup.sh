@@ -22,6 +22,13 @@ as_root() {
     if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
 }
 
+# The tests start a server of their own; the package would start another now and at every boot.
+without_main_cluster() {
+    [ ! -d /etc/postgresql-common ] || return 0  # somebody's own PostgreSQL stays as it is
+    as_root mkdir -p /etc/postgresql-common/createcluster.d
+    echo 'create_main_cluster = false' | as_root tee /etc/postgresql-common/createcluster.d/drum-station.conf >/dev/null
+}
+
 install_system() {
     [ "$(uname -s)" = Linux ] || return 0
     if ! command -v apt-get >/dev/null 2>&1; then
@@ -35,6 +42,7 @@ install_system() {
         return 0
     fi
     echo "setup: installing system packages: $missing"
+    case " $missing " in *' postgresql '*) without_main_cluster ;; esac
     as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq update
     # shellcheck disable=SC2086 # a list of words
     as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends $missing >/dev/null
