@@ -12,10 +12,12 @@ from station.cli.command_line import main
 from station.core.errors import BadInput
 from station.core.pieces import Piece
 from station.core.settings import Settings
+from station.core.units import NS_PER_MS
 from station.drills.library import find_lesson
+from station.practice.records.report.session_report import practice_document
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.render.report.page.session_page import NoteState, SessionPage
-from station.scenes.report.kept_session import OTHER_REPORT, kept_session
+from station.scenes.report.kept_session import OTHER_REPORT, KeptSession, kept_session
 from station.scenes.report.note_states import note_passes
 from station.scenes.report.page_facts import session_page
 from station.scenes.report.practised_section import ELSEWHERE, practised_section, section_notes
@@ -127,6 +129,20 @@ def test_passes_that_follow_are_laid_over_the_lesson_s_bars(folders: dict[str, P
     assert page.bars.section.bar_count == 2
     assert len(page.passes) == 4
     assert all("bpm" in row.tempo for row in page.passes)
+
+
+def test_the_tempo_is_told_in_the_lesson_s_beat() -> None:
+    """A dotted quarter at 50 is a quarter at 75; played 2 % slower, it is kept at 50 / 1.02."""
+    plan = plan_practice(find_lesson("six-eight-1"), PlanOptions(loops=2, demonstrations=0))
+    start_ms = plan.score.onset_ns[0] / NS_PER_MS
+    slower = {row: (ns / NS_PER_MS - start_ms) * 0.02 for row, ns in enumerate(plan.score.onset_ns.tolist())}
+    result = played(plan, slower, set()).result()
+    kept = KeptSession(result, practice_document(result, Settings()), None, None)
+    tempo = session_page(kept, "session").tempo
+    assert tempo.asked.tolist() == pytest.approx([50.0])
+    assert tempo.asked_s.tolist() == [0.0]
+    assert tempo.beats_a_minute.tolist() == pytest.approx([50.0 / 1.02] * 4, rel=0.003)
+    assert tempo.end_s == pytest.approx(4 * 2 * 60 / 50)
 
 
 def test_loudness_is_what_was_struck(folders: dict[str, Path]) -> None:

@@ -60,7 +60,9 @@ def bar_chart(bars: Sequence[BarFigures], on_time_ms: float, atlas: Atlas) -> Ch
     return Chart("Bar by bar", words, draw_list.shapes(), (WIDTH, _HEIGHT), tuple(spots), _LEGEND)
 
 
-_LEGEND = "The fuller a cell, the more was right, missed, or struck where nothing is written."
+_LEGEND = (
+    "Dots are means with their 95 % intervals. The fuller a cell, the more was right, missed, or not written at all."
+)
 _MOST_SAID = 32
 """Bars whose figures are said to those who hear the page (our choice): more, nobody listens to."""
 

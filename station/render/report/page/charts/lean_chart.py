@@ -37,7 +37,10 @@ def lean_chart(title: str, groups: Sequence[GroupFigures], on_time_ms: float, at
     sides(draw_list, axis, 16.0)
     spots = [_row(draw_list, axis, row, _TOP + _ROW * (index + 0.5), on_time_ms) for index, row in enumerate(rows)]
     words = " ".join(f"{spot.words}." for spot in spots)
-    return Chart(title, words, draw_list.shapes(), (WIDTH, low + 24.0), tuple(spots))
+    return Chart(title, words, draw_list.shapes(), (WIDTH, low + 24.0), tuple(spots), _LEGEND)
+
+
+_LEGEND = "The dot is the mean, its whiskers the 95 % interval; the soft bar is one SD to either side."
 
 
 def _row(draw_list: DrawList, axis: Axis, row: GroupFigures, y: float, on_time_ms: float) -> Spot:
