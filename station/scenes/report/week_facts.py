@@ -6,8 +6,10 @@ from datetime import date, timedelta
 from station.core.counts import counted
 from station.core.disk.utf8 import one_line
 from station.core.settings import Settings
+from station.drills.daily.daily_items import ItemKind
+from station.drills.daily.day_plan import daily_plan
 from station.practice.book.book_words import day_in_words
-from station.practice.book.lesson_book import LessonBook
+from station.practice.book.lesson_book import LessonBook, day_facts
 from station.practice.exchange.assigned_work import lesson_work
 from station.practice.exchange.student_store import TakenAssignment, taken_assignments
 from station.practice.history.calendar_days import WEEK, monday_of, practised_days
@@ -26,8 +28,9 @@ from station.render.report.page.week_page import TeachersNote, WeekDay, WeekPage
 from station.store.history import History
 from station.store.rows import SessionRow, TeacherNoteRow
 
-_MOST_TITLES, _MOST_AHEAD, _MOST_NOTES = 10, 3, 3
+_MOST_TITLES, _MOST_AHEAD, _MOST_BEGUN, _MOST_NOTES = 10, 3, 2, 3
 """So many are named (our choice: the page stays one page)."""
+_BEGINS = {ItemKind.GO_ON: "goes on", ItemKind.NEW: "is new"}
 _BETTER = (
     "Like is compared with like, the same piece at about the same speed, over the last six weeks. Only what is hardly"
     " chance is told here."
@@ -129,12 +132,15 @@ def _streak_words(streak: Streak) -> str:
 
 
 def _ahead(settings: Settings, today: date) -> tuple[str, ...]:
-    """What a teacher has asked for and is still open, then what comes again."""
-    asked = [line for one in taken_assignments(settings)[0] if (line := _asked(one, settings)) is not None]
+    """What a teacher has asked for and is still open, then what comes again, then what the day's plan begins."""
     silent: list[str] = []
-    returning = LessonBook(settings, silent.append).returning()
-    again = [f"{one_line(each.title)} comes again {_on(each.due, today)}." for each in returning[:_MOST_AHEAD]]
-    return (*asked[-_MOST_AHEAD:], *again)
+    book = LessonBook(settings, silent.append)
+    asked = [line for one in taken_assignments(settings)[0] if (line := _asked(one, settings)) is not None]
+    again = [f"{one_line(each.title)} comes again {_on(each.due, today)}." for each in book.returning()[:_MOST_AHEAD]]
+    planned = book.page(today).kept.items or daily_plan(day_facts(settings, today)).items
+    begun = {one_line(item.title): _BEGINS[item.kind] for item in reversed(planned) if item.kind in _BEGINS}
+    lines = [f"{title} {how}." for title, how in reversed(begun.items()) if not any(title in line for line in asked)]
+    return (*asked[-_MOST_AHEAD:], *again, *lines[:_MOST_BEGUN])
 
 
 def _asked(one: TakenAssignment, settings: Settings) -> str | None:

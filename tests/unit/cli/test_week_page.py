@@ -99,7 +99,7 @@ def test_names_titles_and_notes_are_words_and_nothing_else(name: str, tmp_path: 
     assert out.read_bytes().startswith(b"%PDF")
 
 
-def test_what_comes_next_and_what_the_teacher_wrote(tmp_path: Path) -> None:
+def test_what_comes_next_and_what_the_teacher_wrote(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     given, today = tmp_path / "week3.drum-assignment", date.today()
     due = (today + timedelta(days=1)).isoformat()
     words = ["--lesson", "rock-1", "--due", due, "--title", "Week <3>", "--teacher", "Carla", "--out", str(given)]
@@ -112,6 +112,10 @@ def test_what_comes_next_and_what_the_teacher_wrote(tmp_path: Path) -> None:
     assert "Week <3>, from Carla, for " in told
     assert ": Rock 1: eighths, backbeat, one and three." in told
     assert "Well done. Softer now. Next: At 90. Carla, " in told
+    assert main(["today", "--student", "Ann"]) == 0
+    new = re.findall(r" min  New +(.*)", capsys.readouterr().out)
+    assert [title for title in new if f"{title} is new." not in told] == ["Rock 1: eighths, backbeat, one and three"]
+    assert told.count("Rock 1") == 1
     assert "Well done" not in words_of(page(tmp_path, "2025-01-01", "--student", "Ann"))
 
 
