@@ -4,8 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from station.core.counts import counted
+from station.core.disk.file_names import folder_name
 from station.core.errors import BadInput, DeviceError
 from station.core.settings import Settings
+from station.practice.exchange.teacher_store import RETURNS_FOLDER
 from station.practice.history.session_files import student_folder
 from station.practice.own_data.emptying import delete_tree
 from station.practice.own_data.student_files import FolderFiles
@@ -22,7 +24,8 @@ class Theirs:
     """What there is of `student` in the history, in their `folder` and in the settings.
 
     `link` is where the folder leads, None where it is no link; `elsewhere` are folders of sessions that lie outside,
-    `copies` says where backups of the history lie; it `is_shared` where it is a server's.
+    `copies` says where backups of the history lie, `returns` are folders of a teacher; the history `is_shared` where
+    it is a server's.
     """
 
     student: str
@@ -35,7 +38,8 @@ class Theirs:
     has_settings: bool
     elsewhere: tuple[Path, ...]
     copies: tuple[str, ...]
-    is_shared: bool = False
+    returns: tuple[Path, ...]
+    is_shared: bool
 
     @property
     def lines(self) -> list[str]:
@@ -53,8 +57,10 @@ class Theirs:
             *([f"{self.link}, to which the folder's link leads: delete it by hand"] if self.link is not None else []),
             *(f"{folder}, where a session's files were put on purpose: delete it by hand" for folder in self.elsewhere),
             *(f"{copy}, an older copy of the history: delete it by hand" for copy in self.copies),
+            *(f"{folder}, returns that a teacher keeps here: delete it by hand" for folder in self.returns),
             *(["folders of theirs on other computers that use this history"] if self.is_shared else []),
-            "backups and exports that were made, returns that were sent to a teacher, others' battles with them",
+            "backups and exports that were made, returns that were sent to a teacher, others' battles with them,"
+            " lessons that came with assignments, which all students share",
         ]
 
 
@@ -84,6 +90,7 @@ def what_is_theirs(history: History, settings: Settings, student: str) -> Theirs
         bool(own),
         tuple(sorted(path for path in placed if path.is_dir() and not path.resolve().is_relative_to(top))),
         tuple(copies_known(history)),
+        tuple(sorted((settings.sessions_dir / RETURNS_FOLDER).glob(f"*/{folder_name(student)}"))),
         history.database.path is None,
     )
 

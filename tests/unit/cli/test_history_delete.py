@@ -83,6 +83,8 @@ def test_it_says_what_goes_and_what_stays_and_asks(
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
     users_history().keep(kept("Ann", DAY, folder=str(elsewhere)))
+    returns = folder.parent / "returns" / "Class 5" / "Ann"
+    returns.mkdir(parents=True)
     copy = tmp_path / "backup.sqlite3"
     assert main(["history", "backup", "--out", str(copy)]) == 0
     words = ["history", "delete", "--student", "Ann"]
@@ -94,6 +96,7 @@ def test_it_says_what_goes_and_what_stays_and_asks(
         f"the folder {folder}: 6 files",
         f"{elsewhere}, where",
         f"{copy}, an older copy",
+        f"{returns}, returns that a teacher keeps here",
         "returns that were sent",
         "say --yes",
     ):
@@ -105,6 +108,7 @@ def test_it_says_what_goes_and_what_stays_and_asks(
         assert main(words) == status
     assert not folder.exists()
     assert elsewhere.is_dir()
+    assert returns.is_dir()
 
 
 def test_another_spelling_is_asked_back(capsys: pytest.CaptureFixture[str]) -> None:
