@@ -14,7 +14,7 @@ import argparse
 import statistics
 import tempfile
 import time
-from multiprocessing.connection import Connection, wait
+from multiprocessing.connection import Connection
 from pathlib import Path
 
 from sqlalchemy import Connection as DatabaseConnection
@@ -57,10 +57,9 @@ def side_by_side(url: str, sessions: int) -> History:
     history = History(Database(url))
     for number in range(20):
         history.keep(session_of(STUDENT, number), [memory_of(number)], {f"lesson-{number}": "beginner"})
-    pipes, reads, log_bytes = [], set(), 0
-    log = (
-        None if history.database.path is None else history.database.path.with_name(f"{history.database.path.name}-wal")
-    )
+    pipes: list[Connection] = []
+    reads, log_bytes, path = set(), 0, history.database.path
+    log = None if path is None else path.with_name(f"{path.name}-wal")
     with history.database.reading() as report:
         reads.add(read(report))
         for station in (1, 2):
@@ -70,7 +69,7 @@ def side_by_side(url: str, sessions: int) -> History:
             pipes.append(ours)
         told: list[float | str] = []
         while pipes:
-            for pipe in wait(pipes, timeout=0):
+            for pipe in [each for each in pipes if each.poll(0)]:
                 if (word := pipe.recv()) is None:
                     pipes.remove(pipe)
                 else:
