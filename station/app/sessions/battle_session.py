@@ -81,9 +81,13 @@ class BattleSession:
         The transport follows once the stage has been drawn: two new figures take a second or two, in which the count-in
         would go by unseen.
         """
-        with BattleFolder.make(None, settings, self.rules.opponent) as folder:
+        folder = BattleFolder.make(None, settings, self.rules.opponent)
+        try:
             self._engine.send(RecordCapture(folder.capture))
-            self._folder = folder
+        except StationError:
+            folder.discard()
+            raise
+        self._folder = folder
 
     def handle(self, event: EngineEvent) -> None:
         """Handle one event of the engine."""

@@ -9,6 +9,7 @@ import io
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any, TypeVar
 
 from station.core.disk.utf8 import one_line
@@ -138,57 +139,70 @@ def _timing(timing: Table) -> dict[str, Any]:
 def judgement_rows(table: str) -> tuple[JudgementRow, ...]:
     """The lines of a session's pairs.csv; none where it has not all columns, as in old sessions.
 
-    Raises `ValueError`, `TypeError`, `KeyError` or `csv.Error` where it is damaged.
+    Raises `ValueError`, `IndexError` or `csv.Error` where it is damaged.
     """
-    lines = csv.DictReader(io.StringIO(table, newline=""))
-    if not {"pass", "bar", "beat", "hit_piece"} <= set(lines.fieldnames or ()):
+    lines = csv.reader(io.StringIO(table, newline=""))
+    head = next(lines, [])
+    if not {"pass", "bar", "beat", "hit_piece"} <= set(head):
         return ()
-    return tuple(map(_judgement, lines))
-
-
-def _judgement(line: dict[str, str]) -> JudgementRow:
-    def maybe(key: str, read: Callable[[str], _T]) -> _T | None:
-        return read(line[key]) if line[key] else None
-
-    return JudgementRow(
-        _word(line["label"]),
-        _index(line["pass"]),
-        _index(line["bar"]),
-        _within(line["beat"], -_MOST, _MOST),
-        maybe("note_index", _index),
-        maybe("note_time_s", _seconds),
-        maybe("note_midi", _midi),
-        maybe("hit_index", _index),
-        maybe("hit_time_s", _seconds),
-        maybe("hit_midi", _midi),
-        maybe("hit_piece", _word),
-        maybe("hit_zone", _word),
-        maybe("hit_articulation", _word),
-        maybe("hit_velocity", lambda text: _within(text, 0.0, _HARDEST)),
-        maybe("hit_openness", lambda text: _within(text, 0.0, 1.0)),
+    places = [(head.index(column), read, is_needed) for column, read, is_needed in _COLUMNS]
+    return tuple(
+        JudgementRow._make(_field(line[at], read, is_needed) for at, read, is_needed in places)
+        for line in lines
+        if line
     )
 
 
+def _field(text: str, read: Callable[[str], _T], is_needed: bool) -> _T | None:
+    """What a field says; None where it is empty and may be."""
+    return read(text) if text or is_needed else None
+
+
+@lru_cache(maxsize=256)
 def _word(text: str) -> str:
     if not 0 < len(text) <= _LONGEST["level"] or not text.isprintable():
         raise ValueError(text)
     return text
 
 
-def _index(text: str) -> int:
-    return int(_within(text, -_MOST_COUNT, _MOST_COUNT))
+def _whole(most: int) -> Callable[[str], int]:
+    def read(text: str) -> int:
+        number = int(text)
+        if not 0 <= number <= most:
+            raise ValueError(text)
+        return number
+
+    return read
 
 
-def _midi(text: str) -> int:
-    return int(_within(text, 0, _MOST_MIDI))
+def _within(least: float, most: float) -> Callable[[str], float]:
+    def read(text: str) -> float:
+        number = float(text)
+        if not least <= number <= most:  # also NaN
+            raise ValueError(text)
+        return number
+
+    return read
 
 
-def _seconds(text: str) -> float:
-    return _within(text, -_MOST, _MOST)
-
-
-def _within(text: str, least: float, most: float) -> float:
-    return _needed(_number(float(text), least, most))
+_COLUMNS: tuple[tuple[str, Callable[[str], Any], bool], ...] = (
+    ("label", _word, True),
+    ("pass", _whole(_MOST_COUNT), True),
+    ("bar", _whole(_MOST_COUNT), True),
+    ("beat", _within(-_MOST, _MOST), True),
+    ("note_index", _whole(_MOST_COUNT), False),
+    ("note_time_s", _within(-_MOST, _MOST), False),
+    ("note_midi", _whole(_MOST_MIDI), False),
+    ("hit_index", _whole(_MOST_COUNT), False),
+    ("hit_time_s", _within(-_MOST, _MOST), False),
+    ("hit_midi", _whole(_MOST_MIDI), False),
+    ("hit_piece", _word, False),
+    ("hit_zone", _word, False),
+    ("hit_articulation", _word, False),
+    ("hit_velocity", _within(0.0, _HARDEST), False),
+    ("hit_openness", _within(0.0, 1.0), False),
+)
+"""The table's columns in the order of a judgement's fields, how each is read, and whether it may not be empty."""
 
 
 # --- values -----------------------------------------------------------------------------------------------------------

@@ -30,7 +30,7 @@ OWN_FOLDERS = frozenset({"assignments", "courses", "lessons", "returns", "styles
 VIRTUAL_STUDENT = "virtual student"
 """Whose a session is that a virtual student plays who was given no name: nobody's who practises here."""
 
-_STARTED, _STARTED_LETTERS = "%Y-%m-%dT%H-%M-%S", 19
+_STARTED = "%Y-%m-%dT%H-%M-%S"
 
 
 def student_folder(sessions: Path, student: str) -> Path:
@@ -62,8 +62,9 @@ def session_name(started: datetime, lesson: str) -> str:
 
 def started_in(name: str) -> datetime | None:
     """When a session of that name was begun; None where it says nothing of it."""
+    day, clock = name[: len("2026-12-01")], name[len("2026-12-01T") : len("2026-12-01T18-30-00")]
     try:
-        return datetime.strptime(name[:_STARTED_LETTERS], _STARTED)
+        return datetime.fromisoformat(f"{day}T{clock.replace('-', ':')}") if clock[5:6] == "-" else None
     except ValueError:
         return None
 

@@ -26,6 +26,7 @@ from station.practice.history.intake_rows import (
     lesson_row,
     take_row,
 )
+from station.practice.history.kept_elsewhere import forget_elsewhere, sessions_elsewhere
 from station.practice.history.learnt import NOTHING_LEARNT, Learnt, learnt_in
 from station.practice.history.session_files import (
     BATTLE_CAPTURE_NAME,
@@ -55,7 +56,7 @@ if TYPE_CHECKING:  # with a library that takes longer to load than a folder is r
 
 _UNKEPT = re.compile("[\0\ud800-\udfff]")
 """What a folder may be called and no database holds."""
-_DAMAGED = (ValueError, TypeError, KeyError, AttributeError, RecursionError, csv.Error)
+_DAMAGED = (ValueError, TypeError, LookupError, AttributeError, RecursionError, csv.Error)
 
 Progress = Callable[[int, int], None]
 """Hears how many folders of how many are taken in."""
@@ -102,7 +103,8 @@ def everything_in(
 
     Each is a transaction of its own: what was taken in stays, wherever it ends. Raises `DeviceError`.
     """
-    new = _new_folders(history, student_folder(sessions, student), student)
+    ours, came = student_folder(sessions, student), list[Path]()
+    new = _new_folders(history, ours, student)
     taken, faults = 0, []
     for done, (path, blank) in enumerate(new):
         progress(done, len(new))
@@ -115,6 +117,8 @@ def everything_in(
             learnt = _still_news(history, kept.row, learnt_in(path))
             history.keep(kept, learnt.mastery, learnt.levels)
             taken += 1
+            came.append(path)
+    forget_elsewhere(ours, came)
     return TakenIn(taken, tuple(faults))
 
 
@@ -128,7 +132,9 @@ def _new_folders(history: "History", ours: Path, student: str) -> list[tuple[Pat
         if name not in kept and (row is None or is_over(path)):
             found.append((path, new_row(student, path, started)))
     elsewhere = ((Path(row.folder), row) for row in begun.values())
-    return found + [(path, _blank(row)) for path, row in elsewhere if is_over(path)]
+    found += [(path, _blank(row)) for path, row in elsewhere if is_over(path)]
+    listed = [path for path in sessions_elsewhere(ours) if is_over(path) and path not in (each for each, _ in found)]
+    return [*found, *((path, blank_row(history, student, path)) for path in listed)]
 
 
 def _blank(row: SessionRow) -> SessionRow:
@@ -172,9 +178,18 @@ def read_session(folder: Path, blank: SessionRow) -> KeptSession | None:
     return KeptSession(row, figures, _judgements(documents.get(PAIRS_NAME)), documents, capture)
 
 
+def was_begun(folder: Path) -> bool:
+    """Whether a session was begun in that folder."""
+    return _holds(folder, (*_BEGUN, *_OVER))
+
+
 def is_over(folder: Path) -> bool:
     """Whether a session in that folder has its report."""
-    return any((folder / name).exists() for name in _OVER)
+    return _holds(folder, _OVER)
+
+
+def _holds(folder: Path, names: Iterable[str]) -> bool:
+    return any(os.path.exists(folder / name) for name in names)  # noqa: PTH110 - no error for what none can be called
 
 
 def kept_text(text: str) -> str:
@@ -210,7 +225,7 @@ def _judgements(table: bytes | None) -> tuple[JudgementRow, ...]:
 def _folders(student: Path) -> list[tuple[str, Path, datetime]]:
     """The folders of a student that are called as sessions are, in the order in which these began."""
     found = ((path, started_in(path.name)) for path in sorted(_entries(student), key=lambda path: path.name))
-    return [(kept_text(path.name), path, began) for path, began in found if began is not None and path.is_dir()]
+    return [(kept_text(path.name), path, began) for path, began in found if began is not None]
 
 
 def _entries(folder: Path) -> list[Path]:

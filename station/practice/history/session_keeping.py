@@ -9,6 +9,7 @@ from datetime import datetime
 from pathlib import Path
 
 from station.core.errors import DeviceError
+from station.practice.history.kept_elsewhere import remember_elsewhere
 from station.practice.history.learnt import NOTHING_LEARNT, Learnt, write_learnt
 from station.practice.history.session_files import started_in
 from station.practice.history.session_intake import folder_text, new_row, take_in
@@ -33,6 +34,7 @@ def keep_session(whose: StudentHistory, folder: Path, learnt: Learnt = NOTHING_L
         with whose.reached() as history:
             take_in(history, whose.student, folder, learnt)
     except DeviceError as fault:
+        remember_elsewhere(whose.folder, folder)
         if learnt.mastery or learnt.levels:
             write_learnt(folder, learnt)
         return f"{fault}; {folder} has all of the session, and the history takes it in another day"

@@ -20,8 +20,8 @@ AGAIN_S = 300.0
 every frame)."""
 _PATIENT_S = 1.0
 """What is refused sooner is no wait (our choice)."""
-_alone_until: dict[str, float] = {}
-"""Until when each history is left alone, by the clock that only rises."""
+_left_alone: dict[str, tuple[float, str]] = {}
+"""Until when each history is left alone, by the clock that only rises, and why."""
 _T = TypeVar("_T")
 
 
@@ -57,14 +57,15 @@ class StudentHistory:
         One that made us wait in vain is left alone for a while.
         """
         key = self.settings.history
-        if time.monotonic() < _alone_until.get(key, 0.0):
-            raise DeviceError("the history has not answered, and is left alone for a while")
+        until_s, reason = _left_alone.get(key, (0.0, ""))
+        if time.monotonic() < until_s:
+            raise DeviceError(reason)
         asked_s = time.monotonic()
         try:
             yield self.open()
         except StationError as fault:
             if time.monotonic() - asked_s > _PATIENT_S:
-                _alone_until[key] = time.monotonic() + AGAIN_S
+                _left_alone[key] = time.monotonic() + AGAIN_S, str(fault)
             raise DeviceError(str(fault)) from fault
 
     def ask(self, question: Callable[["History", str], _T]) -> _T | None:

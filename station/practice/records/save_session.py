@@ -22,6 +22,7 @@ from station.practice.history.session_files import (
     session_folder,
     write_document,
 )
+from station.practice.history.session_intake import was_begun
 from station.practice.history.session_keeping import begin_session, forget_session, keep_session
 from station.practice.history.student_history import StudentHistory
 from station.practice.records.memory import Remembered
@@ -83,11 +84,10 @@ class SessionFolder:
         self.discard()
 
     def discard(self) -> None:
-        """Take the folder away again if nothing is in it; the history forgets it."""
-        if not self.path.is_dir() or any(self.path.iterdir()):
-            return
-        forget_session(self.whose, self.path)
-        if self.is_new:
+        """Have the history forget a session that was never begun in it; take the folder away if nothing is in it."""
+        if not was_begun(self.path):
+            forget_session(self.whose, self.path)
+        if self.is_new and self.path.is_dir() and not any(self.path.iterdir()):
             self.path.rmdir()
 
     def write(self, result: SessionResult, document: dict[str, Json]) -> None:

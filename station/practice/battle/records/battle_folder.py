@@ -18,7 +18,7 @@ from station.practice.battle.records.battle_document import battle_document
 from station.practice.battle.records.battle_report import battle_report
 from station.practice.battle.records.judge_battle_again import judge_battle_again
 from station.practice.history.session_files import BATTLE_CAPTURE_NAME, BATTLE_NAME, session_folder, write_document
-from station.practice.history.session_intake import is_over
+from station.practice.history.session_intake import is_over, was_begun
 from station.practice.history.session_keeping import begin_session, forget_session, keep_session
 from station.practice.history.student_history import StudentHistory
 from station.scoring.matching.hit_windows import Level
@@ -89,10 +89,9 @@ class BattleFolder:
         return self
 
     def __exit__(self, *_: object) -> None:
-        if not self.path.is_dir() or any(self.path.iterdir()):
-            return
-        forget_session(self.whose, self.path)
-        if self.is_new:
+        if not was_begun(self.path):
+            forget_session(self.whose, self.path)
+        if self.is_new and self.path.is_dir() and not any(self.path.iterdir()):
             self.path.rmdir()
 
 

@@ -43,11 +43,13 @@ def away(settings: Settings, tmp_path: Path) -> Settings:
     return replace(settings, history=f"sqlite:///{tmp_path}/plain-file/history")
 
 
-def practised(settings: Settings, options: PlanOptions = HOLDS_IT) -> tuple[SessionFolder, Remembered, SessionRecord]:
+def practised(
+    settings: Settings, options: PlanOptions = HOLDS_IT, wanted: Path | None = None
+) -> tuple[SessionFolder, Remembered, SessionRecord]:
     """A session that followed the student, from its begin to its end."""
     whose = StudentHistory.of(settings)
     followed = Remembered.of(ROCK, options, TODAY, Memory(whose, ROCK.name, ROCK.loop))
-    folder = SessionFolder.make(None, settings, ROCK.name)
+    folder = SessionFolder.make(wanted, settings, ROCK.name)
     virtual = practise_adaptively(followed.adaptation, parse_spec("sd_ms=5,seed=1"), folder.capture)
     saved = save(folder, virtual.result, practice_document(virtual.result, settings), followed)
     return folder, followed, saved
@@ -97,6 +99,19 @@ def test_what_was_learnt_while_the_history_was_away_is_remembered_later(settings
     whose = StudentHistory.of(settings)
     assert remembered(whose) == [followed.adaptation.state]
     assert LevelMemory(whose).recall()[0] == {"rock-1": Level.ELEMENTARY}
+
+
+def test_a_folder_elsewhere_is_taken_in_once_the_history_is_back(
+    settings: Settings, away: Settings, tmp_path: Path
+) -> None:
+    _, followed, _ = practised(away, replace(HOLDS_IT, loops=1), tmp_path / "elsewhere")
+    whose = StudentHistory.of(settings)
+    assert [path.name for path in whose.folder.iterdir()] == ["kept-elsewhere.json"]
+    assert catch_up(settings, list[str]().append) == 1
+    assert [row.folder for row in whose.open().sessions("Ann")] == [str(tmp_path / "elsewhere")]
+    assert remembered(whose) == [followed.adaptation.state]
+    assert list(whose.folder.iterdir()) == []
+    assert catch_up(settings, pytest.fail) == 0
 
 
 def test_what_was_known_all_the_while_outlives_what_was_learnt_on_top_of_nothing(
