@@ -9,20 +9,28 @@ from math import cos, exp, lgamma, pi, sqrt, tan
 
 import numpy as np
 
-_SHARE = 0.95
-_STEPS = 8
-"""So many stand still in the ninth digit for any freedom."""
+_STEPS = 200
+_STANDS_STILL = 1e-12
+"""Radians; for 95 % it takes nine steps, for the last millionth some dozens."""
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 
 
-@lru_cache(maxsize=1024)
 def t_quantile_95(freedom: float) -> float:
     """Two-sided 95 % point of Student's t for any `freedom`; less than one degree counts as one."""
+    return t_quantile(freedom, 0.95)
+
+
+@lru_cache(maxsize=1024)
+def t_quantile(freedom: float, share: float) -> float:
+    """The point of Student's t within which, to both sides, lies a `share` (0–1) for any `freedom`, as above."""
     v = max(freedom, 1.0)
-    wanted = _SHARE * sqrt(pi) / 2 * exp(lgamma(v / 2) - lgamma((v + 1) / 2))
+    wanted = share * sqrt(pi) / 2 * exp(lgamma(v / 2) - lgamma((v + 1) / 2))
     angle = 0.0
     for _ in range(_STEPS):
-        angle += (wanted - _area(angle, v - 1)) / cos(angle) ** (v - 1)
+        step = (wanted - _area(angle, v - 1)) / cos(angle) ** (v - 1)
+        angle += step
+        if step < _STANDS_STILL:
+            break
     return sqrt(v) * tan(angle)
 
 

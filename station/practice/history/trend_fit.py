@@ -54,8 +54,8 @@ class Line:
     """A line through days (d,): `slope` a day with its standard error, and the `half` width of a 95 % interval in SEs.
 
     `days` are those with sessions, in order, `values` what was measured on them with all strata brought to the height
-    of the one that was played most. `height` is the line's at the `centre`, with its own standard error and the
-    `covariance` of both.
+    of the one that was played most; `freedom` is what the parameters leave of them for the errors. `height` is the
+    line's at the `centre`, with its own standard error and the `covariance` of both.
     """
 
     days: Floats
@@ -63,6 +63,7 @@ class Line:
     slope: float
     slope_error: float
     half: float
+    freedom: int
     centre: float
     height: float
     height_error: float
@@ -102,6 +103,7 @@ def fit_line(seen: Observations) -> Line | None:
         slope=float(beta[-1]),
         slope_error=float(np.sqrt(covariance[-1, -1])),
         half=t_quantile_95(float(freedom)),
+        freedom=freedom,
         centre=centre,
         height=float(beta[0]),
         height_error=float(np.sqrt(covariance[0, 0])),

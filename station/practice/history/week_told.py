@@ -6,12 +6,16 @@ from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 
 from station.core.disk.utf8 import one_line
+from station.core.student_t import t_quantile
 from station.practice.history.calendar_days import WEEK
+from station.practice.history.trend_fit import Line
 from station.practice.history.trends import WORDS, Measure, Trend, Verdict, lessons_practised, trend_of
 from station.store.rows import SessionKind, SessionRow
 
 LOOKS_BACK = 5 * WEEK
 """So long before the week a change is looked for (our choice: what got better in spring is no news in autumn)."""
+FALSE_A_WEEK = 0.05
+"""Of weeks in which nothing got better so many say that something did (our choice, as of any interval here)."""
 _FREE = "Free playing"
 _NAMELESS = "A lesson"
 _FEWEST_SAID = 3.0
@@ -67,30 +71,42 @@ def end_of(day: date) -> datetime | None:
 
 
 def got_better(rows: Sequence[SessionRow], monday: date) -> tuple[str, ...]:
-    """A sentence for each lesson of the week from `monday` that got better, as far as its trend's interval says so.
+    """A sentence for each lesson of the week from `monday` that surely got better.
 
     `rows` are the sessions of that week and of `LOOKS_BACK` before it. Of a lesson the first of score, spread, lean and
-    tempo is told that changed by more than what counts as small.
+    tempo is told that changed by more than what counts as small, and so surely that in a week in which nothing did
+    anything at all is told `FALSE_A_WEEK` times: the more trends there are to look at, the surer each has to be
+    (Bonferroni).
     """
     of_week = lessons_practised(row for row in rows if row.started.date() >= monday)
     of_lesson = lessons_practised(rows)
-    told = (_better(title_of(mine[-1]), of_lesson[lesson]) for lesson, mine in of_week.items())
-    return tuple(sentence for sentence in told if sentence is not None)
+    trends = [(title_of(mine[-1]), _trends(of_lesson[lesson])) for lesson, mine in of_week.items()]
+    looked_at = sum(len(each) for _, each in trends)
+    found = ((title, _first_better(each, looked_at)) for title, each in trends)
+    return tuple(_sentence(title, *better) for title, better in found if better is not None)
 
 
-def _better(title: str, rows: Sequence[SessionRow]) -> str | None:
-    sentences = (_sentence(title, trend_of(measure, rows)) for measure in Measure)
-    return next((sentence for sentence in sentences if sentence is not None), None)
+def _trends(rows: Sequence[SessionRow]) -> list[tuple[Trend, Line]]:
+    """Those of a lesson that bear an answer."""
+    found = (trend_of(measure, rows) for measure in Measure)
+    return [(trend, trend.line) for trend in found if trend.line is not None]
 
 
-def _sentence(title: str, trend: Trend) -> str | None:
-    """What got better by this measure; None where nothing surely did."""
-    if trend.line is None or trend.change is None or abs(trend.change[0]) < WORDS[trend.measure].small:
-        return None
-    is_faster = trend.verdict is Verdict.CHANGED and trend.change[1] > 0
-    if not (trend.verdict is Verdict.BETTER or is_faster):
-        return None
-    first, last = (float(each) for each in trend.line.at(trend.line.days[[0, -1]]))
+def _first_better(trends: Iterable[tuple[Trend, Line]], looked_at: int) -> tuple[Trend, Line] | None:
+    return next(((trend, line) for trend, line in trends if _is_better(trend, line, looked_at)), None)
+
+
+def _is_better(trend: Trend, line: Line, looked_at: int) -> bool:
+    rises = trend.verdict is Verdict.CHANGED and line.slope > 0
+    span = float(line.days[-1] - line.days[0])
+    sure = t_quantile(line.freedom, 1 - 2 * FALSE_A_WEEK / looked_at) * line.slope_error
+    is_large = abs(line.slope) * span >= WORDS[trend.measure].small
+    return (rises or trend.verdict is Verdict.BETTER) and is_large and abs(line.slope) > sure
+
+
+def _sentence(title: str, trend: Trend, line: Line) -> str:
+    """What got better by this measure."""
+    first, last = (float(each) for each in line.at(line.days[[0, -1]]))
     match trend.measure:
         case Measure.SCORE:
             first, last = (min(max(each, 0.0), 100.0) for each in (first, last))

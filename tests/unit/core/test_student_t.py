@@ -3,7 +3,7 @@
 import pytest
 from scipy.special import stdtrit
 
-from station.core.student_t import t_quantile_95
+from station.core.student_t import t_quantile, t_quantile_95
 
 # Abramowitz & Stegun, table 26.10, column A = 0.95.
 TABLE = [(1, 12.706), (2, 4.303), (3, 3.182), (4, 2.776), (5, 2.571), (10, 2.228), (30, 2.042), (120, 1.980)]
@@ -21,3 +21,9 @@ def test_any_freedom_against_scipy(freedom: float) -> None:
 
 def test_less_than_one_degree_counts_as_one() -> None:
     assert t_quantile_95(0.0) == t_quantile_95(1.0)
+
+
+@pytest.mark.parametrize("freedom", [1, 2, 4, 30, 1000])
+@pytest.mark.parametrize("share", [0.5, 0.9, 0.99, 0.999, 0.99999])
+def test_any_share_is_scipys(freedom: int, share: float) -> None:
+    assert t_quantile(freedom, share) == pytest.approx(float(stdtrit(freedom, (1 + share) / 2)), rel=1e-7)

@@ -6,9 +6,10 @@ from datetime import date, datetime, timedelta
 import numpy as np
 import pytest
 
+from station.practice.history.trends import Measure, Verdict, trend_of
 from station.practice.history.week_told import got_better, practised, whole_minutes
 from station.store.rows import SessionKind, SessionRow
-from tests.unit.practice.history.students_told import row
+from tests.unit.practice.history.students_told import Story, row, told
 
 MONDAY = date(2026, 11, 23)
 NOON = datetime(2026, 11, 23, 12)
@@ -46,8 +47,8 @@ def test_what_was_practised_the_longest_first() -> None:
         replace(first, kind=SessionKind.TAKE, lesson="", title="whatever", played_s=30.0),
         replace(first, title="", lesson="waltz\x1b[2J", played_s=0.0, exam="passed"),
     ]
-    told = [(one.title, one.minutes, one.times) for one in practised(rows)]
-    assert told == [("Swing", 10, 1), ("Rock", 4, 2), ("Free playing", 0, 1), ("waltz [2J (exam: passed)", 0, 1)]
+    found = [(one.title, one.minutes, one.times) for one in practised(rows)]
+    assert found == [("Swing", 10, 1), ("Rock", 4, 2), ("Free playing", 0, 1), ("waltz [2J (exam: passed)", 0, 1)]
 
 
 def days(values: list[float], field: str = "score", **others: object) -> list[SessionRow]:
@@ -91,6 +92,23 @@ def test_progress_is_told_in_plain_words() -> None:
 )
 def test_nothing_is_told_that_the_interval_does_not_bear(values: list[float]) -> None:
     assert got_better(days(values), MONDAY) == ()
+
+
+def test_few_weeks_in_which_nothing_changed_tell_of_anything() -> None:
+    """Each trend by itself is wrong in five weeks of a hundred; of eight lessons many a week would tell of one."""
+    random, weeks = np.random.default_rng(4), 120
+    with_any = with_one_by_itself = 0
+    for _ in range(weeks):
+        lessons = [_ending_this_week(told(Story(12), random)[0], f"lesson-{number}") for number in range(8)]
+        with_any += got_better([each for rows in lessons for each in rows], MONDAY) != ()
+        with_one_by_itself += any(trend_of(Measure.SCORE, rows).verdict is Verdict.BETTER for rows in lessons)
+    assert with_any / weeks <= 0.10
+    assert with_one_by_itself / weeks >= 0.12
+
+
+def _ending_this_week(rows: list[SessionRow], lesson: str) -> list[SessionRow]:
+    later = NOON + timedelta(days=2) - rows[-1].started
+    return [replace(each, started=each.started + later, lesson=lesson) for each in rows]
 
 
 def test_of_lessons_that_were_not_played_this_week_nothing_is_told() -> None:
