@@ -1,36 +1,37 @@
 """The facts of a page about one session, from its result and its report."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from datetime import datetime
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.core.errors import BadInput
 from station.core.labels import name_of, piece_name
-from station.core.pieces import Dynamic, Limb, Piece, word
+from station.core.pieces import Dynamic, Piece
 from station.core.units import NS_PER_S, PPQ
 from station.engine.engine import KEYBOARD
 from station.music.judgement import Label
 from station.practice.now.tempo_now import tempi_in_words, tempo_at
 from station.practice.session.session import SessionResult
 from station.render.report.page.session_page import (
-    BarFigures,
-    GroupFigures,
-    Interval,
     JudgedBars,
     LoudnessRow,
     SessionPage,
-    StrokeTiming,
     TempoLine,
-    TimingFigures,
 )
 from station.render.report.result_facts import headline
-from station.scenes.heat_map import heat_map
-from station.scenes.hit_table import every_hit
 from station.scenes.report.kept_session import KeptSession
 from station.scenes.report.note_states import note_passes
+from station.scenes.report.page_timing import (
+    Document,
+    Spreads,
+    bar_figures,
+    group_figures,
+    hand_figures,
+    number,
+    stroke_timing,
+    table,
+)
 from station.scenes.report.page_words import (
     choices,
     exam_result,
@@ -44,13 +45,8 @@ from station.scenes.report.page_words import (
 from station.scenes.report.practised_section import practised_section, section_notes
 from station.scenes.result_tables import session_facts
 from station.scenes.score_words import section_names
-from station.scoring.analysis.technique.estimates import scatter
-from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
-from station.scoring.matching.alignment import Reference
 from station.scoring.matching.hit_windows import Level
-from station.scoring.matching.unheard import known_part
 
-Document = Mapping[str, Any]
 _KINDS = {Dynamic.GHOST: "ghost", Dynamic.NORMAL: "plain", Dynamic.ACCENT: "accent"}
 _NO_REPORT = (KeyError, TypeError, ValueError, AttributeError, IndexError, AssertionError, OverflowError)
 
@@ -65,15 +61,15 @@ def session_page(kept: KeptSession, source: str) -> SessionPage:
 
 def _page(kept: KeptSession) -> SessionPage:
     result, document = kept.result, kept.document
-    facts, said, counts = session_facts(result, document), _table(document["session"]), _table(document["counts"])
-    spreads = _Spreads(result)
+    facts, said, counts = session_facts(result, document), table(document["session"]), table(document["counts"])
+    spreads = Spreads(result)
     return SessionPage(
         title=str(said["title"]),
         student=str(said["student"]),
         when=_moment(kept.at),
         labels=tuple(_labels(result, document)),
-        score=_number(document["score"]),
-        right=int(_table(document)["right"]),
+        score=number(document["score"]),
+        right=int(table(document)["right"]),
         notes=int(counts["notes"]),
         misses=int(counts["misses"]),
         wrong=int(counts["wrong_piece"]),
@@ -86,11 +82,11 @@ def _page(kept: KeptSession) -> SessionPage:
         remarks=(*kept.remarks, *remarks(document)),
         exam=None if kept.exam is None else exam_result(kept.exam),
         bars=_bars(result),
-        timing=_timing(document, spreads),
-        pieces=tuple(_groups(_table(document["per_piece"]), spreads.pieces, name_of)),
-        limbs=tuple(_groups(_table(document["per_limb"]), spreads.limbs, lambda limb: limb.replace("_", " "))),
-        hands=tuple(_hands(document)),
-        by_bar=tuple(_by_bar(result, document, spreads)),
+        timing=stroke_timing(document, spreads),
+        pieces=tuple(group_figures(table(document["per_piece"]), spreads.pieces, name_of)),
+        limbs=tuple(group_figures(table(document["per_limb"]), spreads.limbs, lambda limb: limb.replace("_", " "))),
+        hands=tuple(hand_figures(document)),
+        by_bar=tuple(bar_figures(result, document, spreads)),
         loudness=_loudness(result, document),
         tempo=_tempo(result, document),
         passes_heading=passes_heading(document),
@@ -106,7 +102,7 @@ def _moment(at: datetime | None) -> str:
 
 def _labels(result: SessionResult, document: Document) -> Iterator[tuple[str, str]]:
     """What was practised, on what, and how it was judged."""
-    plan, said = result.plan, _table(document["session"])
+    plan, said = result.plan, table(document["session"])
     first, last = said["bars"]
     passes = "1 pass" if said["passes"] == 1 else f"{said['passes']} passes"
     yield "Bars", f"{f'bars {first}–{last}' if first != last else f'bar {first}'}, {passes}"
@@ -120,94 +116,6 @@ def _labels(result: SessionResult, document: Document) -> Iterator[tuple[str, st
 
 def _minutes(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 60 else f"{int(seconds) // 60} min {int(seconds) % 60} s"
-
-
-# --- timing -----------------------------------------------------------------------------------------------------------
-
-
-class _Spreads:
-    """The spread of every group with its interval, as the report reckons its means: of known notes that have a time."""
-
-    def __init__(self, result: SessionResult) -> None:
-        score, alignment, _ = known_part(result.score, result.alignment)
-        timed = timed_notes(score, alignment)
-        self.off_ms = asynchrony_ms(alignment)[timed]
-        self._slots = score.notes["tick"][timed].astype(np.int64)
-        names, notes = np.asarray(result.plan.practised_bars), score.notes[timed]
-        bars = names[np.minimum(score.bar[timed], len(names) - 1)] + 1
-        self.pieces = {word(Piece(each)): self._ci(notes["piece"] == each) for each in np.unique(notes["piece"])}
-        self.limbs = {word(Limb(each)): self._ci(notes["limb"] == each) for each in np.unique(notes["limb"])}
-        self.bars = {int(each): self._ci(bars == each) for each in np.unique(bars)}
-        self.whole = self._ci(np.ones(len(self.off_ms), np.bool_))
-
-    def _ci(self, rows: NDArray[np.bool_]) -> Interval | None:
-        one = np.zeros(int(rows.sum()), np.int64)
-        return scatter(self.off_ms[rows], one, self._slots[rows]).ci
-
-
-def _timing(document: Document, spreads: _Spreads) -> StrokeTiming:
-    is_own = document["reference"] == Reference.PLAYER.value
-    on_time_ms = Level(str(document["level"])).windows.on_time_ms
-    return StrokeTiming(spreads.off_ms, _figures(_table(document["timing"]), spreads.whole), on_time_ms, is_own)
-
-
-def _figures(timing: Document, sd_ci: Interval | None) -> TimingFigures:
-    ci = timing["mean_ci_ms"]
-    return TimingFigures(
-        strokes=int(timing["strokes"]),
-        mean_ms=_number(timing["mean_signed_asynchrony_ms"]),
-        mean_ci=None if ci is None else (float(ci[0]), float(ci[1])),
-        sd_ms=_number(timing["sd_asynchrony_ms"]),
-        sd_ci=sd_ci,
-    )
-
-
-def _groups(
-    table: Document,
-    sd_ci: Mapping[str, Interval | None],
-    label: Any,  # noqa: ANN401 - a function of a name
-) -> Iterator[GroupFigures]:
-    """Groups that have notes, or strokes where none is written."""
-    for name, group in table.items():
-        if group["notes"] or group["extras"]:
-            yield _group(str(label(name)), group, sd_ci.get(name))
-
-
-def _group(name: str, group: Document, sd_ci: Interval | None) -> GroupFigures:
-    return GroupFigures(
-        name=name,
-        notes=int(group["notes"]),
-        matched=int(group["matched"]),
-        misses=int(group["misses"]),
-        wrong=int(group["wrong_piece"]),
-        extras=None if group["extras"] is None else int(group["extras"]),
-        timing=_figures(group["timing"], sd_ci),
-    )
-
-
-def _hands(document: Document) -> Iterator[GroupFigures]:
-    """How each hand lies about the phase of the drill; nothing without sensors."""
-    phase = document.get("phase")
-    if phase is None:
-        return
-    for hand, lean in _table(phase)["hands"].items():
-        strokes, ci = int(lean["strokes"]), lean["ci"]
-        interval = None if ci is None else (float(ci[0]), float(ci[1]))
-        timing = TimingFigures(strokes, _number(lean["late_ms"]), interval, _number(lean["sd_ms"]))
-        yield GroupFigures(hand.replace("_", " "), strokes, strokes, 0, 0, None, timing)
-
-
-def _by_bar(result: SessionResult, document: Document, spreads: _Spreads) -> Iterator[BarFigures]:
-    cells = heat_map(result).cells
-    right: dict[int, int] = {}
-    for (bar, _), cell in cells.items():
-        right[bar] = right.get(bar, 0) + cell.right
-    dots = every_hit(result).dots
-    extras = np.minimum(dots["bar"][dots["label"] == Label.EXTRA], result.plan.bars[1] + 1).tolist()
-    for row in document["per_bar"]:
-        bar = int(row["bar"])
-        group = _group(f"bar {bar}", row, spreads.bars.get(bar))
-        yield BarFigures(bar, group, right.get(bar, 0), extras.count(bar))
 
 
 # --- bars, loudness, tempo --------------------------------------------------------------------------------------------
@@ -248,11 +156,11 @@ def _loudness(result: SessionResult, document: Document) -> tuple[LoudnessRow, .
 
 def _tempo(result: SessionResult, document: Document) -> TempoLine:
     """The report's tempo curve in the lesson's beat, and what was asked, bar by bar where it changes."""
-    told, plan, score = _table(document["tempo"]), result.plan, result.score
+    told, plan, score = table(document["tempo"]), result.plan, result.score
     beat = PPQ / plan.lesson.beat_ticks
     ticks = [change.tick for change in score.tempo_map.tempos if change.tick < score.end_tick]
     drift = told["drift_ci"]
-    median = _number(told["median_bpm"])
+    median = number(told["median_bpm"])
     return TempoLine(
         at_s=np.array([float(bar["at_s"]) for bar in told["bars"]]),
         beats_a_minute=np.array([float(bar["tempo_bpm"]) * beat for bar in told["bars"]]),
@@ -261,20 +169,6 @@ def _tempo(result: SessionResult, document: Document) -> TempoLine:
         end_s=score.length_ns / NS_PER_S,
         asks="tempo that was asked for" if plan.click is None else "click",
         median=None if median is None else median * beat,
-        drift=_number(told["drift_pct_per_minute"]),
+        drift=number(told["drift_pct_per_minute"]),
         drift_ci=None if drift is None else (float(drift[0]), float(drift[1])),
     )
-
-
-def _table(value: object) -> dict[str, Any]:
-    if not isinstance(value, dict):
-        raise TypeError("expected a table")
-    return value
-
-
-def _number(value: object) -> float | None:
-    if value is None:
-        return None
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise TypeError("expected a number")
-    return float(value)
