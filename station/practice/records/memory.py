@@ -141,8 +141,8 @@ class Remembered:
         known, fault, is_known = None, None, True
         try:
             known, fault = memory.recall() if memory is not None else (None, None)
-        except DeviceError as refused:
-            fault, is_known = f"{refused}; what you have learnt cannot be asked for: mastery begins anew", False
+        except DeviceError:  # why is said when a program opens the history
+            fault, is_known = "what you have learnt cannot be asked for today: mastery begins anew", False
         return cls(Adaptation(lesson, options, today, known), memory, fault, course, wishes, is_known)
 
     def next_turn(self) -> Turn | None:

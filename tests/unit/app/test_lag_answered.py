@@ -23,6 +23,7 @@ from station.engine.messages import Sounding, Started
 from station.practice.session.device_latency import Latency, latency_of
 from station.practice.session.plan import PlanOptions, plan_practice
 from station.practice.session.rising_tempo import Rise
+from station.store.opening import history_of
 from tests.fakes.human_takes import Added, Human, human_hits
 from tests.fakes.stations import Line, room, station_on, store_with
 
@@ -94,6 +95,8 @@ def test_left_in_it_counts_and_nobody_asks_again(tmp_path: Path) -> None:
     assert load_calibration().left == {OUTPUT}
     assert document(station)["score"] < fair - 20
     assert kept(tmp_path / "a")["lag"]["answer"] == "left"
+    [row] = history_of(Settings()).sessions("student")
+    assert row.score == kept(tmp_path / "a")["score"], "the history has the report that was written anew"
     station.close()
     again = played(tmp_path / "b", 100.0)
     assert room(again).lag_ms is None

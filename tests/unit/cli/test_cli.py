@@ -13,7 +13,7 @@ import pytest
 
 from station.cli.command_line import _COMMANDS, main
 from station.core.events import Hit
-from station.core.settings import load_settings
+from station.core.settings import Settings, load_settings, save_settings
 from station.devices.capture.capture import RecordKind, read_capture
 from station.drills.library import find_lesson
 from station.music.formats.smf.track_writer import write_performance
@@ -82,6 +82,24 @@ def test_the_tempo_follows_the_student_where_it_is_asked_to(capsys: pytest.Captu
     assert first["counts"]["notes"] == 3 * 24  # type: ignore[index]
     assert [(row.lesson, row.first_bar, row.last_bar) for row in users_history().mastery("anna")] == [("rock-1", 0, 1)]
     assert [each.name for each in users_history().students() if users_history().mastery(each.name)] == ["anna"]
+
+
+def test_where_the_history_is_away_a_line_says_so_and_the_session_is_taken_in_later(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    (tmp_path / "plain-file").touch()
+    away = save_settings(Settings(history=f"sqlite:///{tmp_path}/plain-file/history", sessions=str(tmp_path / "s")))
+    words = ["practice", "rock-1", "--headless", "--adapt", "--loops", "1", "--no-pictures", "--student", "anna"]
+    assert main([*words, "--virtual-student", "pro,seed=1"]) == 0
+    out, err = capsys.readouterr()
+    assert "Score" in out
+    assert [err.count(words) for words in ("practice goes on", "mastery begins anew", "another day")] == [1, 1, 1]
+    assert "Traceback" not in err
+    away.unlink()
+    save_settings(Settings(sessions=str(tmp_path / "s")))
+    assert main(["today", "--student", "anna"]) == 0
+    assert "1 session taken into the history" in capsys.readouterr().err
+    assert [row.lesson for row in users_history().mastery("anna")] == ["rock-1"]
 
 
 def test_a_session_has_a_folder_of_the_students_own(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -19,6 +19,7 @@ from station.practice.exchange.return_file import parse_return, read_return, ret
 from station.practice.exchange.return_judging import checked_capture, judge_returned
 from station.practice.exchange.student_store import take, taken_assignments
 from tests.fakes.captures import capture_bytes
+from tests.fakes.kept_sessions import users_history
 from tests.parcels_made import ASSIGNMENT, TEXT, a_return
 
 NOW = datetime(2026, 11, 23, 18, 0, 0)
@@ -93,10 +94,10 @@ def test_an_assignment_is_given_practised_returned_judged_and_answered(at_home: 
     told = at_home("Zoë", "assignment", "note", note)
     assert said in told
     assert "a note from Mo" in told  # who gave it, where nobody else says that they answer
+    assert [kept.body for kept in users_history().notes("Zoë")] == [note.read_bytes()]
     told = at_home("Zoë", "assignment", "list")
     assert said in told
-    assert "[ ] clean at 80 bpm" in told
-    assert "best score 91" in told
+    assert [words in told for words in ("[ ] clean at 80 bpm", "best score 91")] == [True, True]
     again = at_home("Zoë", "practice", "rock-1", "--loops", "1", "--no-demonstration", *play[:-1])
     assert "From your teacher\n* softer, please. Next: at 90" in again
 
