@@ -52,7 +52,9 @@ _PRACTISES = [
 _WITHIN_S = 60.0
 _PLAYS_S = 1.0
 """About what the virtual student takes for the session."""
-_STROKES_BYTES = 1_000
+_LOOPS = ("10", "40", "200")
+"""The shorter ones are over, and being judged and kept, when some kills come."""
+_STROKES_BYTES = 500
 _TABLES = ("figures", "judgements", "documents")
 
 
@@ -106,7 +108,7 @@ def kept_rows(path: Path) -> dict[str, str]:
 def killed_session(folder: Path, chance: random.Random) -> Path:
     """Kill a session at a random moment after its first strokes; its folder."""
     before = {*folder.iterdir()}
-    command = [sys.executable, "-m", "station.cli.command_line", *_PRACTISES, "200"]
+    command = [sys.executable, "-m", "station.cli.command_line", *_PRACTISES, chance.choice(_LOOPS)]
     writer = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     until = time.monotonic() + _WITHIN_S
     while time.monotonic() < until:

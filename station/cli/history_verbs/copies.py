@@ -56,6 +56,6 @@ def copy(options: CopyOptions) -> int:
 
 def _tell(done: Copied, name: str) -> None:
     for session in done.stayed:
-        say(f"{one_line(session)} is another session there, and stays")
+        say(f"{one_line(session)} is another session there, or a newer one, and stays")
     counts = f"{counted(done.added, 'session')} added, {done.replaced} replaced"
     say(f"copied   {one_line(name)}: {counts}, of {counted(done.students, 'student')}")

@@ -60,7 +60,7 @@ def test_one_student_moves_into_another_history(tmp_path: Path, capsys: pytest.C
     changed.keep(kept("Ann", datetime(2026, 11, 24, 18, 0), score=1.0))
     changed.database.close()
     assert main(["history", "copy", "--to", url]) == 0
-    assert "is another session there, and stays" in capsys.readouterr().err
+    assert "is another session there, or a newer one, and stays" in capsys.readouterr().err
     for wrong in ("nothing", "mysql://host/name", sqlite_url(data_folder() / "history.sqlite3")):
         assert main(["history", "copy", "--to", wrong]) == 2
     assert main(["history", "copy", "--to", url, "--student", "Nobody"]) == 2
