@@ -8,6 +8,7 @@ which a file that cannot be read stays. Where the folder cannot be renamed, what
 import json
 from collections.abc import Mapping
 from pathlib import Path
+from threading import Lock
 from typing import TYPE_CHECKING
 
 from station.core.errors import BadInput
@@ -26,6 +27,8 @@ LEVELS_NAME = "levels.json"
 LEVELS_SCHEMA = "drum-station/levels/1"
 _ITEMS = "*_*.json"
 _SPARE_NAMES = 1000
+_turn = Lock()
+"""Of a window's threads one takes a folder in, and the others wait until it is."""
 _untold: dict[tuple[str, Path], list[str]] = {}
 """Of each history and student's folder that was looked into: what nobody has been told yet."""
 
@@ -33,8 +36,9 @@ _untold: dict[tuple[str, Path], list[str]] = {}
 def take_in_old(history: "History", folder: Path, student: str) -> None:
     """Have the history know what lies in a student's `folder`; looked for once in a program. Raises `DeviceError`."""
     key = history.name, folder
-    if key not in _untold:
-        _untold[key] = _taken_in(history, folder / FOLDER, student) if (folder / FOLDER).is_dir() else []
+    with _turn:
+        if key not in _untold:
+            _untold[key] = _taken_in(history, folder / FOLDER, student) if (folder / FOLDER).is_dir() else []
 
 
 def untold_faults(history: "History", folder: Path) -> list[str]:
@@ -91,6 +95,8 @@ def _set_aside(old: Path) -> list[str]:
             continue
         try:
             old.rename(spare)
+        except FileNotFoundError:  # another program has just taken it in
+            return []
         except OSError as fault:
             return [f"{old}: what it holds is in the history now, but it cannot be renamed: {fault.strerror or fault}"]
         return []
