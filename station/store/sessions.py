@@ -2,6 +2,7 @@
 
 import hashlib
 import zlib
+from collections.abc import Sequence
 from dataclasses import asdict, fields
 from datetime import datetime
 from typing import Any
@@ -24,6 +25,7 @@ from station.store.upserts import put, put_if_new
 
 _KEYS = ("student_id", "name")
 _OF_THE_ROW = [each.name for each in fields(SessionRow) if each.name not in ("student", "id")]
+_OF_A_FIGURE = [FIGURES.c[each.name] for each in fields(FigureRow)]
 
 
 def put_session(connection: Connection, kept: KeptSession) -> int:
@@ -85,7 +87,10 @@ def _put_capture(connection: Connection, data: bytes) -> str:
 
 
 def _all() -> Select[Any]:
-    return select(SESSIONS, STUDENTS.c.name.label("student")).join(STUDENTS, SESSIONS.c.student_id == STUDENTS.c.id)
+    columns = (SESSIONS.c[name] for name in _OF_THE_ROW)
+    return select(*columns, SESSIONS.c.id, STUDENTS.c.name.label("student")).join(
+        STUDENTS, SESSIONS.c.student_id == STUDENTS.c.id
+    )
 
 
 def sessions_of(
@@ -178,7 +183,7 @@ def capture_by(connection: Connection, checksum: str) -> bytes | None:
 def figures_of(connection: Connection, key: str, since: datetime | None) -> list[TimedFigure]:
     """The figures of a student's sessions from `since` on, in the order in which these began."""
     wanted = (
-        select(FIGURES, SESSIONS.c.started, SESSIONS.c.lesson)
+        select(*_OF_A_FIGURE, SESSIONS.c.started, FIGURES.c.session_id, SESSIONS.c.lesson)
         .join(SESSIONS, FIGURES.c.session_id == SESSIONS.c.id)
         .join(STUDENTS, SESSIONS.c.student_id == STUDENTS.c.id)
         .where(STUDENTS.c.key == key)
@@ -186,22 +191,24 @@ def figures_of(connection: Connection, key: str, since: datetime | None) -> list
     wanted = wanted if since is None else wanted.where(SESSIONS.c.started >= since)
     ordered = wanted.order_by(SESSIONS.c.started, SESSIONS.c.name, FIGURES.c.part, FIGURES.c.name)
     return [
-        TimedFigure(each.started, each.session_id, each.lesson, _figure(each)) for each in connection.execute(ordered)
+        TimedFigure(started, number, lesson, _figure(of_figure))
+        for *of_figure, started, number, lesson in connection.execute(ordered)
     ]
 
 
 def session_figures(connection: Connection, number: int) -> list[FigureRow]:
     """The figures of a session, limbs before pieces."""
-    wanted = select(FIGURES).where(FIGURES.c.session_id == number).order_by(FIGURES.c.part, FIGURES.c.name)
+    wanted = select(*_OF_A_FIGURE).where(FIGURES.c.session_id == number).order_by(FIGURES.c.part, FIGURES.c.name)
     return [_figure(each) for each in connection.execute(wanted)]
 
 
-def _figure(found: Row[Any]) -> FigureRow:
-    values = {each.name: getattr(found, each.name) for each in fields(FigureRow)}
-    return FigureRow(**(values | {"part": Part(found.part)}))
+def _figure(found: Sequence[Any]) -> FigureRow:
+    part, *others = found
+    return FigureRow(Part(part), *others)
 
 
 def _row(found: Row[Any]) -> SessionRow:
-    values = {name: getattr(found, name) for name in _OF_THE_ROW}
-    values |= {"kind": SessionKind(found.kind), "state": SessionState(found.state)}
+    """The session of a row of `_all`; by place, for by name a thousand rows take three times as long."""
+    values = dict(zip(_OF_THE_ROW, found, strict=False))
+    values |= {"kind": SessionKind(values["kind"]), "state": SessionState(values["state"])}
     return SessionRow(student=found.student, id=found.id, **values)

@@ -30,7 +30,15 @@ class CancelFilm:
     """Give the video up."""
 
 
-FileAction = Export | ExportTake | FilmTake | CancelFilm
+@dataclass(frozen=True, slots=True)
+class ExportReport:
+    """Write the page about the session of the history whose id is `number` and that is called `name`."""
+
+    number: int
+    name: str
+
+
+FileAction = ExportReport | Export | ExportTake | FilmTake | CancelFilm
 
 
 @dataclass(frozen=True, slots=True)

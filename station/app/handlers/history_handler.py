@@ -42,6 +42,9 @@ def show_opened(parts: StationParts) -> None:
             parts.sessions.dismiss()
             parts.chooser.act(Select(replace(parts.chooser.selection, free=True)))
             parts.chooser.update()  # the kit alone is shown
-            parts.sessions.recall(take, click)
+            listening = parts.sessions.practice.free.recall(take, click)
+            if listening is not None:
+                parts.sessions.listen_to(listening)
         case OpenedBattle(result, folder):
-            parts.sessions.look_at_battle(battle_of_history(result, folder))
+            parts.sessions.dismiss()
+            parts.sessions.look_at(battle_of_history(result, folder))

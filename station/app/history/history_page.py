@@ -31,7 +31,9 @@ class HistoryPage:
         self._pages: HistoryPages | None = None
         self._fault = ""
         self._opening: tuple[int, Work[Opened]] | None = None
+        self._opened: int | None = None
         self._known: tuple[date, str, bool] | None = None
+        self._is_stale = True
 
     # --- as time goes by ---------------------------------------------------------------------------------------------
 
@@ -43,13 +45,13 @@ class HistoryPage:
             is_worth_it = not plays or self._known is None
             self._known = known
             if is_worth_it:
-                self._ask()
+                self._ask_anew()
         while self._coming and self._coming[0].done():
             self._take(self._coming.pop(0))
 
     def _take(self, read: Future[HistoryPages]) -> None:
         try:
-            self._pages, self._fault = read.result(), ""
+            self._pages, self._fault, self._is_stale = read.result(), "", False
         except StationError as fault:
             self._fault = str(fault)
 
@@ -68,6 +70,7 @@ class HistoryPage:
             raise
         if found is not None:
             self._end_opening()
+            self._opened = found.row.id
         return found
 
     def _end_opening(self) -> None:
@@ -78,7 +81,7 @@ class HistoryPage:
     def view(self) -> HistoryView:
         """What is shown."""
         opening = None if self._opening is None else self._opening[0]
-        return HistoryView(self._asked, self._pages, bool(self._coming), self._fault, opening)
+        return HistoryView(self._asked, self._pages, bool(self._coming), self._fault, opening, self._opened)
 
     # --- what the user does ------------------------------------------------------------------------------------------
 
@@ -89,7 +92,7 @@ class HistoryPage:
                 self._asked = asked
                 self._ask()
             case ReadAgain():
-                self._ask()
+                self._ask_anew()
             case OpenKept(number):
                 self._end_opening()
                 self._opening = number, self._start(opened_session, number, self._store.now)
@@ -101,6 +104,7 @@ class HistoryPage:
         self._end_opening()
         self._drop()
         self._asked, self._pages, self._fault, self._known = Asked(), None, "", None
+        self._is_stale, self._opened = True, None
 
     def close(self) -> None:
         """End what is read and judged."""
@@ -108,12 +112,17 @@ class HistoryPage:
         self._drop()
         self._reader.shutdown(wait=False, cancel_futures=True)
 
+    def _ask_anew(self) -> None:
+        """Something may have changed: nothing that was read before is trusted."""
+        self._is_stale = True
+        self._ask()
+
     def _ask(self) -> None:
         """Read what is asked now; what was asked before and is not begun yet is asked no more."""
-        settings, asked = self._store.now, self._asked
+        settings, asked, before = self._store.now, self._asked, None if self._is_stale else self._pages
         today = date.today() if self._known is None else self._known[0]
         self._coming = [each for each in self._coming if not each.cancel()]
-        self._coming.append(self._reader.submit(lambda: self._read(settings, today, asked)))
+        self._coming.append(self._reader.submit(lambda: self._read(settings, today, asked, before)))
 
     def _drop(self) -> None:
         for each in self._coming:

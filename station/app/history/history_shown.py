@@ -9,7 +9,7 @@ from station.practice.history.calendar_days import Month, PractisedDay
 from station.practice.history.overview import WeekTable
 from station.practice.history.streaks import Streak
 from station.practice.history.trends import LessonTrends
-from station.store.rows import SessionRow
+from station.store.rows import SessionRow, TimedFigure
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,8 +25,8 @@ class PractisedLesson:
 class HistoryPages:
     """What was read: `sessions` the newest first, `days` and `months` with practice, `lessons` the last one first.
 
-    `trends` are those of the lesson that was asked for, `weeks` the table, each None while nobody asks. `database` is
-    where the history is.
+    `trends` are those of the lesson that was asked for, `weeks` the table, each None while nobody asks. `figures` are
+    what tables of weeks are made of, None as long as none was asked for; `database` is where the history is.
     """
 
     student: str = ""
@@ -40,6 +40,7 @@ class HistoryPages:
     lessons: tuple[PractisedLesson, ...] = ()
     trends: LessonTrends | None = None
     weeks: WeekTable | None = None
+    figures: tuple[TimedFigure, ...] | None = None
     database: str = ""
 
 
@@ -48,7 +49,7 @@ class HistoryView:
     """The pages as they are shown: what was `asked`, what was read of it (None: nothing yet), and what goes on.
 
     `reads` while something is still to come; `fault` is why nothing could be read, empty where it was. `opening` is the
-    id of the session that is being judged again to be shown, None for none.
+    id of the session that is being judged again to be shown, `opened` of the one that was shown last, None for none.
     """
 
     asked: Asked = field(default_factory=Asked)
@@ -56,3 +57,4 @@ class HistoryView:
     reads: bool = False
     fault: str = ""
     opening: int | None = None
+    opened: int | None = None

@@ -1,6 +1,6 @@
 """A session of the history judged again from its capture, as it was shown at its end: in a process of its own.
 
-Its figures are those of its report, as it was kept; its strokes, bars and pictures come from the capture, which the
+A lesson is read as for its page (`scenes.report.kept_session`); a take and a battle come from their captures, which the
 history has where the session's folder is gone.
 """
 
@@ -17,13 +17,12 @@ from station.music.performance import Performance
 from station.practice.battle.battle_result import BattleResult
 from station.practice.battle.records.judge_battle_again import judge_battle_again
 from station.practice.history.session_choice import choose_session
-from station.practice.history.session_files import DOCUMENT_NAME, TAKE_NAME
-from station.practice.lag.fair_judgement import judged_as_told
-from station.practice.records.recovery import recovered_of
-from station.practice.records.report.session_report import practice_document
+from station.practice.history.session_files import TAKE_NAME
 from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.device_latency import latency_of
 from station.practice.session.free_play import FreeClick, take_of
+from station.scenes.report.kept_session import kept_session
+from station.scenes.report.session_place import session_place
 from station.scoring.report.assessment_document import Json
 from station.store.history import History
 from station.store.opening import history_of
@@ -62,26 +61,19 @@ def opened_session(number: int, settings: Settings) -> Opened:
     history = history_of(settings)
     chosen = choose_session(history, settings.student, str(number))
     assert chosen.row is not None, "it was chosen by its number"
-    capture = parse_capture(chosen.capture_data(history), chosen.source)
     folder = "" if chosen.folder is None else str(chosen.folder)
-    match chosen.row.kind:
-        case SessionKind.LESSON:
-            return Opened(chosen.row, _lesson(history, chosen.row, capture, folder, settings))
-        case SessionKind.TAKE:
-            return Opened(chosen.row, _take(history, chosen.row, capture, settings))
-        case SessionKind.BATTLE:
-            return Opened(chosen.row, OpenedBattle(judge_battle_again(capture), folder))
+    if chosen.row.kind is SessionKind.LESSON:
+        return Opened(chosen.row, _lesson(chosen.row, folder, settings))
+    capture = parse_capture(chosen.capture_data(history), chosen.source)
+    if chosen.row.kind is SessionKind.BATTLE:
+        return Opened(chosen.row, OpenedBattle(judge_battle_again(capture), folder))
+    return Opened(chosen.row, _take(history, chosen.row, capture, settings))
 
 
-def _lesson(history: History, row: SessionRow, capture: Capture, folder: str, settings: Settings) -> SavedSession:
-    result = recovered_of(capture, f"session {row.id}")
-    kept = _document(history, row, DOCUMENT_NAME)
-    lag = kept.get("lag")
-    left_out_ms = lag.get("left_out_ms") if isinstance(lag, dict) else None
-    if isinstance(left_out_ms, int | float) and left_out_ms:
-        result = judged_as_told(result, float(left_out_ms)).result
-    document = kept or practice_document(result, settings)
-    return SavedSession(result, shown_result(result, document, folder, _NO_BEFORE, student=whose(row.started.date())))
+def _lesson(row: SessionRow, folder: str, settings: Settings) -> SavedSession:
+    kept = kept_session(session_place(str(row.id), settings), settings)
+    shown = shown_result(kept.result, kept.document, folder, _NO_BEFORE, student=whose(row.started.date()))
+    return SavedSession(kept.result, shown)
 
 
 def whose(day: date) -> str:

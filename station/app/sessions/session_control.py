@@ -6,7 +6,6 @@ Only one thing sounds at a time: whoever begins something ends what runs before.
 from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import assert_never
 
@@ -14,13 +13,14 @@ from station.app.actions.practice_actions import Answer, Dismiss, EndSession, He
 from station.app.catalog import Catalog
 from station.app.engine_client import EngineClient
 from station.app.room_state import FreeRequest, RoomState, SessionRequest, Stage
-from station.app.sessions.battle_session import NewBattle
+from station.app.sessions.battle_session import BattleSession, NewBattle
 from station.app.sessions.current_practice import CurrentPractice
 from station.app.sessions.demo_player import DemoPlayer
 from station.app.sessions.free_session import FreeSession
 from station.app.sessions.launch import Launch
 from station.app.sessions.lesson_session import LessonSession
 from station.app.sessions.playback import Playback
+from station.app.sessions.recording_line import RecordingLine
 from station.app.sessions.session_preparation import PreparedSession, SessionPreparation
 from station.app.sessions.shown_result import SavedSession
 from station.app.settings.settings_store import SettingsStore
@@ -30,16 +30,13 @@ from station.core.measured_latency import StoredCalibration
 from station.core.units import NS_PER_S
 from station.drills.exam.exam_piece import ExamPiece
 from station.drills.lesson import Lesson
-from station.engine.messages import Command, EngineEvent, Started
+from station.engine.messages import EngineEvent, Started
 from station.motion.sticking.hand_notes import Hands
-from station.music.performance import Performance
 from station.practice.exam.exam_sitting import Sitting
 from station.practice.exam.exam_take import exam_plan
 from station.practice.history.session_files import CAPTURE_NAME
-from station.practice.session.cues.click_pattern import ClickPattern
 from station.practice.session.cues.listening import Listening
 from station.practice.session.device_latency import Latency, latency_of
-from station.practice.session.free_play import FreeClick
 from station.practice.session.leading_hand import hands_of
 from station.render.snapshot import Snapshot
 from station.scenes.battle.motion_chain import Body
@@ -48,15 +45,6 @@ from station.scenes.demonstrator import Demonstrator
 
 LIVELY_NS = 5 * NS_PER_S
 """So long after a stroke another may come at any moment (our choice: a bar or two)."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class RecordingLine:
-    """What a recording needs: where its commands go, what clicks, how late devices are."""
-
-    send: Callable[[Command], None]
-    click: ClickPattern
-    latency: Latency
 
 
 class SessionControl:
@@ -294,11 +282,11 @@ class SessionControl:
         """Begin a battle, ending what runs; raises `StationError`."""
         self._make_room()
         self._playback.without_track()
-        self.practice.begin_battle(new(self._engine, self._latency, self._body(), self._notify))
+        self.practice.begin_battle(self._made(new))
 
-    def _body(self) -> Body:
-        """Who sits at the student's kit."""
-        return Body(self._prepared.own_kit(), self._demonstrator.figure, self._demonstrator.style)
+    def _made(self, new: NewBattle) -> BattleSession:
+        player = Body(self._prepared.own_kit(), self._demonstrator.figure, self._demonstrator.style)
+        return new(self._engine, self._latency, player, self._notify)
 
     def leave_battle(self) -> None:
         """The result of a battle was read: the kit alone is shown."""
@@ -314,8 +302,7 @@ class SessionControl:
 
     def listen_to(self, listening: Listening) -> None:
         """Let something from elsewhere sound once; raises `DeviceError`, also while somebody plays."""
-        if self.practice.is_playing:
-            raise DeviceError("end the session first: it needs the sound card")
+        self._refuse("it needs the sound card")
         self._hear(listening)
 
     def is_listening_to(self, listening: Listening) -> bool:
@@ -331,30 +318,15 @@ class SessionControl:
         """End what is heard."""
         self._playback.quiet()
 
-    def look_at(self, saved: SavedSession) -> None:
-        """Show a result that a student has sent; raises `DeviceError` while somebody plays."""
-        if self.practice.is_playing:
-            raise DeviceError("end the session first: the take that you open comes in its place")
+    def look_at(self, shown: SavedSession | NewBattle) -> None:
+        """Show what a student has sent, or one's own of another day; raises `DeviceError` while somebody plays."""
+        self._refuse("the take that you open comes in its place")
         self._playback.quiet()
         self.player.halt()
-        self.practice.look_at(saved)
-
-    def look_at_battle(self, new: NewBattle) -> None:
-        """Show the result of a battle of another day; raises `DeviceError` while somebody plays."""
-        if self.practice.is_playing:
-            raise DeviceError("end the session first: the battle that you open comes in its place")
-        self.dismiss()
-        self._playback.quiet()
-        self.player.halt()
-        self.practice.look_at_battle(new(self._engine, self._latency, self._body(), self._notify))
-
-    def recall(self, take: Performance, click: FreeClick) -> None:
-        """Hear a take of another day; raises `DeviceError`, also while somebody plays."""
-        if self.practice.is_playing:
-            raise DeviceError("end the session first: the take that you open needs the sound card")
-        self.dismiss()
-        self._playback.quiet()
-        self._hear(self.practice.free.recall(take, click))
+        if isinstance(shown, SavedSession):
+            self.practice.look_at(shown)
+        else:
+            self.practice.look_at_battle(self._made(shown))
 
     def dismiss(self) -> None:
         """The result was read: back to the lessons."""
@@ -373,8 +345,7 @@ class SessionControl:
 
     def rest(self) -> list[str]:
         """Let the engine's devices go; returns the kits that it had. Raises `DeviceError` while somebody plays."""
-        if self.practice.is_playing:
-            raise DeviceError("end the session first: what is measured needs the sound card and the kit")
+        self._refuse("what is measured needs the sound card and the kit")
         self._playback.quiet()
         self.player.halt()
         return self._engine.rest()
@@ -396,6 +367,10 @@ class SessionControl:
         self.practice.free.delayed_by(latency)
 
     # --- inside ------------------------------------------------------------------------------------------------------
+
+    def _refuse(self, why: str) -> None:
+        if self.practice.is_playing:
+            raise DeviceError(f"end the session first: {why}")
 
     def _make_room(self) -> None:
         """End what runs or sounds, and have an engine; raises `DeviceError`."""

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import date
 
+from station.core.disk.utf8 import one_line
 from station.store.rows import SessionKind, SessionRow
 
 KINDS = {SessionKind.LESSON: "lesson", SessionKind.TAKE: "just played", SessionKind.BATTLE: "battle"}
@@ -30,7 +31,7 @@ class SessionFilter:
             return False
         if self.day not in (None, row.started.date()):
             return False
-        text = f"{title_of(row)} {row.lesson} {row.device} {row.exam} {row.level} {when_words(row)}".casefold()
+        text = f"{played_title(row)} {row.lesson} {row.device} {row.exam} {row.level} {when_words(row)}".casefold()
         return all(word in text for word in self.search.casefold().split())
 
 
@@ -42,9 +43,9 @@ def listed(rows: Sequence[SessionRow], only: SessionFilter) -> tuple[SessionRow,
     return tuple(rows) if only.is_any else tuple(row for row in rows if only.takes(row))
 
 
-def title_of(row: SessionRow) -> str:
+def played_title(row: SessionRow) -> str:
     """What was played."""
-    return row.title or row.lesson or KINDS[row.kind].capitalize()
+    return one_line(row.title or row.lesson) or KINDS[row.kind].capitalize()
 
 
 def short_when(row: SessionRow, today: date) -> str:
@@ -69,7 +70,7 @@ def session_words(row: SessionRow) -> str:
     """All that the history says of a session, in lines."""
     minutes = f"{row.played_s / 60:.1f} minutes" if row.played_s >= 60 else f"{row.played_s:.0f} seconds"
     early = "" if row.complete or row.kind is not SessionKind.LESSON else ", stopped early"
-    lines = [f"{title_of(row)} · {KINDS[row.kind]}", f"{when_words(row)} · {minutes}{early}"]
+    lines = [f"{played_title(row)} · {KINDS[row.kind]}", f"{when_words(row)} · {minutes}{early}"]
     tempo = [] if row.beats_a_minute is None else [f"{row.beats_a_minute:g} bpm"]
     score = [] if row.score is None else [f"{row.score:.0f} of 100"]
     level = [f"judged as {row.level}"] if row.level else []

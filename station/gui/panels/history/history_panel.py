@@ -6,7 +6,7 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
-from station.app.actions.history_actions import Asked, HistorySection, OpenKept, ReadAgain, ShowPages
+from station.app.actions.history_actions import Asked, HistorySection, ReadAgain, ShowPages
 from station.app.history.history_shown import HistoryPages, HistoryView
 from station.app.room_state import Stage
 from station.app.window_state import State
@@ -41,7 +41,7 @@ class HistoryPanel:
         """The page that is to be in front."""
         self._front: HistorySection | None = None
         self.calendar = CalendarPart(self._show_day)
-        self.sessions = SessionsPart(lambda number: dispatch(OpenKept(number)))
+        self.sessions = SessionsPart(dispatch)
         self._trends = TrendsPart(dispatch)
 
     def gui(self, state: State) -> None:
@@ -76,12 +76,19 @@ class HistoryPanel:
             self.section = self._front = HistorySection(names[index])
             self._page(state, view, pages)
             return
-        if not imgui.begin_tab_bar(TABS, imgui.TabBarFlags_.fitting_policy_shrink):
+        padding = imgui.ImVec2(theme.points(6), theme.points(7))
+        imgui.push_style_var(imgui.StyleVar_.frame_padding, padding)
+        is_seen = imgui.begin_tab_bar(TABS, imgui.TabBarFlags_.fitting_policy_shrink)
+        imgui.pop_style_var()
+        if not is_seen:
             return
         opens = self.section if self.section is not self._front else None
         for section in HistorySection:
             flag = imgui.TabItemFlags_.set_selected if section is opens else 0
-            if imgui.begin_tab_item(section.value, None, flag)[0]:
+            imgui.push_style_var(imgui.StyleVar_.frame_padding, padding)
+            is_front = imgui.begin_tab_item(section.value, None, flag)[0]
+            imgui.pop_style_var()
+            if is_front:
                 if opens in (None, section):
                     self.section = self._front = section
                 if section is self._front:
@@ -97,7 +104,7 @@ class HistoryPanel:
             case HistorySection.CALENDAR:
                 self.calendar.gui(pages)
             case HistorySection.SESSIONS:
-                self.sessions.gui(pages, view.opening, can_open)
+                self.sessions.gui(pages, view, can_open)
             case HistorySection.TRENDS:
                 asked = self._trends.gui(pages, view.asked)
                 self._ask_if_other(asked, view.asked)

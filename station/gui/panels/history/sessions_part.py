@@ -5,30 +5,34 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from station.app.history.history_shown import HistoryPages
+from station.app.actions.action import Action
+from station.app.actions.file_actions import ExportReport
+from station.app.actions.history_actions import OpenKept
+from station.app.history.history_shown import HistoryPages, HistoryView
 from station.gui import theme
 from station.practice.book.book_words import day_in_words
 from station.practice.history.session_list import (
     KINDS,
     SessionFilter,
     listed,
+    played_title,
     result_words,
     session_words,
     short_when,
-    title_of,
+    when_words,
 )
 from station.store.rows import SessionKind, SessionRow
 
 SEARCH_LABEL, KIND_LABEL, LESSON_LABEL = "##history-search", "##history-kind", "##history-lesson"
-ALL_LABEL = "All days##history"
+ALL_LABEL, REPORT_LABEL = "All days##history", "Write the page of the opened session##history"
 _KINDS = (None, *SessionKind)
 
 
 class SessionsPart:
-    """Keeps what the list is filtered by, `only`; the id of a session that is pressed goes to `open_session`."""
+    """Keeps what the list is filtered by, `only`; what the user does goes to `dispatch`."""
 
-    def __init__(self, open_session: Callable[[int], None]) -> None:
-        self._open = open_session
+    def __init__(self, dispatch: Callable[[Action], None]) -> None:
+        self._dispatch = dispatch
         self.only = SessionFilter()
         self._listed: tuple[HistoryPages, SessionFilter, tuple[SessionRow, ...]] | None = None
 
@@ -37,9 +41,12 @@ class SessionsPart:
         """How many sessions are listed."""
         return 0 if self._listed is None else len(self._listed[2])
 
-    def gui(self, pages: HistoryPages, opening: int | None, can_open: bool) -> None:
+    def gui(self, pages: HistoryPages, view: HistoryView, can_open: bool) -> None:
         """Draw it; while `can_open` is not, nothing is pressed."""
         self._filters(pages)
+        opened = next((row for row in pages.sessions if row.id == view.opened), None)
+        if opened is not None and opened.kind is SessionKind.LESSON:
+            self._report(opened)
         rows = self._rows(pages)
         if not rows:
             theme.soft("No session is like that.")
@@ -58,7 +65,7 @@ class SessionsPart:
         clipper.begin(len(rows))
         while clipper.step():
             for at in range(clipper.display_start, clipper.display_end):
-                self._row(rows[at], pages, is_opening=rows[at].id == opening)
+                self._row(rows[at], pages, is_marked=rows[at].id in (view.opening, view.opened))
         clipper.end()
         imgui.end_disabled()
         imgui.end_table()
@@ -93,16 +100,23 @@ class SessionsPart:
         theme.tooltip("Sessions of one lesson alone")
         self.only = replace(self.only, search=search, kind=_KINDS[kind], lesson=names[lesson])
 
-    def _row(self, row: SessionRow, pages: HistoryPages, is_opening: bool) -> None:
+    def _report(self, row: SessionRow) -> None:
+        """The page about the session that was opened last."""
+        if imgui.button(REPORT_LABEL, imgui.ImVec2(-1, 0)):
+            self._dispatch(ExportReport(row.id, row.name))
+        what = "bars, strokes and advice, and the take to see and hear, for any browser"
+        theme.tooltip(f"{played_title(row)}, {when_words(row)}: {what}")
+
+    def _row(self, row: SessionRow, pages: HistoryPages, is_marked: bool) -> None:
         imgui.table_next_row()
         imgui.table_next_column()
         flags = imgui.SelectableFlags_.span_all_columns
         when = short_when(row, pages.today or row.started.date())
-        if imgui.selectable(f"{when}{session_label(row.id)}", is_opening, flags)[0]:
-            self._open(row.id)
+        if imgui.selectable(f"{when}{session_label(row.id)}", is_marked, flags)[0]:
+            self._dispatch(OpenKept(row.id))
         theme.tooltip(session_words(row))
         imgui.table_next_column()
-        _text(title_of(row))
+        _text(played_title(row))
         imgui.table_next_column()
         imgui.text(f"{row.played_s / 60:.0f}")
         imgui.table_next_column()

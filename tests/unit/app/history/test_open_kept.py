@@ -9,6 +9,7 @@ import pytest
 
 from station.app.actions.action import Show
 from station.app.actions.battle_actions import CloseBattle, JudgeBattle, ReplayBest
+from station.app.actions.file_actions import ExportReport
 from station.app.actions.history_actions import OpenKept
 from station.app.actions.practice_actions import Begin, Dismiss, Listen
 from station.app.battle.battle_shown import BattleStage
@@ -183,3 +184,16 @@ def test_a_session_without_its_capture_is_one_clear_line(room: Room, tmp_path: P
     assert "its capture is kept neither in a folder nor in the history" in said
     assert room.station.view().history.opening is None
     assert "no session of that number" in room.open(999)
+
+
+def test_the_page_of_a_session_is_written_where_the_student_s_files_are(room: Room, tmp_path: Path) -> None:
+    number = room.keep(lesson(tmp_path, room), is_gone=True)
+    room.open(number)
+    assert room.station.view().history.opened == number
+    room.station.dispatch(ExportReport(number, "2026-03-01T18-30-05_x"))
+    room.station.update(2)
+    said = room.station.view().toast
+    (page,) = tmp_path.rglob("*.html")
+    assert said.endswith("2026-03-01T18-30-05_x.html")
+    assert "Ada" in page.relative_to(tmp_path).parts
+    assert page.read_text().startswith("<!DOCTYPE html>")
