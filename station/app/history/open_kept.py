@@ -17,7 +17,7 @@ from station.music.performance import Performance
 from station.practice.battle.battle_result import BattleResult
 from station.practice.battle.records.judge_battle_again import judge_battle_again
 from station.practice.history.session_choice import choose_session
-from station.practice.history.session_files import TAKE_NAME
+from station.practice.history.session_files import BATTLE_NAME, TAKE_NAME
 from station.practice.session.cues.click_pattern import PLAIN
 from station.practice.session.device_latency import latency_of
 from station.practice.session.free_play import FreeClick, take_of
@@ -29,6 +29,7 @@ from station.store.opening import history_of
 from station.store.rows import SessionKind, SessionRow
 
 _NO_BEFORE = "it is a session of another day: open an earlier one from the history as well"
+_ELSEWHERE = "it was a battle over the network: the friend's strokes are at their station, so it cannot be judged here"
 _USUAL_BPM = 100.0
 
 
@@ -66,6 +67,8 @@ def opened_session(number: int, settings: Settings) -> Opened:
         return Opened(chosen.row, _lesson(chosen.row, folder, settings))
     capture = parse_capture(chosen.capture_data(history), chosen.source)
     if chosen.row.kind is SessionKind.BATTLE:
+        if "network" in _document(history, chosen.row, BATTLE_NAME):
+            raise BadInput(chosen.source, "", _ELSEWHERE)
         return Opened(chosen.row, OpenedBattle(judge_battle_again(capture), folder))
     return Opened(chosen.row, _take(history, chosen.row, capture, settings))
 

@@ -212,13 +212,18 @@ def trend_words(trend: Trend) -> str:
     assert trend.change is not None, "every other verdict has a line"
     change, low, high = trend.change
     of = f"over {_days(trend.days)} of practice"
-    told, lowest, highest = (f"{each:+.0f}".replace("-", "−") for each in (change, low, high))
+    told, lowest, highest = map(_signed, (change, low, high))
     within = f"{told} {words.unit}, 95 % interval {lowest} to {highest}"
     if trend.verdict is Verdict.UNCLEAR:
         return f"{words.label}: cannot be told {of} ({within})"
     if trend.verdict is Verdict.STEADY:
         return f"{words.label}: as it was {of} ({within})"
     return f"{words.label}: {_direction(trend.measure, trend.verdict, change)} {of} ({within})"
+
+
+def _signed(value: float) -> str:
+    whole = round(value)
+    return f"{whole:+d}".replace("-", "−") if whole else "0"
 
 
 def _direction(measure: Measure, verdict: Verdict, change: float) -> str:

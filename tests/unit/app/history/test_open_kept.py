@@ -197,3 +197,12 @@ def test_the_page_of_a_session_is_written_where_the_student_s_files_are(room: Ro
     assert said.endswith("2026-03-01T18-30-05_x.html")
     assert "Ada" in page.relative_to(tmp_path).parts
     assert page.read_text().startswith("<!DOCTYPE html>")
+
+
+def test_a_battle_over_the_network_is_said_to_be_elsewhere(room: Room, tmp_path: Path) -> None:
+    folder = tmp_path / "2026-03-01T18-30-05_battle-steady"
+    words = ("battle", "--headless", "--rounds", "1", "--no-final", "--tempo", "150", "--virtual-student", "pro,seed=2")
+    assert main([*words, "--report", str(folder)]) == 0
+    document = json.loads((folder / "battle.json").read_text())
+    (folder / "battle.json").write_text(json.dumps(document | {"network": {"with": "Bea"}}))
+    assert "the friend's strokes are at their station" in room.open(room.keep(folder, is_gone=True))

@@ -110,6 +110,13 @@ def test_tempo_is_told_without_praise() -> None:
     assert "faster" in trend_words(trend)
 
 
+def test_words_tell_change_and_interval_and_no_signed_zero() -> None:
+    scores = [60.0, 61.0, 60.0, 61.0, 60.0, 61.0, 60.0, 61.0, 60.0, 61.0, 60.0]
+    trend = trend_of(Measure.SCORE, [row(each, 80.0, BEGIN + timedelta(days=n)) for n, each in enumerate(scores)])
+    assert trend.verdict is Verdict.STEADY
+    assert trend_words(trend) == "Score: as it was over 11 days of practice (0 points, 95 % interval −1 to +1)"
+
+
 def test_sessions_of_a_few_strokes_say_nothing() -> None:
     rows = [row(60.0, 80.0, BEGIN + timedelta(days=n), strokes=5, notes=5) for n in range(12)]
     assert all(each.verdict is Verdict.TOO_FEW and not each.points for each in trends_of("rock-1", rows).trends)
