@@ -10,6 +10,7 @@ from imgui_bundle import imgui
 
 from station.app.actions.history_actions import HistorySection, ReadAgain
 from station.app.actions.practice_actions import Dismiss
+from station.app.actions.settings_actions import SetView
 from station.app.room_state import Stage
 from station.drills.library import find_lesson
 from station.gui.panels.history.history_panel import AGAIN_LABEL, HISTORY
@@ -32,7 +33,7 @@ MADE = 120
 OLD = datetime.combine(date.today() - timedelta(days=400), datetime.min.time())
 
 
-def history(drive: Drive, ctx: imgui.test_engine.TestContext, look: Callable[[str], None] = lambda name: None) -> None:
+def history(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     """Everything in one window."""
     seen, sessions = drive.seen, drive.state.settings.sessions_dir
     store = drive.station.parts.store
@@ -40,7 +41,6 @@ def history(drive: Drive, ctx: imgui.test_engine.TestContext, look: Callable[[st
     def unread(name: str) -> None:
         drive.wait_until(ctx, lambda state: not state.history.reads)
         seen[f"unread {name}"] = drive.unread(ctx)
-        look(name)
 
     store.update(lambda settings: replace(settings, history="postgresql://nobody@127.0.0.1:1/none"))
     open_panel(ctx, HISTORY)
@@ -81,8 +81,17 @@ def history(drive: Drive, ctx: imgui.test_engine.TestContext, look: Callable[[st
     ctx.item_click(f"**/{PART_LABELS[Part.PIECE]}")
     ctx.yield_(2)
     unread("pieces")
+    _in_large_letters(drive, ctx, unread)
     weeks = None if drive.state.history.pages is None else drive.state.history.pages.weeks
     seen["pieces"] = None if weeks is None else [weeks.part.value, len(weeks.rows)]
+
+
+def _in_large_letters(drive: Drive, ctx: imgui.test_engine.TestContext, unread: Callable[[str], None]) -> None:
+    drive.station.dispatch(SetView(replace(drive.state.view_settings, scale=2.0)))
+    for section in HistorySection:
+        drive.window.pages.history.section = section
+        ctx.yield_(3)
+        unread(f"{section.value}, large letters")
 
 
 def _kept(drive: Drive, sessions: Path) -> int:

@@ -502,7 +502,7 @@ def test_the_history_is_looked_through_and_a_session_opened_from_it(
     assert seen["opened"][1] == seen["score"]
     assert seen["pieces"] == ["piece", 7]
     unread = {name: lines for name, lines in seen.items() if name.startswith("unread")}
-    assert len(unread) == 9
+    assert len(unread) == 13
     assert unread == {name: [] for name in unread}
 
 

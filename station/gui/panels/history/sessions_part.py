@@ -10,6 +10,7 @@ from station.app.actions.file_actions import ExportReport
 from station.app.actions.history_actions import OpenKept
 from station.app.history.history_shown import HistoryPages, HistoryView
 from station.gui import theme
+from station.gui.widgets.long_combo import long_combo
 from station.practice.book.book_words import day_in_words
 from station.practice.history.session_list import (
     KINDS,
@@ -86,17 +87,19 @@ class SessionsPart:
             theme.tooltip("List the sessions of all days again")
         imgui.set_next_item_width(-1)
         _, search = imgui.input_text_with_hint(SEARCH_LABEL, "Search title, device, exam, day …", self.only.search)
+        is_narrow = theme.is_narrow()
         half = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
-        imgui.set_next_item_width(half)
+        imgui.set_next_item_width(-1 if is_narrow else half)
         kinds = ["all kinds", *(KINDS[kind] for kind in SessionKind)]
-        _, kind = imgui.combo(KIND_LABEL, _KINDS.index(self.only.kind), kinds)
+        kind = long_combo(KIND_LABEL, _KINDS.index(self.only.kind), kinds)
         theme.tooltip("Lessons, takes of what was just played, battles")
-        imgui.same_line()
+        if not is_narrow:
+            imgui.same_line()
         imgui.set_next_item_width(-1)
         names = ["", *(each.name for each in pages.lessons)]
         titles = ["all lessons", *(f"{each.title} ({each.sessions})##{each.name}" for each in pages.lessons)]
         at = names.index(self.only.lesson) if self.only.lesson in names else 0
-        _, lesson = imgui.combo(LESSON_LABEL, at, titles)
+        lesson = long_combo(LESSON_LABEL, at, titles)
         theme.tooltip("Sessions of one lesson alone")
         self.only = replace(self.only, search=search, kind=_KINDS[kind], lesson=names[lesson])
 

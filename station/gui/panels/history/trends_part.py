@@ -13,6 +13,7 @@ from station.app.actions.teacher_actions import TakeUp
 from station.app.history.history_shown import HistoryPages
 from station.gui import theme
 from station.gui.widgets import plots
+from station.gui.widgets.long_combo import long_combo
 from station.practice.history.trends import WORDS, Measure, Trend, Verdict, trend_words
 from station.render import palette
 
@@ -49,9 +50,9 @@ class TrendsPart:
         titles = [f"{each.title} ({each.sessions})##{each.name}" for each in pages.lessons]
         wanted = asked.lesson if asked.lesson in names else names[0]
         imgui.set_next_item_width(-1)
-        changed, at = imgui.combo(LESSON_LABEL, names.index(wanted), titles, imgui.ComboFlags_.height_large)
+        at = long_combo(LESSON_LABEL, names.index(wanted), titles)
         theme.tooltip("The lesson that is looked at, the last one practised first; in brackets how often")
-        if changed:
+        if names[at] != wanted:
             return replace(asked, lesson=names[at])
         if shown is None:
             theme.soft("Reading …")

@@ -9,6 +9,7 @@ from station.app.actions.history_actions import Asked
 from station.app.history.history_shown import HistoryPages
 from station.gui import theme
 from station.gui.widgets.flow_row import FlowRow
+from station.gui.widgets.long_combo import long_combo
 from station.practice.history.overview import Cell, WeekMeasure, WeekTable, cell_words
 from station.render import palette
 from station.store.rows import Part
@@ -42,7 +43,7 @@ def weeks_part(pages: HistoryPages, asked: Asked) -> Asked:
             asked = replace(asked, part=part)
     imgui.set_next_item_width(-1)
     measures = list(_MEASURES)
-    _, at = imgui.combo(MEASURE_LABEL, measures.index(asked.measure), list(_MEASURES.values()))
+    at = long_combo(MEASURE_LABEL, measures.index(asked.measure), list(_MEASURES.values()))
     theme.tooltip(
         "Lean: the mean against the click. Spread: how far strokes scatter. Hit: notes that a stroke answered"
     )
@@ -51,7 +52,7 @@ def weeks_part(pages: HistoryPages, asked: Asked) -> Asked:
     titles = ["all lessons", *(f"{each.title}##{each.name}" for each in pages.lessons)]
     imgui.set_next_item_width(-1)
     chosen = names.index(asked.lesson_of_weeks) if asked.lesson_of_weeks in names else 0
-    _, at = imgui.combo(LESSON_LABEL, chosen, titles)
+    at = long_combo(LESSON_LABEL, chosen, titles)
     theme.tooltip("Of one lesson alone: then weeks are more alike")
     asked = replace(asked, lesson_of_weeks=names[at])
     table = pages.weeks
