@@ -33,16 +33,11 @@ def cleared(hands: tuple[HandPart, HandPart], figure: Figure) -> tuple[HandPart,
     return right.held_under(_caps(right, left, figure)), left.held_under(_caps(left, right, figure))
 
 
-def _still(part: HandPart, lie: ContactPose, figure: Figure) -> Arm:
-    lengths = part.hold.lengths(figure, part.limb == Limb.RIGHT_HAND)
-    return solve(ONE, lengths, lie.root, lie.contact, Offsets(0.0, 0.0, 0.0, 0.0))
-
-
 def _caps(own: HandPart, other: HandPart, figure: Figure) -> Array:
     """The highest that each stroke of `own` may go, (n,)."""
     if not len(own.events.row) or not len(other.events.row):
         return np.full(len(own.which), np.inf)
-    table = np.array([[_highest(own, a, other, b, figure) for b in other.lies] for a in own.lies])
+    table = _highest(own, other, figure)
     times, others = own.events.time_s, other.events.time_s
     after = np.searchsorted(others, times, side="right")
     before = np.maximum(after - 1, 0)
@@ -52,21 +47,39 @@ def _caps(own: HandPart, other: HandPart, figure: Figure) -> Array:
     return np.where(soon, np.minimum(caps, table[own.which, other.which[after]]), caps)
 
 
-def _highest(own: HandPart, lie: ContactPose, other: HandPart, others: ContactPose, figure: Figure) -> float:
-    """The highest stroke of `own` at `lie` that clears `other` at `others`; infinite where none touches."""
+def _highest(own: HandPart, other: HandPart, figure: Figure) -> Array:
+    """The highest stroke of `own` at each of its lies that clears `other` at each of its; infinite where none touches.
+
+    Each stroke's top and each arm at rest is solved once, whatever it is held against.
+    """
+    still = [_still(other, lie, figure) for lie in other.lies]
+    n = len(_HEIGHTS_M)
+    butt, tip, elbow, wrist, hand = (
+        np.repeat(np.array([getattr(arm, end) for arm in still])[:, None], n, 1)
+        for end in ("butt", "tip", "elbow", "wrist", "hand")
+    )
+    table = np.full((len(own.lies), len(still)), np.inf)
+    for k, lie in enumerate(own.lies):
+        near_end, far_end = (np.broadcast_to(end, butt.shape).copy() for end in _raised(own, lie, figure))
+        clear = segments_apart(near_end, far_end, butt, tip) > STICKS_M
+        clear &= segments_apart(near_end, far_end, elbow, wrist) > ARM_M
+        clear &= segments_apart(near_end, far_end, wrist, hand) > STICKS_M
+        touched = ~clear.all(1)
+        table[k, touched] = _HEIGHTS_M[np.maximum(np.argmin(clear[touched], axis=1) - 1, 0)]
+    return table
+
+
+def _still(part: HandPart, lie: ContactPose, figure: Figure) -> Arm:
+    lengths = part.hold.lengths(figure, part.limb == Limb.RIGHT_HAND)
+    return solve(ONE, lengths, lie.root, lie.contact, Offsets(0.0, 0.0, 0.0, 0.0))
+
+
+def _raised(own: HandPart, lie: ContactPose, figure: Figure) -> tuple[Array, Array]:
+    """The stick's butt and tip at the tops of strokes of all heights, (heights, 3) each."""
     lengths = own.hold.lengths(figure)
     n = len(_HEIGHTS_M)
     angles = np.repeat(np.array(lie.angles)[:, None], n, 1)
     raised = top(amplitudes(_HEIGHTS_M, angles, lengths, parts(own.hold), np.array([lie.contact.turns])))
     arm = solve(MANY, lengths, lie.root, Contact(*(np.full(n, c) for c in lie.contact)), Offsets(*raised))
-    clear = _clear(arm, _still(other, others, figure), n)
-    return float(_HEIGHTS_M[max(int(np.argmin(clear)) - 1, 0)]) if not clear.all() else np.inf
-
-
-def _clear(arm: Arm, still: Arm, n: int) -> NDArray[np.bool_]:
-    butt, tip = np.stack(np.broadcast_arrays(*arm.butt), 1), np.stack(np.broadcast_arrays(*arm.tip), 1)
-    b, t, e, w, h = (
-        np.tile(np.array(p), (n, 1)) for p in (still.butt, still.tip, still.elbow, still.wrist, still.hand)
-    )
-    sticks = segments_apart(butt, tip, b, t) > STICKS_M
-    return sticks & (segments_apart(butt, tip, e, w) > ARM_M) & (segments_apart(butt, tip, w, h) > STICKS_M)
+    butt, tip = (np.stack(np.broadcast_arrays(*end), 1) for end in (arm.butt, arm.tip))
+    return butt, tip

@@ -5,7 +5,8 @@ A move adds `amounts` (k, fields) of a `Contact` to a hand's way, k alternatives
 """
 
 from dataclasses import dataclass
-from math import inf
+from functools import cached_property
+from math import inf, sqrt
 
 import numpy as np
 
@@ -74,6 +75,12 @@ class Move:
     amounts: Array
     low: float = 1.0
     window: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    @cached_property
+    def lengths(self) -> list[tuple[float, float]]:
+        """Of each row of the amounts how far it goes round and how far it turns."""
+        ways, turns = self.amounts[:, :3], np.abs(self.amounts[:, 3:]).sum(1)
+        return [(sqrt(way.dot(way)), turn) for way, turn in zip(ways, turns.tolist(), strict=True)]
 
 
 def moves(hands: Hands, stretches: list[int], moments: Moments, worst: Moments) -> list[Move]:

@@ -77,14 +77,34 @@ def depth_in_kit(kit: Kit, butt: Array, tip: Array, follows: NDArray[np.bool_] |
     deepest = np.zeros(len(butt))
     follows = np.ones(len(butt), bool) if follows is None else follows
     for piece in kit.pieces.values():
+        if piece.kind == "kick":
+            continue
         size = np.hypot(piece.radius_m, piece.depth_m)
         away = middle - piece.centre
-        near = np.flatnonzero(_dot(away, away) < (reach + size) ** 2) if piece.kind != "kick" else np.zeros(0, np.intp)
+        near = np.flatnonzero(_dot(away, away) < (reach + size) ** 2)
+        near = near[_may_touch(piece, np.stack((butt[near], tip[near])))]
         for block in blocks(len(near), _STICKS_AT_ONCE):
             on = near[max(block.start - 1, 0) : block.stop]  # with the one before, from which a cymbal is jumped
             points = butt[on, None] + ALONG[:, None] * (tip - butt)[on, None]
             deepest[on] = np.maximum(deepest[on], depth(piece, points, follows[on[1:]] & (np.diff(on) == 1)))
     return deepest
+
+
+def _may_touch(piece: KitPiece, ends: Array) -> NDArray[np.bool_]:
+    """Which sticks with these ends (2, n, 3), at n moments in order, may be in `piece`, (n,): few that are near it are.
+
+    A stick is looked at by the heights of its ends over the piece's plane. Beside it stays the one before, from which
+    it may have jumped through a cymbal.
+    """
+    height = (ends - piece.centre) @ piece.normal
+    solid = piece.kind in ("drum", "block")
+    above, below = height.min(0) > TOUCH_M, height.max(0) < -TOUCH_M - solid * piece.depth_m
+    may = ~(above | below)
+    if solid:
+        return np.asarray(may)
+    may[1:] |= (above[1:] != above[:-1]) | (below[1:] != below[:-1])
+    may[:-1] |= may[1:]
+    return np.asarray(may)
 
 
 def depth(piece: KitPiece, points: Array, follows: NDArray[np.bool_] | bool = True) -> Array:
