@@ -26,10 +26,12 @@ $(READY): pyproject.toml constraints.txt tools/setup.sh
 setup-test: $(READY)
 	@tools/setup.sh --test-packages
 
-test: setup-test check  ## the same set-up, then every check and every test
+# Types are checked while the tests' packages come; then the tests, which wait much at first, run beside that.
+test: PACKAGES := setup-test
+test: check  ## the same set-up, then every check and every test
 
 check: format lint  ## what must be green before a commit
-	@$(MAKE) --no-print-directory -j 2 types imports unit
+	@$(MAKE) --no-print-directory -j 2 unit types imports PACKAGES=$(PACKAGES)
 
 format: $(READY)
 	@$(BIN)/ruff format --check --quiet station tests $(EXTRAS)
@@ -43,7 +45,7 @@ types: $(READY)
 imports: $(READY)
 	@$(BIN)/lint-imports --no-cache | tail -n 12
 
-unit: $(READY)
+unit: $(READY) $(PACKAGES)
 	@$(BIN)/python -m pytest -q -n 2 --dist loadgroup --no-loadscope-reorder
 
 oracles: $(READY)  ## comparisons with files that may not be passed on, read from ORACLES=../shared/data (tests/oracles)

@@ -65,8 +65,11 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
         yield begun
 
 
-LONGEST = ("tests/gui", "tests/e2e", "tests/render", "tests/unit/motion")
-"""Their modules take longest: begun first, in this order, they leave no worker alone at the end."""
+LONGEST = ("tests/e2e", "tests/gui", "tests/render", "tests/unit/motion")
+"""Their modules take longest: begun first, in this order, they leave no worker alone at the end.
+
+Those with a JACK server wait more than they compute: they come while types are checked beside the tests (`make check`).
+"""
 
 
 def _place(item: pytest.Item) -> int:
