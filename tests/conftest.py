@@ -13,6 +13,7 @@ from xdist.remote import Producer
 from xdist.scheduler import LoadGroupScheduling
 
 from tests.fakes.browser import Browser, chromium
+from tests.fakes.postgres_server import PostgresServer, postgres_server
 
 gc.disable()  # 17,500 tests are found: looked through again and again for garbage, they took a fifth of that time
 
@@ -63,6 +64,13 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
     """One Chromium for all tests that open pages: none is begun before the first of them."""
     with chromium(tmp_path_factory.mktemp("chromium")) as begun:
         yield begun
+
+
+@pytest.fixture(scope="session")
+def postgres() -> Iterator[PostgresServer]:
+    """One server for all tests of a process: none is begun before the first that needs one."""
+    with postgres_server() as server:
+        yield server
 
 
 LONGEST = ("tests/e2e", "tests/gui", "tests/render", "tests/unit/motion")

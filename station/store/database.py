@@ -14,7 +14,6 @@ from sqlalchemy.pool import NullPool
 
 from station.core.errors import DeviceError
 from station.store.database_url import file_of, name_of, parsed
-from station.store.patience import PATIENCE_S
 from station.store.server_links import connect_args, connected
 from station.store.sqlite_files import begun, prepared
 
@@ -62,7 +61,7 @@ class Database:
     def _engine(self) -> Engine:
         try:
             if self.path is not None:
-                engine = create_engine(self.url, poolclass=NullPool, connect_args={"timeout": PATIENCE_S})
+                engine = create_engine(self.url, poolclass=NullPool)
                 event.listen(engine, "connect", prepared)
                 event.listen(engine, "begin", begun)
                 return engine

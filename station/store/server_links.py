@@ -4,11 +4,13 @@ import time
 from collections.abc import Generator
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from station.store.patience import ANSWER_S, CONNECT_S, PATIENCE_S
+from station.store.patience import ANSWER_S, CONNECT_S, PATIENCE_S, left_of, waiting
 
 if TYPE_CHECKING:
     from psycopg import Connection as Link
 
+_LEAST_S = 2
+"""No connection is given up sooner by libpq."""
 _T = TypeVar("_T")
 
 
@@ -24,20 +26,28 @@ def connect_args() -> dict[str, Any]:
 
 
 def connected(_dialect: object, _record: object, words: tuple[Any, ...], arguments: dict[str, Any]) -> "Link[Any]":
-    """A connection that gives up itself where the server neither answers nor goes away."""
+    """A connection that gives up itself where the server neither answers nor goes away.
+
+    Whoever is in a hurry (`patience`) waits no longer than that for connection and answers in all.
+    """
     import psycopg  # noqa: PLC0415 - who keeps their history in a file need not have it
 
     class Impatient(psycopg.Connection[Any]):
         def wait(self, gen: Generator[Any, Any, _T], *args: Any, **others: Any) -> _T:  # noqa: ANN401 - as there
             # SQLAlchemy asks outside transactions whether the server is there, and nothing else
-            within_s = CONNECT_S if self.autocommit else ANSWER_S + CONNECT_S
+            within_s = left_of(CONNECT_S if self.autocommit else ANSWER_S + CONNECT_S)
             try:
-                return super().wait(_answered(gen, within_s), *args, **others)
+                with waiting():
+                    return super().wait(_answered(gen, within_s), *args, **others)
             except TimeoutError:
                 self.close()
                 raise psycopg.OperationalError(f"the server has not answered for {within_s:.0f} s") from None
 
-    return Impatient.connect(*words, **arguments)
+    within_s = left_of(arguments["connect_timeout"])
+    if within_s <= 0:
+        raise psycopg.OperationalError("the server has not answered, and nobody waits longer")
+    with waiting():
+        return Impatient.connect(*words, **{**arguments, "connect_timeout": max(round(within_s), _LEAST_S)})
 
 
 def _answered(gen: Generator[Any, Any, _T], within_s: float) -> Generator[Any, Any, _T]:

@@ -13,7 +13,7 @@ from sqlalchemy import Connection
 from sqlalchemy.engine.interfaces import DBAPIConnection
 
 from station.core.disk.files import growing
-from station.store.patience import PATIENCE_S
+from station.store.patience import PATIENCE_S, left_of
 
 FOR_THE_OWNER = 0o600
 """Who may read a file: whoever made it, alone."""
@@ -34,6 +34,7 @@ def prepared(connection: DBAPIConnection, _record: object) -> None:
         "secure_delete = ON",  # what is deleted is not left lying in the file
         f"wal_autocheckpoint = {_FOLDED_AFTER}",
         f"journal_size_limit = {_LONGEST_LOG}",
+        f"busy_timeout = {round(1000 * left_of(PATIENCE_S))}",  # who writes waits so long for the writer before
     ):
         cursor.execute(f"PRAGMA {setting}")
     cursor.close()

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from concurrent.futures import Executor, Future
+from functools import partial
 
 
 class WorkLater(Executor):
@@ -10,9 +11,9 @@ class WorkLater(Executor):
     def __init__(self) -> None:
         self.tasks: list[tuple[Future[object], Callable[[], object]]] = []
 
-    def submit(self, fn: Callable[[], object], /, *args: object, **kwargs: object) -> Future[object]:  # type: ignore[override]
+    def submit(self, fn: Callable[..., object], /, *args: object, **kwargs: object) -> Future[object]:  # type: ignore[override]
         future: Future[object] = Future()
-        self.tasks.append((future, fn))
+        self.tasks.append((future, partial(fn, *args, **kwargs)))
         return future
 
     def work(self) -> None:

@@ -4,6 +4,7 @@ A listing and a query a student where nothing is new. Where the history cannot b
 """
 
 from collections.abc import Callable, Iterator
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +23,7 @@ from station.practice.history.session_files import (
 )
 from station.practice.history.session_intake import Progress, everything_in
 from station.practice.history.student_history import StudentHistory
+from station.practice.history.unarrived import forget_arrived
 
 if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
     from station.store.history import History
@@ -34,12 +36,13 @@ def catch_up(settings: Settings, tell: Callable[[str], None], progress: Progress
     """Take in what every student's folder has; `tell` hears what a user should read. Returns how many sessions came."""
     taken, faults = 0, []
     try:
-        with StudentHistory.of(settings).reached() as history:
+        with StudentHistory.of(settings).reached(inf) as history:
             for student in _students(history, settings):
                 whose = StudentHistory(settings, student)
                 take_in_old(history, whose.folder, student)
                 faults += untold_faults(history, whose.folder)
                 found = everything_in(history, settings.sessions_dir, student, progress)
+                forget_arrived(whose, history)
                 taken += found.sessions
                 faults += found.faults if found.sessions else ()  # what is damaged is named once, with what is not
     except DeviceError as fault:

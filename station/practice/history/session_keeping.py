@@ -14,6 +14,7 @@ from station.practice.history.learnt import NOTHING_LEARNT, Learnt, write_learnt
 from station.practice.history.session_files import started_in
 from station.practice.history.session_intake import folder_text, new_row, take_in
 from station.practice.history.student_history import StudentHistory
+from station.practice.history.unarrived import forget_unarrived, remember_unarrived
 from station.store.rows import SessionKind, SessionState
 
 
@@ -33,7 +34,9 @@ def keep_session(whose: StudentHistory, folder: Path, learnt: Learnt = NOTHING_L
     try:
         with whose.reached() as history:
             take_in(history, whose.student, folder, learnt)
+        forget_unarrived(whose, folder)
     except DeviceError as fault:
+        remember_unarrived(whose, folder, learnt)
         remember_elsewhere(whose.folder, folder)
         if learnt.mastery or learnt.levels:
             write_learnt(folder, learnt)

@@ -11,6 +11,7 @@ from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
 from station.practice.history.old_mastery import take_in_old
 from station.practice.history.session_files import student_folder
+from station.store.patience import in_a_hurry
 
 if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
     from station.store.history import History
@@ -20,6 +21,9 @@ AGAIN_S = 300.0
 every frame)."""
 _PATIENT_S = 1.0
 """What is refused sooner is no wait (our choice)."""
+HURRY_S = 2.0
+"""So long who practises waits for the history, in all that they ask of it at once (our choice: a window stands still
+for it, and the folder has everything)."""
 _left_alone: dict[str, tuple[float, str]] = {}
 """Until when each history is left alone, by the clock that only rises, and why."""
 _T = TypeVar("_T")
@@ -51,10 +55,11 @@ class StudentHistory:
         return history
 
     @contextmanager
-    def reached(self) -> Iterator["History"]:
+    def reached(self, within_s: float | None = None) -> Iterator["History"]:
         """The history while it is asked or written to; raises `DeviceError` whatever keeps it away.
 
-        One that made us wait in vain is left alone for a while.
+        It may make us wait `within_s` seconds in all (None: `HURRY_S`). One that did so in vain is left alone for a
+        while.
         """
         key = self.settings.history
         until_s, reason = _left_alone.get(key, (0.0, ""))
@@ -62,7 +67,8 @@ class StudentHistory:
             raise DeviceError(reason)
         asked_s = time.monotonic()
         try:
-            yield self.open()
+            with in_a_hurry(HURRY_S if within_s is None else within_s):
+                yield self.open()
         except StationError as fault:
             if time.monotonic() - asked_s > _PATIENT_S:
                 _left_alone[key] = time.monotonic() + AGAIN_S, str(fault)

@@ -9,7 +9,6 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date
-from typing import TYPE_CHECKING
 
 from station.core.disk.file_names import folder_name
 from station.core.disk.files import write_whole
@@ -26,6 +25,7 @@ from station.drills.mastery.rules import DEFAULT_RULES
 from station.practice.history.learnt import NOTHING_LEARNT, Learnt
 from station.practice.history.old_mastery import mastery_row, untold_faults
 from station.practice.history.student_history import StudentHistory
+from station.practice.history.unarrived import levels_unarrived, mastery_known, mastery_unarrived
 from station.practice.records.lesson_order import ahead_of, followed_course
 from station.practice.records.lesson_progress import progress_of
 from station.practice.records.teachers_wishes import NO_WISHES, Wishes, wishes_of
@@ -33,9 +33,6 @@ from station.practice.session.adaptation import Adaptation
 from station.practice.session.plan import PlanOptions
 from station.scoring.matching.hit_windows import OUR_LEVELS, Level
 from station.store.rows import MasteryRow
-
-if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
-    pass
 
 UNREAD = "mastery-unread"
 """The folder of documents that could not be read, in the student's."""
@@ -54,16 +51,24 @@ class Memory:
 
         Raises `DeviceError` where the history cannot be reached, or what cannot be read cannot be set aside.
         """
-        with self.whose.reached() as history:
-            rows = history.mastery(self.whose.student, self.lesson)
-            faults = untold_faults(history, self.whose.folder)
-        row = next((each for each in rows if (each.first_bar, each.last_bar) == self.bars), None)
+        faults: list[str] = []
+        row, _ = mastery_unarrived(self.whose).get((self.lesson, *self.bars), (None, True))
+        if row is None:
+            with self.whose.reached() as history:
+                rows = history.mastery(self.whose.student, self.lesson)
+                faults = untold_faults(history, self.whose.folder)
+            row = next((each for each in rows if (each.first_bar, each.last_bar) == self.bars), None)
         if row is None:
             return None, "; ".join(faults) or None
         try:
             return _state(row), "; ".join(faults) or None
         except BadInput as fault:
             return None, "; ".join([*faults, f"{fault}; {self._set_aside(row)}, mastery begins anew"])
+
+    @property
+    def is_on_top(self) -> bool:
+        """Whether what is recalled rests on all that was known before, as far as anybody can say."""
+        return mastery_unarrived(self.whose).get((self.lesson, *self.bars), (None, True))[1]
 
     def _set_aside(self, row: MasteryRow) -> str:
         bars = f"{row.first_bar + 1}-{row.last_bar + 1}"
@@ -84,11 +89,18 @@ class LevelMemory:
         A lesson that is remembered from before there was a choice has the level by which it was judged. Raises
         `DeviceError` where the history cannot be reached.
         """
-        with self.whose.reached() as history:
-            kept, rows = history.levels(self.whose.student), history.mastery(self.whose.student)
-            faults = untold_faults(history, self.whose.folder)
-        levels = {state.item.name: state.level for state in _states(rows)}
-        levels |= {lesson: OUR_LEVELS[level] for lesson, level in kept.items() if level in OUR_LEVELS}
+        unarrived, since = mastery_unarrived(self.whose), levels_unarrived(self.whose)
+        kept: Mapping[str, str] = {}
+        rows, faults = list[MasteryRow](), list[str]()
+        try:
+            with self.whose.reached() as history:
+                kept, rows = history.levels(self.whose.student), history.mastery(self.whose.student)
+                faults = untold_faults(history, self.whose.folder)
+        except DeviceError:
+            if not unarrived and not since:
+                raise
+        levels = {state.item.name: state.level for state in _states([*rows, *(row for row, _ in unarrived.values())])}
+        levels |= {lesson: OUR_LEVELS[level] for lesson, level in {**kept, **since}.items() if level in OUR_LEVELS}
         return levels, "; ".join(faults) or None
 
     def usual(self) -> Level:
@@ -140,7 +152,9 @@ class Remembered:
         """
         known, fault, is_known = None, None, True
         try:
-            known, fault = memory.recall() if memory is not None else (None, None)
+            if memory is not None:
+                is_known = memory.is_on_top
+                known, fault = memory.recall()
         except DeviceError:  # why is said when a program opens the history
             fault, is_known = "what you have learnt cannot be asked for today: mastery begins anew", False
         return cls(Adaptation(lesson, options, today, known), memory, fault, course, wishes, is_known)
@@ -202,7 +216,7 @@ def _course_with(lesson: Lesson, followed: Course | None) -> Course | None:
 
 def remembered(whose: StudentHistory) -> list[ItemState]:
     """All that is remembered of a student, by lesson and bars; what cannot be read is left out."""
-    return _states(whose.ask(lambda history, student: history.mastery(student)) or [])
+    return _states(mastery_known(whose))
 
 
 def _states(rows: Sequence[MasteryRow]) -> list[ItemState]:

@@ -8,23 +8,18 @@ import pytest
 from station.store.database import Database
 from station.store.database_url import sqlite_url
 from station.store.history import History
-from tests.fakes.postgres_server import PostgresServer, postgres_server
-
-
-@pytest.fixture(scope="session")
-def postgres() -> Iterator[PostgresServer]:
-    """One server for all tests of a process."""
-    with postgres_server() as server:
-        yield server
+from tests.fakes.postgres_server import PostgresServer
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])
-def url(request: pytest.FixtureRequest, tmp_path: Path) -> str:
-    """A new database."""
+def url(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[str]:
+    """An empty database."""
     if request.param == "sqlite":
-        return sqlite_url(tmp_path / "history.sqlite3")
+        yield sqlite_url(tmp_path / "history.sqlite3")
+        return
     server: PostgresServer = request.getfixturevalue("postgres")
-    return server.new_database()
+    with server.lent_database() as lent:
+        yield lent
 
 
 @pytest.fixture

@@ -20,9 +20,10 @@ _PASSWORD = "s3cret"
 
 
 @pytest.fixture
-def url(postgres: PostgresServer) -> str:
-    """A new database of the server."""
-    return postgres.new_database()
+def url(postgres: PostgresServer) -> Iterator[str]:
+    """An empty database of the server."""
+    with postgres.lent_database() as lent:
+        yield lent
 
 
 @pytest.fixture
