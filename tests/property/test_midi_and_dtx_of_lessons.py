@@ -2,12 +2,12 @@
 
 import pytest
 
-from station.drills.library import shipped_lessons
 from station.drills.writing.lesson_part import part_of
 from station.music.formats.dtx.dtx_writer import DTX
 from station.music.formats.music_format import MusicFormat
 from station.music.formats.smf.midi_part import MIDI
 from tests.parts_alike import kept_differences
+from tests.shipped_lesson import shipped_lessons
 
 
 @pytest.mark.parametrize("form", [MIDI, DTX], ids=lambda form: form.name)

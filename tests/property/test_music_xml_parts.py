@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.drills.library import shipped_lessons
 from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart, PartSection
 from station.music.formats.music_format import Feature
@@ -21,6 +20,7 @@ from station.music.score import Note, Score
 from station.music.swing import Swing
 from station.music.tempo import MeterChange, TempoChange, TempoMap
 from tests.parts_alike import differences, kept_differences
+from tests.shipped_lesson import shipped_lessons
 
 _SLICES = 12
 

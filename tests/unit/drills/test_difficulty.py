@@ -5,7 +5,8 @@ from scipy.stats import spearmanr
 
 from station.drills.difficulty import PARTS, difficulty, goal_difficulty, standings
 from station.drills.lesson import Lesson
-from station.drills.library import find_lesson, shipped_courses, shipped_lessons
+from station.drills.library import find_lesson, shipped_courses
+from tests.shipped_lesson import shipped_lessons
 from tests.unit.drills.reading import read
 from tools.course_order import in_order, left_out, parts, with_parts
 from tools.difficulty_table import PAGE, TEACHERS_ORDER

@@ -5,7 +5,7 @@ import pytest
 from station.core.errors import BadInput
 from station.core.pieces import Articulation, Dynamic, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.drills.library import find_lesson, shipped_lessons
+from station.drills.library import find_lesson
 from station.drills.writing.lesson_part import part_of
 from station.music.drum_part import DrumPart
 from station.music.formats.ascii_tab.tab_reader import read_tab
@@ -13,6 +13,7 @@ from station.music.formats.ascii_tab.tab_text import is_tab
 from station.music.formats.ascii_tab.tab_writer import write_tab
 from station.music.formats.music_format import Feature
 from station.music.swing import Swing
+from tests.shipped_lesson import shipped_lessons
 
 EIGHTH, SIXTEENTH = PPQ // 2, PPQ // 4
 

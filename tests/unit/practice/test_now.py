@@ -10,7 +10,7 @@ import pytest
 from station.core.events import Hit
 from station.core.pieces import Piece, Zone
 from station.core.units import NS_PER_S
-from station.drills.library import find_lesson, shipped_lessons
+from station.drills.library import find_lesson
 from station.drills.mastery.feedback_fading import Feedback
 from station.engine.messages import Started
 from station.practice.now.entry_now import entry_words
@@ -21,6 +21,7 @@ from station.practice.session.device_latency import Latency
 from station.practice.session.plan import PassSeries, PlanOptions, plan_practice
 from station.practice.session.rising_tempo import Rise
 from station.practice.session.session import Session
+from tests.shipped_lesson import shipped_lessons
 
 LESSON = find_lesson("rock-2")
 

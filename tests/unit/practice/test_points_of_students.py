@@ -6,8 +6,7 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Piece
 from station.core.units import NS_PER_S, PPQ
-from station.drills.lesson import Lesson
-from station.drills.library import find_lesson, shipped_lessons
+from station.drills.library import find_lesson
 from station.music.performance import HIT_DTYPE, Performance
 from station.music.score import Score
 from station.practice.session.plan import PlanOptions, plan_practice
@@ -15,6 +14,7 @@ from station.scoring.align import align
 from station.scoring.analysis.summary import summarise
 from station.simulation.student_spec import parse_spec
 from station.simulation.virtual_student import play
+from tests.shipped_lesson import shipped_lessons
 
 PADS = np.array(
     [Piece.KICK, Piece.SNARE, Piece.HIHAT, Piece.RIDE, Piece.CRASH_1, Piece.TOM_1, Piece.TOM_2, Piece.FLOOR_TOM_1]
@@ -36,8 +36,7 @@ def struck(at_ns: NDArray[np.int64], pieces: NDArray[np.int64]) -> Performance:
 @pytest.mark.parametrize("part", range(12))
 def test_hammering_scores_under_10_on_every_lesson(part: int) -> None:
     """20 strokes a second anywhere, and every pad on every 16th, through one pass of the loop."""
-    lessons: list[Lesson] = list(shipped_lessons())[part::12]
-    for lesson in lessons:
+    for lesson in shipped_lessons(part, 12):
         score = plan_practice(lesson, PlanOptions(loops=1, demonstrations=0)).score
         rng = np.random.default_rng(7)
         count = 20 * score.length_ns // NS_PER_S

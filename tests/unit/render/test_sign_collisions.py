@@ -7,10 +7,10 @@ import pytest
 
 from station.core.pieces import HAND_PIECES, Articulation, Dynamic, Limb, Ornament, Piece, Zone
 from station.core.units import PPQ
-from station.drills.library import shipped_lessons
 from station.music.grace_strokes import with_graces
 from station.music.score import Note
 from station.render.notation.staff import head_of, step_of
+from tests.shipped_lesson import shipped_lessons
 from tests.unit.render.scores import BAR, score_of
 from tests.unit.render.sign_collisions import Inked, collisions, inked_lines, overlapping
 
@@ -38,7 +38,7 @@ def test_the_counter_sees_ink_on_ink_and_not_what_lies_beside_it() -> None:
 
 @pytest.mark.parametrize("part", range(8))
 def test_nothing_collides_in_the_shipped_lessons(part: int) -> None:
-    for lesson in shipped_lessons()[part::8]:
+    for lesson in shipped_lessons(part, 8):
         assert not collisions(lesson.played_once.as_written), lesson.title
 
 

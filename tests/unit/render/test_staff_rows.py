@@ -6,12 +6,12 @@ from numpy.typing import NDArray
 
 from station.core.pieces import Dynamic, Limb, Piece, Zone
 from station.core.units import PPQ
-from station.drills.library import shipped_lessons
 from station.music.score import Note, Score
 from station.render.notation.engraving import Engraver
 from station.render.notation.staff_rows import staff_rows, stem_end
 from station.render.text.paper import OutlineAtlas
 from station.render.text.sign_outlines import SIGNS
+from tests.shipped_lesson import shipped_lessons
 from tests.unit.render.scores import rock, score_of
 
 ATLAS = OutlineAtlas()
@@ -27,7 +27,7 @@ def signs_reach(shapes: NDArray[np.void]) -> tuple[float, float]:
 
 @pytest.mark.parametrize("part", range(3))
 def test_words_and_letters_stand_beyond_every_sign(part: int) -> None:
-    for lesson in shipped_lessons()[part::24]:
+    for lesson in shipped_lessons(part, 24):
         score = lesson.played_once
         rows, engraver = staff_rows(score), Engraver(score, ATLAS)
         for bar in range(min(score.bar_count, 4)):

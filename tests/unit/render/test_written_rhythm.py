@@ -8,7 +8,6 @@ import pytest
 
 from station.core.pieces import Piece
 from station.core.units import PPQ
-from station.drills.library import shipped_lessons
 from station.music.formats.format_table import read_part
 from station.music.score import Note, Score
 from station.music.tempo import TempoMap
@@ -16,6 +15,7 @@ from station.render.notation.spelling.bar_spelling import spell_bar
 from station.render.notation.spelling.note_values import BeatGroup, Stroke
 from station.render.notation.spelling.written_rhythm import written_ticks
 from station.render.notation.voice.written_strokes import feet_of, written_strokes
+from tests.shipped_lesson import shipped_lessons
 from tests.unit.render.rhythm_sums import gaps
 
 GMD = Path(__file__).parents[3].parent / "shared" / "data" / "gmd"
