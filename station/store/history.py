@@ -71,10 +71,10 @@ class History:
                 memory_rows.put_level(connection, kept.row.student, lesson, level)
         return number
 
-    def move(self, number: int, folder: str) -> None:
-        """Say where the files of a session lie now."""
+    def move(self, folders: Mapping[int, str]) -> None:
+        """Say where the files of sessions lie now, by their ids."""
         with self.database.writing() as connection:
-            sessions.move_session(connection, number, folder)
+            sessions.move_sessions(connection, folders)
 
     def sessions(
         self,
@@ -106,6 +106,11 @@ class History:
         """What a student's sessions are called."""
         with self.database.reading() as connection:
             return sessions.session_names(connection, student_key(student), state)
+
+    def session_folders(self, student: str) -> Mapping[str, tuple[int, str]]:
+        """Id and folder of a student's sessions, begun or kept, by their names."""
+        with self.database.reading() as connection:
+            return sessions.session_folders(connection, student_key(student))
 
     def session(self, number: int) -> SessionRow | None:
         """The session with that id, None where there is none."""

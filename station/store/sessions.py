@@ -2,12 +2,12 @@
 
 import hashlib
 import zlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, fields
 from datetime import datetime
 from typing import Any
 
-from sqlalchemy import Connection, Row, Select, delete, insert, select, update
+from sqlalchemy import Connection, Row, Select, bindparam, delete, insert, select, update
 
 from station.store.rows import (
     FigureRow,
@@ -135,9 +135,16 @@ def session_in(connection: Connection, folder: str) -> SessionRow | None:
     return None if found is None else _row(found)
 
 
-def move_session(connection: Connection, number: int, folder: str) -> None:
-    """Say where a session's files lie now."""
-    connection.execute(update(SESSIONS).where(SESSIONS.c.id == number).values(folder=folder))
+def session_folders(connection: Connection, key: str) -> dict[str, tuple[int, str]]:
+    """Id and folder of a student's sessions, begun or kept, by their names."""
+    wanted = select(SESSIONS.c.name, SESSIONS.c.id, SESSIONS.c.folder).join(STUDENTS).where(STUDENTS.c.key == key)
+    return {name: (number, folder) for name, number, folder in connection.execute(wanted)}
+
+
+def move_sessions(connection: Connection, folders: Mapping[int, str]) -> None:
+    """Say where the files of sessions lie now, by their ids."""
+    moved = update(SESSIONS).where(SESSIONS.c.id == bindparam("number")).values(folder=bindparam("there"))
+    connection.execute(moved, [{"number": number, "there": folder} for number, folder in folders.items()])
 
 
 def judgements_of(connection: Connection, number: int) -> list[JudgementRow]:

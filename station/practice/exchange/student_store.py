@@ -23,13 +23,13 @@ from station.practice.exchange.assignment_file import (
 )
 from station.practice.exchange.lesson_member import MOST_LESSON_BYTES
 from station.practice.exchange.note_file import Note, SessionVerdict, parse_note, read_note
+from station.practice.exchange.notes_kept import note_row
 from station.practice.exchange.parcel import Kind
 from station.practice.exchange.parcel_json import MOST_JSON_BYTES, read_json
 from station.practice.exchange.return_file import Return
 from station.practice.history.session_files import write_document
 from station.practice.history.student_history import StudentHistory
 from station.practice.records.assigned_lessons import Taken, all_taken, assignments_folder, write_taken
-from station.store.rows import TeacherNoteRow
 
 _FILE_NAME = f"assignment{Kind.ASSIGNMENT.ending}"
 _ID_LETTERS = 8
@@ -210,11 +210,6 @@ def session_key(lesson: str, played: datetime) -> str:
     return f"{played:%Y-%m-%dT%H:%M:%S} {lesson}"
 
 
-def _note_row(note: Note, data: bytes) -> TeacherNoteRow:
-    made = note.made.astimezone().replace(tzinfo=None)
-    return TeacherNoteRow(note.id, note.assignment_id, note.title, note.teacher, made, note.words, note.next, data)
-
-
 def _sent_sessions(path: Path) -> list[str]:
     """The keys of the sessions of a return, in its order; none where it was made before they were kept."""
     try:
@@ -246,7 +241,7 @@ def keep_note(path: Path, settings: Settings) -> tuple[TakenAssignment, Note, bo
         raise BadInput(path, "", "another note of the same id came before")
     write_whole(kept, data)
     whose = StudentHistory.of(settings)
-    whose.ask(lambda history, student: history.keep_note(student, _note_row(note, data)))
+    whose.ask(lambda history, student: history.keep_note(student, note_row(note, data)))
     if is_new and all(note.made >= other.made for other in one.notes):
         write_taken(one.folder, replace(one.taken, said=tuple(_said(note, one.taken))))
     return one, note, is_new

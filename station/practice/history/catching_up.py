@@ -4,6 +4,7 @@ A listing and a query a student where nothing is new. Where the history cannot b
 """
 
 from collections.abc import Callable, Iterator
+from datetime import datetime
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,7 +13,9 @@ from station.core.counts import counted
 from station.core.disk.file_names import alike, folder_name
 from station.core.errors import BadInput, DeviceError
 from station.core.settings import Settings
+from station.practice.exchange.notes_kept import take_in_notes
 from station.practice.history.kept_json import kept_document
+from station.practice.history.moved_folders import follow_moved, forget_gone
 from station.practice.history.old_mastery import FOLDER, take_in_old, untold_faults
 from station.practice.history.session_files import (
     DOCUMENT_NAME,
@@ -41,7 +44,10 @@ def catch_up(settings: Settings, tell: Callable[[str], None], progress: Progress
                 whose = StudentHistory(settings, student)
                 take_in_old(history, whose.folder, student)
                 faults += untold_faults(history, whose.folder)
+                take_in_notes(history, whose.folder, student)
+                follow_moved(history, whose.folder, student)
                 found = everything_in(history, settings.sessions_dir, student, progress)
+                forget_gone(history, student, datetime.now())
                 forget_arrived(whose, history)
                 taken += found.sessions
                 faults += found.faults if found.sessions else ()  # what is damaged is named once, with what is not

@@ -127,7 +127,7 @@ def _new_folders(history: "History", ours: Path, student: str) -> list[tuple[Pat
     kept = history.session_names(student)
     begun = {row.name: row for row in history.sessions(student, state=SessionState.BEGUN)}
     found: list[tuple[Path, SessionRow]] = []
-    for name, path, started in _folders(ours):
+    for name, path, started in folders_of(ours):
         row = begun.pop(name, None)
         if name not in kept and (row is None or is_over(path)):
             found.append((path, new_row(student, path, started)))
@@ -222,7 +222,7 @@ def _judgements(table: bytes | None) -> tuple[JudgementRow, ...]:
 # --- files ------------------------------------------------------------------------------------------------------------
 
 
-def _folders(student: Path) -> list[tuple[str, Path, datetime]]:
+def folders_of(student: Path) -> list[tuple[str, Path, datetime]]:
     """The folders of a student that are called as sessions are, in the order in which these began."""
     found = ((path, started_in(path.name)) for path in sorted(_entries(student), key=lambda path: path.name))
     return [(kept_text(path.name), path, began) for path, began in found if began is not None]

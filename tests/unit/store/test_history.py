@@ -156,3 +156,17 @@ def test_health_is_looked_at_and_changes_nothing(url: str) -> None:
             connection.exec_driver_sql("UPDATE alembic_version SET version_num = '9999'")
     made.database.close()
     assert ("read-only" if made.database.path is None else "newer station") in str(health_of(url).fault)
+
+
+def test_sessions_say_where_their_files_lie_now(history: History) -> None:
+    first, second = (history.keep(KeptSession(_session(name, 3))) for name in ("one", "two"))
+    history.begin(_session("three", 4))
+    known = history.session_folders("Ann")
+    assert {name: number for name, (number, _) in known.items() if name != "three"} == {"one": first, "two": second}
+    assert known["three"][1] == _session("three", 4).folder
+    history.move({first: "/disk/one", known["three"][0]: "/disk/three"})
+    assert [folder for _, folder in (history.session_folders("Ann")[name] for name in ("one", "two", "three"))] == [
+        "/disk/one",
+        _session("two", 3).folder,
+        "/disk/three",
+    ]
