@@ -6,7 +6,7 @@ from station.core.settings import Settings
 
 def caught_up(settings: Settings) -> Settings:
     """The settings, whose history has what lies in folders; where it cannot be reached that is said."""
-    from station.practice.history.catching_up import catch_up
+    from station.practice.own_data.catching_up import catch_up
 
     shown: list[Progress] = []
 

@@ -11,7 +11,7 @@ from station.core.settings import Settings
 from station.gui.panels.practice_panel import PRACTICE
 from station.gui.panels.today_panel import LEAVE_OUT_LABEL, START_LABEL, TODAY
 from station.practice.book.book_day import BookDay, BookFolder
-from station.practice.history.catching_up import catch_up
+from station.practice.own_data.catching_up import catch_up
 from tests.gui.drive import Drive, open_panel
 
 

@@ -12,9 +12,9 @@ from station.drills.exam.exam_piece import Unseen
 from station.practice.book.book_day import BookFolder
 from station.practice.book.practised import practised_on
 from station.practice.exam.exam_record import was_seen
-from station.practice.history.catching_up import catch_up
 from station.practice.history.kept_json import kept_document, recalled
 from station.practice.history.session_files import DOCUMENT_NAME
+from station.practice.own_data.catching_up import catch_up
 from station.practice.records.assigned_lessons import all_taken
 from station.practice.records.memory import remembered
 from tests.fakes.known_students import one_student

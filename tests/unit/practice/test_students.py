@@ -12,8 +12,8 @@ from station.drills.library import find_lesson
 from station.drills.mastery.mastery_json import document_of
 from station.drills.mastery.next_pass import new_item
 from station.drills.mastery.practice_steps import item_of
-from station.practice.history.catching_up import catch_up
 from station.practice.history.session_files import OWN_FOLDERS, student_folder, write_document
+from station.practice.own_data.catching_up import catch_up
 from station.practice.records.students import KnownStudent, known_students, sharing
 
 STATE = new_item(item_of(find_lesson("rock-1")), date(2026, 3, 1))

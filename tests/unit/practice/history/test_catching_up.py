@@ -1,5 +1,6 @@
 """What an opening history finds besides new sessions: notes of before, folders that were moved or are gone."""
 
+import os
 from dataclasses import replace
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -10,10 +11,10 @@ from station.core.settings import Settings
 from station.devices.capture.capture import CaptureRecord, RecordKind
 from station.practice.exchange.note_file import note_bytes
 from station.practice.history import moved_folders
-from station.practice.history.catching_up import catch_up
 from station.practice.history.moved_folders import FORGOTTEN_AFTER, forget_gone
 from station.practice.history.session_keeping import begin_session
 from station.practice.history.student_history import StudentHistory
+from station.practice.own_data.catching_up import catch_up
 from station.practice.records.recovery import cut_off
 from station.store.rows import KeptSession, SessionKind, SessionRow, SessionState
 from tests.fakes.captures import capture_bytes
@@ -83,7 +84,7 @@ def test_rows_follow_a_folder_of_all_sessions(
     assert begun == [str(home / each.name) for each in old[1:]]
     if not is_copied:
         with monkeypatch.context() as patch:  # whose rows are right has no folder looked for
-            patch.setattr(moved_folders.os.path, "isdir", pytest.fail)
+            patch.setattr(os.path, "isdir", pytest.fail)
             assert moved_folders.follow_moved(history, StudentHistory.of(moved).folder, "Zoë") == 0
 
 

@@ -13,8 +13,8 @@ from station.core.settings import Settings
 from station.drills.library import find_lesson
 from station.practice.headless.virtual_session import practise_adaptively
 from station.practice.history import student_history
-from station.practice.history.catching_up import catch_up
 from station.practice.history.student_history import StudentHistory
+from station.practice.own_data.catching_up import catch_up
 from station.practice.records.memory import LevelMemory, Memory, Remembered, remembered
 from station.practice.records.report.session_report import practice_document
 from station.practice.records.save_session import SessionFolder, SessionRecord, save
