@@ -9,7 +9,8 @@ from station.music.judgement import Label
 from station.practice.now.tempo_now import tempi_in_words
 from station.practice.records.report.stick_words import stick_lines
 from station.practice.session.session import SessionResult
-from station.render.report.result_facts import ResultFacts, ResultWords, result_facts
+from station.render.report.result_facts import Passages, PieceLean, ResultFacts, ResultWords, result_facts
+from station.scoring.analysis.fault_table import kind_of
 from station.scoring.matching.hit_windows import Level
 from station.scoring.matching.right import right_notes
 from station.scoring.report.assessment_document import Json
@@ -45,7 +46,44 @@ def session_facts(result: SessionResult, document: dict[str, Json]) -> ResultFac
         np.asarray(result.performance.hits["at_ns"][extra] / NS_PER_S),
         words,
     )
-    return replace(facts, on_time_ms=result.plan.level.windows.on_time_ms)
+    timing = document["timing"]
+    assert isinstance(timing, dict), "the report is ours"
+    return replace(
+        facts,
+        on_time_ms=result.plan.level.windows.on_time_ms,
+        mean_ci=_interval(timing["mean_ci_ms"]),
+        passages=_passages(document),
+    )
+
+
+def _passages(document: dict[str, Json]) -> Passages | None:
+    """Groove and fills where the fills lie elsewhere by as much as advice would name, None elsewhere."""
+    craft = document["craft"]
+    assert isinstance(craft, dict), "the report is ours"
+    found = craft["fills"]
+    if not isinstance(found, dict):
+        return None
+    apart, ci, groove, fills = found["apart_ms"], _interval(found["ci"]), found["groove"], found["fills"]
+    assert isinstance(groove, dict), "the report is ours"
+    assert isinstance(fills, dict), "the report is ours"
+    mean, fills_ms = _number(groove["mean"]), _number(fills["mean"])
+    if ci is None or mean is None or fills_ms is None or ci[0] * ci[1] <= 0:
+        return None
+    if abs(_number(apart) or 0.0) < kind_of("rush_fills").least:
+        return None
+    count = int(_number(groove["count"]) or 0)
+    return Passages(PieceLean("groove", count, count, mean, _number(groove["sd"]), _interval(groove["ci"])), fills_ms)
+
+
+def _interval(of: Json) -> tuple[float, float] | None:
+    if not isinstance(of, list):
+        return None
+    low, high = (_number(end) for end in of)
+    return None if low is None or high is None else (low, high)
+
+
+def _number(of: Json) -> float | None:
+    return float(of) if isinstance(of, float | int) else None
 
 
 def _lag_words(document: dict[str, Json]) -> tuple[str, ...]:

@@ -4,7 +4,8 @@ Asynchrony is played − written in ms, negative is early. Numbers without data 
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import floor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,13 +27,17 @@ MOST_TICKS = 16
 """Numbers that have room on the time axis; our choice."""
 
 
+Interval = tuple[float, float]
+
+
 @dataclass(frozen=True, eq=False)
 class ResultFacts:
     """A session's result.
 
     Rows of the arrays are the notes that were judged: `time_s`, `piece`, `label` of `Label`, `asynchrony_ms` NaN where
     nothing was played, `right` whether it was. `extra_s` when unwritten hits fell, `bar_s` where bars begin and the
-    last ends; so far from its note a stroke is on time as `on_time_ms` says.
+    last ends; so far from its note a stroke is on time as `on_time_ms` says. `mean_ci` is the 95 % interval of the mean
+    of all, None where it is not known; `passages` are there where the fills lie elsewhere than the groove.
     """
 
     words: "ResultWords"
@@ -44,6 +49,8 @@ class ResultFacts:
     extra_s: NDArray[np.float64]
     bar_s: NDArray[np.float64]
     on_time_ms: float = ON_TIME_MS
+    mean_ci: Interval | None = None
+    passages: "Passages | None" = None
 
     @property
     def known(self) -> NDArray[np.bool_]:
@@ -97,13 +104,25 @@ def result_facts(
 
 @dataclass(frozen=True, slots=True)
 class PieceLean:
-    """How one piece lies: its name, notes and hits, and of these the mean and spread in ms."""
+    """How one piece lies: its name, notes and hits, and of these the mean and spread in ms.
+
+    `mean_ci` is the 95 % interval of the mean, None where it is not known.
+    """
 
     name: str
     notes: int
     hits: int
     mean_ms: float | None
     sd_ms: float | None
+    mean_ci: Interval | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Passages:
+    """The groove, and the mean of the fills in ms, which lies surely elsewhere."""
+
+    groove: PieceLean
+    fills_ms: float
 
 
 def leans(facts: ResultFacts) -> Iterator[PieceLean]:
@@ -115,7 +134,7 @@ def leans(facts: ResultFacts) -> Iterator[PieceLean]:
 
 def whole_lean(facts: ResultFacts) -> PieceLean:
     """The lean of all notes together."""
-    return _lean("all", facts, np.ones(len(facts.piece), np.bool_))
+    return replace(_lean("all", facts, np.ones(len(facts.piece), np.bool_)), mean_ci=facts.mean_ci)
 
 
 def headline(facts: ResultFacts) -> str:
@@ -123,7 +142,15 @@ def headline(facts: ResultFacts) -> str:
     if not facts.count(Label.MATCH):
         return "nothing to judge"
     share = float(facts.right[facts.known].mean())
-    return f"{'' if share >= NEARLY_ALL else f'{100 * share:.0f} % right; '}{in_words(whole_lean(facts))}"
+    right = "" if share >= NEARLY_ALL else f"{floor(100 * share)} % right; "
+    return f"{right}{_time_in_words(facts)}"
+
+
+def _time_in_words(facts: ResultFacts) -> str:
+    """Bias and spread; of the groove where the fills lie elsewhere, so that nobody moves all for their sake."""
+    if facts.passages is None:
+        return in_words(whole_lean(facts))
+    return f"{in_words(facts.passages.groove)} in the groove, {_side(facts.passages.fills_ms)} in the fills"
 
 
 def ticks(facts: ResultFacts) -> tuple[str, list[tuple[int, str]]]:
@@ -147,12 +174,28 @@ def in_words(lean: PieceLean) -> str:
     """Bias and spread apart, as a teacher would say it: "steady but 14 ms late"."""
     if lean.mean_ms is None:
         return "nothing to judge"
-    on = abs(lean.mean_ms) <= ON_THE_BEAT_MS
-    where = "on the beat" if on else f"{abs(lean.mean_ms):.0f} ms {'late' if lean.mean_ms > 0 else 'early'}"
+    where = _where(lean.mean_ms, lean.mean_ci)
+    on = where == _ON
     if lean.sd_ms is None:
         return where
     if lean.sd_ms <= STEADY_MS:
-        return f"steady {'and' if on else 'but'} {where}"
+        return f"steady, {where}" if where == _UNSURE else f"steady {'and' if on else 'but'} {where}"
     if lean.sd_ms <= FAIRLY_STEADY_MS:
         return f"fairly steady, {where}"
     return f"uneven, {where}"
+
+
+_ON, _UNSURE = "on the beat", "neither early nor late for sure"
+
+
+def _where(mean_ms: float, ci: Interval | None) -> str:
+    """The bias as far as its interval bears it: on the beat is what lies there as a whole."""
+    if ci is None:
+        return _ON if abs(mean_ms) <= ON_THE_BEAT_MS else _side(mean_ms)
+    if max(-ci[0], ci[1]) <= ON_THE_BEAT_MS:
+        return _ON
+    return _side(mean_ms) if ci[0] * ci[1] > 0 else _UNSURE
+
+
+def _side(ms: float) -> str:
+    return f"{abs(ms):.0f} ms {'late' if ms > 0 else 'early'}"

@@ -45,7 +45,16 @@ class Spreads:
 
     def _ci(self, rows: NDArray[np.bool_]) -> Interval | None:
         one = np.zeros(int(rows.sum()), np.int64)
-        return scatter(self.off_ms[rows], one, self._slots[rows]).ci
+        return told_spread(scatter(self.off_ms[rows], one, self._slots[rows]).ci)
+
+
+def told_spread(ci: Interval | None) -> Interval | None:
+    """The interval of a spread where it tells something, None where its ends are too far apart to."""
+    return None if ci is None or ci[1] > MOST_APART * ci[0] else ci
+
+
+MOST_APART = 4.0
+"""An interval of a spread that spans more says that nobody knows it: as of the inner clock (docs/report.md, Craft)."""
 
 
 def stroke_timing(document: Document, spreads: Spreads) -> StrokeTiming:

@@ -14,6 +14,7 @@ from station.practice.records.report.what_next import advice_of
 from station.practice.session.cues.quiet_bars import gap_of, gap_words
 from station.render.report.page.session_page import Advised, ExamLine, ExamResult, PassRow, WordList
 from station.render.report.page.timing_words import signed
+from station.scenes.report.page_timing import told_spread
 from station.scoring.analysis.fault_table import kind_of
 from station.scoring.report.technique_text import technique_lines
 
@@ -32,15 +33,27 @@ def _details(advice: Document | None) -> Iterator[str]:
         return
     if advice["bars"]:
         yield f"Heard in {_bars_words(advice['bars'])}"
-    unit, effect, ci = _unit(str(advice["fault"])), advice["effect"], advice["ci"]
-    if effect is not None:
-        spec = ".1f" if abs(effect) < 10 else ".0f"
-        bears = "" if None in (ci or [None]) else f" (95 %: {signed(ci[0], spec)} to {signed(ci[1], spec)})"
-        yield f"Measured: {signed(effect, spec)} {unit}{bears}".strip()
+    if advice["effect"] is not None and (measured := _measured(advice)):
+        yield measured
     drill = advice["drill"]
     pieces = ", ".join(_part_word(str(piece)) for piece in drill["pieces"])
     bars = "all bars" if drill["bars"] is None else _span(drill["bars"])
     yield f"Drill: {bars} at {drill['tempo_bpm']:.0f} bpm{f', {pieces} alone' if pieces else ''}"
+
+
+def _measured(advice: Document) -> str:
+    """The effect with its interval, with a sign where it has a side; empty of what is counted: its sentence says it."""
+    fault, effect = str(advice["fault"]), float(advice["effect"])
+    unit, spec = _unit(fault), ".1f" if abs(effect) < 10 else ".0f"
+    if unit == "times":
+        return ""
+    is_spread = fault.startswith("unsteady")
+    words = format if unit == "%" or is_spread else signed
+    found = advice["ci"]
+    ci = None if found is None or None in found else (float(found[0]), float(found[1]))
+    ci = told_spread(ci) if is_spread else ci
+    bears = "" if ci is None else f" (95 %: {words(ci[0], spec)} to {words(ci[1], spec)})"
+    return f"Measured: {words(effect, spec)} {unit}{bears}".strip()
 
 
 def _unit(fault: str) -> str:

@@ -16,6 +16,7 @@ from station.music import passages
 from station.scoring.analysis.fault_table import kind_of
 from station.scoring.analysis.finding import CHANCE, MIN_SLOTS, Z_95, Finding, worst_bars
 from station.scoring.analysis.summary import Summary
+from station.scoring.analysis.technique.estimates import scatter
 from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
 
 Floats = NDArray[np.float64]
@@ -87,11 +88,20 @@ def _of_whole(summary: Summary, strokes: Flags) -> Iterator[Finding]:
 
 
 def _finding(summary: Summary, fault: str, sd: float, strokes: Flags, subject: str = "") -> Finding:
-    off, count = asynchrony_ms(summary.alignment)[strokes], int(strokes.sum())
-    half = (Z_95 if count > 60 else t_quantile_95(count - 1.0)) * sd / (2 * count) ** 0.5
+    off = asynchrony_ms(summary.alignment)[strokes]
     bars = tuple(worst_bars(summary, np.abs(off - np.median(off)), strokes))
     severity = sd / summary.view.faults.least(fault)
-    return Finding(fault, subject, sd, (sd - half, sd + half), kind_of(fault).unit, severity, bars)
+    return Finding(fault, subject, sd, _interval(summary, sd, off, strokes), kind_of(fault).unit, severity, bars)
+
+
+def _interval(summary: Summary, sd: float, off: Floats, strokes: Flags) -> tuple[float, float]:
+    """That of the tables' spread about `sd`, by its ratios; of few moments, what independent strokes would have."""
+    count = int(strokes.sum())
+    found = scatter(off, np.zeros(count, np.int64), summary.score.notes["tick"][strokes].astype(np.int64))
+    if found.ci is not None and found.sd:
+        return sd * found.ci[0] / found.sd, sd * found.ci[1] / found.sd
+    half = (Z_95 if count > 60 else t_quantile_95(count - 1.0)) * sd / (2 * count) ** 0.5
+    return sd - half, sd + half
 
 
 def _sd(rest: Floats) -> float:

@@ -2,9 +2,13 @@
 
 from collections.abc import Iterator, Sequence
 
+import numpy as np
+
 from station.core.labels import piece_name
 from station.core.pieces import Dynamic
 from station.scoring.analysis.summary import Summary
+from station.scoring.analysis.technique.estimates import scatter
+from station.scoring.analysis.timing_spread import asynchrony_ms, timed_notes
 from station.scoring.report.advice import Advice
 
 FEWEST = 12
@@ -39,14 +43,32 @@ def _sentences(summary: Summary, named: frozenset[str]) -> Iterator[str]:
         yield f"You played {counts.matched} of {counts.notes} notes."
     if (marks := _marks(summary)) is not None:
         yield marks
-    known = [
-        (group.timing.sd_ms, piece_name(piece))
-        for piece, group in summary.by_piece.items()
-        if group.timing.sd_ms is not None and group.timing.count >= FEWEST
-    ]
-    if len(known) > 1:
-        sd_ms, piece = min(known)
-        yield f"Your {piece} is the steadiest: its strokes spread by {sd_ms:.0f} ms."
+    if (steadiest := _steadiest(summary)) is not None:
+        yield steadiest
+
+
+def _steadiest(summary: Summary) -> str | None:
+    """The piece that is steady, on time, and surely steadier than every other; None where there is none.
+
+    Surely: the 95 % intervals of the spreads part. A piece whose strokes lie together but away from their time is none.
+    """
+    off_ms, ticks = asynchrony_ms(summary.alignment), summary.score.notes["tick"].astype(np.int64)
+    timed = timed_notes(summary.score, summary.alignment)
+    found = []
+    for piece, group in summary.by_piece.items():
+        if group.timing.count >= FEWEST:
+            here = timed & (summary.score.notes["piece"] == piece)
+            found.append((scatter(off_ms[here], np.zeros(int(here.sum()), np.int64), ticks[here]), piece, group))
+    if len(found) < 2 or any(spread.ci is None for spread, _, _ in found):
+        return None
+    (best, piece, group), *others = sorted(found, key=lambda one: one[0].sd or 0.0)
+    assert best.sd is not None
+    assert best.ci is not None
+    is_on_time = abs(group.timing.mean_ms or 0.0) <= summary.view.windows.on_time_ms
+    is_surely = all(best.ci[1] < other.ci[0] for other, _, _ in others if other.ci is not None)
+    if not (is_on_time and is_surely and best.sd < STEADY_MS):
+        return None
+    return f"Your {piece_name(piece)} is the steadiest: its strokes spread by {best.sd:.0f} ms."
 
 
 def _marks(summary: Summary) -> str | None:

@@ -1,5 +1,7 @@
 """Leans by hand, and what they are called."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,6 +10,7 @@ from station.music.judgement import Label
 from station.render.report.report_layout import ReportPage, page_for
 from station.render.report.report_picture import report_shapes, report_sheet
 from station.render.report.result_facts import (
+    Passages,
     PieceLean,
     ResultFacts,
     ResultWords,
@@ -71,6 +74,30 @@ def test_what_was_not_played_has_no_asynchrony() -> None:
 )
 def test_words(mean_ms: float | None, sd_ms: float | None, said: str) -> None:
     assert in_words(PieceLean("snare", 10, 0 if mean_ms is None else 9, mean_ms, sd_ms)) == said
+
+
+@pytest.mark.parametrize(
+    ("mean_ms", "ci", "said"),
+    [
+        (-4.7, (-123.0, 114.0), "uneven, neither early nor late for sure"),
+        (-4.7, (-9.0, -0.4), "uneven, on the beat"),
+        (-9.0, (-14.0, -4.0), "uneven, 9 ms early"),
+        (25.0, (-6.0, 56.0), "uneven, neither early nor late for sure"),
+    ],
+)
+def test_on_the_beat_is_what_lies_there_with_its_interval(mean_ms: float, ci: tuple[float, float], said: str) -> None:
+    assert in_words(PieceLean("all", 288, 125, mean_ms, 47.0, ci)) == said
+
+
+def test_fills_that_lie_elsewhere_are_named_apart_from_the_groove() -> None:
+    groove = PieceLean("groove", 96, 96, -2.0, 17.0, (-6.0, 2.0))
+    made = replace(played(0), passages=Passages(groove, -44.4))
+    assert headline(made) == "steady and on the beat in the groove, 44 ms early in the fills"
+
+
+def test_a_share_is_never_rounded_up_to_nearly_all() -> None:
+    """107 of 120 are 89.2 %."""
+    assert headline(played(13, passes=10)).startswith("89 % right; ")
 
 
 def test_no_hits_at_all() -> None:

@@ -256,3 +256,23 @@ def test_advice_has_its_bars_effect_and_drill_in_words(tmp_path: Path) -> None:
     assert measured == f"Measured: +{advice['effect']:.0f} ms (95 %: +{low:.0f} to +{high:.0f})"
     assert drill.startswith("Drill: ")
     assert drill.endswith(f"at {advice['drill']['tempo_bpm']:.0f} bpm, kick alone")
+
+
+def test_what_is_measured_has_a_sign_where_it_has_a_side_and_counts_are_not_measured(
+    folders: dict[str, Path], tmp_path: Path
+) -> None:
+    told, report = tmp_path / "told", json.loads((folders["groove"] / "report.json").read_text())
+    shutil.copytree(folders["groove"], told)
+    drill: dict[str, object] = {"bars": None, "tempo_bpm": 68.0, "pieces": []}
+    rows = [("left_out_bars", 2.0, [2.0, 2.0]), ("unsteady", 47.1, [41.2, 53.0]), ("missed", 12.0, [8.0, 16.4])]
+    report["advice"] = [
+        {"fault": fault, "text": fault, "hint": None, "bars": [], "effect": effect, "ci": ci, "drill": drill}
+        for fault, effect, ci in rows
+    ]
+    report["session"]["next"] = [fault for fault, _, _ in rows]
+    (told / "report.json").write_text(json.dumps(report))
+    assert [step.details[:-1] for step in page_of(told).next_steps] == [
+        (),
+        ("Measured: 47 ms (95 %: 41 to 53)",),
+        ("Measured: 12 % (95 %: 8 to 16)",),
+    ]

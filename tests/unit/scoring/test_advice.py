@@ -305,6 +305,18 @@ def test_praise_is_true() -> None:
     assert praise(human_take(BEAT, 1, Added(left_out=np.arange(len(BEAT)) > 5)), ()) is None
 
 
+def test_the_steadiest_piece_is_named_where_it_is_surely_so_and_on_time() -> None:
+    """The hat's strokes lie five times as close as those of kick and snare; not so where all are alike, or it leans."""
+    hat, left_out = of(BEAT, Piece.HIHAT), np.arange(len(BEAT)) % 12 == 11
+    apart = np.where(hat, 1.2, 6.0)
+    said = praise(human_take(BEAT, 1, Added(scatter=apart, left_out=left_out)), ())
+    assert said is not None
+    assert said.startswith("Your hi-hat is the steadiest: its strokes spread by ")
+    assert praise(human_take(BEAT, 1, Added(scatter=3.0, left_out=left_out)), ()) is None
+    late = human_take(BEAT, 1, Added(scatter=apart, shift_ms=40.0 * hat, left_out=left_out))
+    assert praise(late, ()) is None
+
+
 def test_a_remark_comes_with_its_drill() -> None:
     """85 % of a little less than 110 bpm, in whole beats as it is said; the kick alone, over the named bars."""
     said = advise(human_take(BEAT, 2, Added(shift_ms=40.0 * of(BEAT, Piece.KICK))))[0]

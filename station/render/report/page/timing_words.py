@@ -28,8 +28,11 @@ def spread_words(timing: TimingFigures) -> str:
     if timing.sd_ms is None:
         return ""
     ci = timing.sd_ci
-    bears = f" (95 %: {ci[0]:.1f} to {ci[1]:.1f} ms)" if ci is not None else ""
+    bears = f" (95 %: {ci[0]:.1f} to {ci[1]:.1f} ms)" if ci is not None else f" ({_UNTOLD})"
     return f"spread (SD) {timing.sd_ms:.1f} ms{bears}"
+
+
+_UNTOLD = "its interval cannot be told: too few strokes, or they hang together"
 
 
 def mean_figures(timing: TimingFigures) -> str:
