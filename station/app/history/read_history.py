@@ -10,7 +10,7 @@ from station.core.settings import Settings
 from station.practice.history.calendar_days import WEEK, monday_of, months_of, practised_days, weeks_of
 from station.practice.history.overview import week_table
 from station.practice.history.streaks import streak_of
-from station.practice.history.trends import LessonTrends, lessons_practised, trends_of
+from station.practice.history.trends import LessonTrends, lessons_practised, trends_of, trends_to_look_at
 from station.store.history import History
 from station.store.opening import history_of
 from station.store.rows import SessionRow, TimedFigure
@@ -60,7 +60,7 @@ def _read(history: History, student: str, today: date) -> HistoryPages:
 def _trends(rows: Sequence[SessionRow], asked: Asked) -> LessonTrends | None:
     lessons = lessons_practised(rows)
     lesson = asked.lesson if asked.lesson in lessons else next(iter(lessons), None)
-    return None if lesson is None else trends_of(lesson, lessons[lesson])
+    return None if lesson is None else trends_of(lesson, lessons[lesson], trends_to_look_at(lessons))
 
 
 def _figures(history: History, student: str, today: date) -> tuple[TimedFigure, ...]:

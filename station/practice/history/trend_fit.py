@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.student_t import t_quantile_95
+from station.core.student_t import t_quantile, t_quantile_95
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -72,6 +72,10 @@ class Line:
     def at(self, day: Floats) -> Floats:
         """The line at `day` (n,)."""
         return self.height + self.slope * (day - self.centre)
+
+    def is_surely_sloped(self, false: float) -> bool:
+        """Whether of level lines a share of `false` at most, in either direction, look as steep as this one."""
+        return abs(self.slope) > t_quantile(self.freedom, 1.0 - false) * self.slope_error
 
     def half_width(self, day: Floats) -> Floats:
         """Half the 95 % interval of the line at `day` (n,)."""

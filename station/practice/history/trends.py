@@ -3,9 +3,12 @@
 Only like is compared with like: one lesson, one device, one level, one tempo band (`trend_fit`). What changed is given
 over the whole time that is looked at, from the first day of practice to the last. A tempo is chosen, by the student or
 by the ladder: its own trend says how fast the lesson is played, not how well.
+
+An interval is its trend's own. Who looks at many trends finds some in which it lies on one side by chance: what is said
+without a "perhaps" is so sure that of all that are looked at one in twenty times any would be (Bonferroni).
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date, timedelta
 from enum import StrEnum
@@ -21,6 +24,10 @@ BAND = 1.10
 """Tempi within such a ratio are one band (our choice: two rungs of the ladder, TEACHING: 5 % each)."""
 LEAST_DAYS = 5
 """Fewer days never bear an interval (`trend_fit.LEAST_FREEDOM` beyond a height and a slope)."""
+
+
+FALSE_ANY = 0.05
+"""Where nothing changed in any lesson so often something is said of any (our choice, as of any interval here)."""
 
 
 class Measure(StrEnum):
@@ -78,7 +85,8 @@ class Trend:
 
     `points` are its sessions, in order. `line` is what was fitted (None: it cannot be), `change` from the first day to
     the last with its 95 % interval. `strata` is of how many devices, levels and tempo bands like was compared with
-    like; `near` the tempo at which the line stands (None where the tempo is measured).
+    like; `near` the tempo at which the line stands (None where the tempo is measured). The verdict is what the interval
+    says by itself; it `is_sure` where it holds among all trends that are `looked_at`.
     """
 
     measure: Measure
@@ -91,6 +99,8 @@ class Trend:
     days: int = 0
     strata: int = 0
     near: float | None = None
+    looked_at: int = 1
+    is_sure: bool = True
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,8 +124,14 @@ def lessons_practised(sessions: Iterable[SessionRow]) -> dict[str, list[SessionR
     return dict(reversed(found.items()))
 
 
-def trends_of(lesson: str, sessions: Sequence[SessionRow]) -> LessonTrends:
-    """The trends of a lesson from its `sessions`, at least one, in any order."""
+def trends_to_look_at(lessons: Mapping[str, Sequence[SessionRow]]) -> int:
+    """How many trends there are to look at: the measures of each lesson with days enough to bear an answer."""
+    days = ({row.started.date() for row in rows} for rows in lessons.values())
+    return len(Measure) * max(sum(len(each) >= LEAST_DAYS for each in days), 1)
+
+
+def trends_of(lesson: str, sessions: Sequence[SessionRow], looked_at: int = len(Measure)) -> LessonTrends:
+    """The trends of a lesson from its `sessions`, at least one, in any order, of all that are `looked_at`."""
     rows = sorted(sessions, key=lambda row: row.started)
     last = rows[-1]
     return LessonTrends(
@@ -124,7 +140,7 @@ def trends_of(lesson: str, sessions: Sequence[SessionRow]) -> LessonTrends:
         len(rows),
         sum(row.played_s for row in rows),
         last.started.date(),
-        tuple(trend_of(measure, rows) for measure in Measure),
+        tuple(trend_of(measure, rows, looked_at) for measure in Measure),
     )
 
 
@@ -139,8 +155,8 @@ def value_of(measure: Measure, row: SessionRow) -> float | None:
     return row.sd_ms if measure is Measure.SPREAD else row.mean_ms
 
 
-def trend_of(measure: Measure, sessions: Sequence[SessionRow]) -> Trend:
-    """The trend of a measure over `sessions` of one lesson, in the order in which they began."""
+def trend_of(measure: Measure, sessions: Sequence[SessionRow], looked_at: int = 1) -> Trend:
+    """The trend of a measure over `sessions` of one lesson, in the order in which they began, one of `looked_at`."""
     with_value = [(row, value_of(measure, row)) for row in sessions if row.beats_a_minute]
     rows = [row for row, value in with_value if value is not None]
     values = np.array([value for _, value in with_value if value is not None], np.float64)
@@ -162,6 +178,7 @@ def trend_of(measure: Measure, sessions: Sequence[SessionRow]) -> Trend:
         ),
         days=len(np.unique(day)),
         strata=len(np.unique(stratum)),
+        looked_at=looked_at,
         near=None if is_tempo else float(np.exp(np.mean(log_tempo[stratum == np.bincount(stratum).argmax()]))),
     )
     return _told(found, fit_line(seen))
@@ -175,16 +192,20 @@ def _strata(rows: Sequence[SessionRow], log_tempo: np.ndarray[tuple[int], np.dty
     return np.array([numbers.setdefault(each, len(numbers)) for each in alike], np.int64)
 
 
+_OF_SESSIONS = ("first", "last", "points", "days", "strata", "near", "looked_at")
+
+
 def _told(found: Trend, line: Line | None) -> Trend:
     """The trend with what the line says of it."""
-    values = {name: getattr(found, name) for name in ("first", "last", "points", "days", "strata", "near")}
+    values = {name: getattr(found, name) for name in _OF_SESSIONS}
     if line is None:
         verdict = Verdict.TOO_FEW if found.days < LEAST_DAYS or found.strata == 1 else Verdict.TANGLED
         return Trend(found.measure, verdict, **values)
     span = float(line.days[-1] - line.days[0])
     change, half = line.slope * span, line.half * line.slope_error * span
     told = change, change - half, change + half
-    return Trend(found.measure, _verdict(found.measure, line, told), **values, line=line, change=told)
+    is_sure = line.is_surely_sloped(FALSE_ANY / found.looked_at)
+    return Trend(found.measure, _verdict(found.measure, line, told), **values, line=line, change=told, is_sure=is_sure)
 
 
 def _verdict(measure: Measure, line: Line, change: tuple[float, float, float]) -> Verdict:
@@ -218,7 +239,13 @@ def trend_words(trend: Trend) -> str:
         return f"{words.label}: cannot be told {of} ({within})"
     if trend.verdict is Verdict.STEADY:
         return f"{words.label}: as it was {of} ({within})"
-    return f"{words.label}: {_direction(trend.measure, trend.verdict, change)} {of} ({within})"
+    direction = _direction(trend.measure, trend.verdict, change)
+    if not trend.is_sure:
+        return (
+            f"{words.label}: perhaps {direction} {of} ({within}); you look at {trend.looked_at} trends,"
+            " and chance makes one in twenty look so"
+        )
+    return f"{words.label}: {direction} {of} ({within})"
 
 
 def _signed(value: float) -> str:

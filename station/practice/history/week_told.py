@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 
 from station.core.disk.utf8 import one_line
-from station.core.student_t import t_quantile
 from station.practice.history.calendar_days import WEEK
 from station.practice.history.trend_fit import Line
 from station.practice.history.trends import WORDS, Measure, Trend, Verdict, lessons_practised, trend_of
@@ -99,9 +98,9 @@ def _first_better(trends: Iterable[tuple[Trend, Line]], looked_at: int) -> tuple
 def _is_better(trend: Trend, line: Line, looked_at: int) -> bool:
     rises = trend.verdict is Verdict.CHANGED and line.slope > 0
     span = float(line.days[-1] - line.days[0])
-    sure = t_quantile(line.freedom, 1 - 2 * FALSE_A_WEEK / looked_at) * line.slope_error
+    is_sure = line.is_surely_sloped(2 * FALSE_A_WEEK / looked_at)  # of steps back nothing is told
     is_large = abs(line.slope) * span >= WORDS[trend.measure].small
-    return (rises or trend.verdict is Verdict.BETTER) and is_large and abs(line.slope) > sure
+    return (rises or trend.verdict is Verdict.BETTER) and is_large and is_sure
 
 
 def _sentence(title: str, trend: Trend, line: Line) -> str:

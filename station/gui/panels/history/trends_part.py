@@ -72,7 +72,7 @@ def _trend(trend: Trend) -> None:
     words = WORDS[trend.measure]
     near = "" if trend.near is None or trend.line is None else f", as at {trend.near:.0f} bpm"
     theme.part(f"{words.label} in {words.unit}{near}")
-    is_news = trend.verdict in (Verdict.BETTER, Verdict.WORSE, Verdict.CHANGED)
+    is_news = trend.is_sure and trend.verdict in (Verdict.BETTER, Verdict.WORSE, Verdict.CHANGED)
     imgui.text_wrapped(trend_words(trend)) if is_news else theme.soft(trend_words(trend))
     if trend.points and implot.begin_plot(f"##{trend.measure}", imgui.ImVec2(-1, theme.points(_HIGH)), plots.SEEN):
         _plot(trend)

@@ -5,7 +5,15 @@ from datetime import timedelta
 import numpy as np
 import pytest
 
-from station.practice.history.trends import Measure, Verdict, lessons_practised, trend_of, trend_words, trends_of
+from station.practice.history.trends import (
+    Measure,
+    Verdict,
+    lessons_practised,
+    trend_of,
+    trend_words,
+    trends_of,
+    trends_to_look_at,
+)
 from station.store.rows import SessionKind
 from tests.unit.practice.history.students_told import BEGIN, Story, climbing, row, slowing, told, wandering
 
@@ -45,6 +53,33 @@ def test_real_progress_is_seen() -> None:
     random = np.random.default_rng(3)
     verdicts = [trend_of(Measure.SCORE, told(Story(40, a_day=0.25), random)[0]).verdict for _ in range(60)]
     assert verdicts.count(Verdict.BETTER) >= 55  # 20 points in 12 weeks, with a day's SD of 5
+
+
+def test_who_looks_at_many_lessons_is_told_of_no_progress_by_chance() -> None:
+    random, pages, lessons = np.random.default_rng(8), 60, 12
+    surely = by_itself = 0
+    for _ in range(pages):
+        trends = [trend_of(Measure.SCORE, told(Story(12), random)[0], lessons) for _ in range(lessons)]
+        claims = [each for each in trends if each.verdict in (Verdict.BETTER, Verdict.WORSE)]
+        by_itself += bool(claims)
+        surely += any(each.is_sure for each in claims)
+        for each in claims:
+            assert ("perhaps" in trend_words(each)) is not each.is_sure
+            assert ("you look at 12 trends" in trend_words(each)) is not each.is_sure
+    assert by_itself / pages >= 0.25  # 46 of 100, were intervals exact and lessons apart
+    assert surely / pages <= 0.10
+
+
+def test_great_progress_is_sure_among_all_lessons() -> None:
+    random = np.random.default_rng(3)
+    trends = [trend_of(Measure.SCORE, told(Story(40, a_day=0.25), random)[0], 120) for _ in range(30)]
+    assert sum(each.is_sure and each.verdict is Verdict.BETTER for each in trends) >= 24
+
+
+def test_all_lessons_with_days_enough_are_looked_at() -> None:
+    rows = [row(75.0, 80.0, BEGIN + timedelta(days=n)) for n in range(5)]
+    assert trends_to_look_at({"one": rows, "two": rows, "few days": rows[1:] * 3}) == 8
+    assert trends_to_look_at({"few days": rows[1:]}) == 4
 
 
 def test_plain_line_through_slower_and_slower_sessions_would_claim_progress() -> None:
