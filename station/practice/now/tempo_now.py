@@ -99,9 +99,11 @@ def replay_tempo(score: Score, bar: int, beat_ticks: int, played: float | None =
 
 
 def tempi_in_words(plan: Plan, score: Score) -> str:
-    """At which tempi the passes of `score` began, from the first to the last: "76 bpm", "70 to 76 bpm"."""
+    """From which tempo to which the passes of `score` went: "76 bpm", "70 to 76 bpm"."""
     if plan.rounds is None:
-        return f"{round(plan.beats_a_minute, 3):g} bpm"
+        came = [step.tempo_bpm * PPQ / plan.lesson.beat_ticks for step in plan.steps if step.bar < score.bar_count]
+        rose = f" to {round(came[-1], 3):g}" if len(came) > 1 else ""
+        return f"{round(plan.beats_a_minute, 3):g}{rose} bpm"
     starts = [bar for bar in plan.pass_starts if bar < score.bar_count]
     first, *_, last = (
         round(tempo_at(score.tempo_map, score.tempo_map.bar_start(bar), plan.lesson.beat_ticks), 1)

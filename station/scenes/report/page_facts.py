@@ -159,11 +159,11 @@ def _tempo(result: SessionResult, document: Document) -> TempoLine:
     told, plan, score = table(document["tempo"]), result.plan, result.score
     beat = PPQ / plan.lesson.beat_ticks
     ticks = [change.tick for change in score.tempo_map.tempos if change.tick < score.end_tick]
-    drift = told["drift_ci"]
+    drift, bars = told["drift_ci"], sorted(told["bars"], key=lambda bar: float(bar["at_s"]))
     median = number(told["median_bpm"])
     return TempoLine(
-        at_s=np.array([float(bar["at_s"]) for bar in told["bars"]]),
-        beats_a_minute=np.array([float(bar["tempo_bpm"]) * beat for bar in told["bars"]]),
+        at_s=np.array([float(bar["at_s"]) for bar in bars]),
+        beats_a_minute=np.array([float(bar["tempo_bpm"]) * beat for bar in bars]),
         asked_s=np.asarray(score.tempo_map.seconds_at(ticks), np.float64),
         asked=np.array([tempo_at(score.tempo_map, tick, plan.lesson.beat_ticks) for tick in ticks]),
         end_s=score.length_ns / NS_PER_S,

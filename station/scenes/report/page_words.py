@@ -9,6 +9,7 @@ from station.practice.history.exam_words import shown_total
 from station.practice.records.report.next_steps import steps_in
 from station.practice.records.report.phase_words import phase_lines
 from station.practice.records.report.stick_words import sticking_lines, sticks_text
+from station.practice.records.report.tempo_report import clean_words, row_words
 from station.practice.records.report.unheard_words import unheard_text
 from station.practice.records.report.what_next import advice_of
 from station.practice.session.cues.quiet_bars import gap_of, gap_words
@@ -93,7 +94,7 @@ def choices(document: Document) -> tuple[str, ...]:
 
 
 def remarks(document: Document) -> tuple[str, ...]:
-    """What changes how the figures are read: a lag that was found, bars without a click, pauses."""
+    """What changes how the figures are read: a lag that was found, bars without a click, pauses, a tempo that rose."""
     session, lag = document["session"], document.get("lag")
     found = [str(lag["text"])] if isinstance(lag, dict) and lag["text"] else []
     if session["gap"] is not None:
@@ -101,6 +102,8 @@ def remarks(document: Document) -> tuple[str, ...]:
     if pauses := session["pauses"]:
         often = {1: "once", 2: "twice"}.get(len(pauses), f"{len(pauses)} times")
         found.append(f"Paused {often}; what was played again after a pause counts as it was played last.")
+    if tempi := session["tempi"]:
+        found.append(clean_words(tempi))
     return tuple(found)
 
 
@@ -137,9 +140,7 @@ def _pass(number: int, one: Document) -> PassRow:
 
 
 def _tempo(row: Document) -> PassRow:
-    spread = "" if row["sd_ms"] is None else f"spread {row['sd_ms']:.0f} ms"
-    how = ", ".join(filter(None, (spread, "clean" if row["clean"] else "")))
-    right = f"{row['right']} of {row['notes']} right"
+    right, how = row_words(row)
     return PassRow("", f"{row['beats_a_minute']:g} bpm", _span(row["bars"]), right, how)
 
 

@@ -9,6 +9,7 @@ import pytest
 
 from station.cli.command_line import main
 from station.core.errors import BadInput
+from station.core.pieces import Piece
 from station.core.settings import Settings
 from station.core.units import NS_PER_S
 from station.devices.capture.capture import read_capture
@@ -16,8 +17,10 @@ from station.drills.library import find_lesson
 from station.engine.messages import Bus
 from station.music.performance import Performance
 from station.practice.headless.virtual_session import practise_virtually
+from station.practice.now.tempo_now import tempi_in_words
 from station.practice.records.rejudge import judge_again
 from station.practice.records.report.session_report import practice_document, report_text
+from station.practice.records.report.tempo_report import reached
 from station.practice.session.plan import Plan, PlanOptions, plan_practice
 from station.practice.session.rising_tempo import Rise, rise_of
 from station.scoring.align import align
@@ -133,6 +136,41 @@ def test_clean_up_to_the_tempo_before_the_first_that_was_not() -> None:
     text = report_text(made)
     assert "at 80 bpm and rising to 100 bpm" in text
     assert "Clean up to 90 bpm." in text
+
+
+def test_the_next_tempo_lies_above_the_last_that_was_clean() -> None:
+    """rock-1 goes for 110: who was clean at 80, 90 and 100 is asked for more than 100, not for more than 80."""
+    (step,) = (one for one in document(plan("10/4:100"))["session"]["steps"] if one["kind"] == "tempo")
+    assert 100 < step["tempo_bpm"] <= 110
+
+
+def test_practice_goes_on_from_the_fastest_tempo_that_was_clean() -> None:
+    """Four strokes nobody asked for at 90 bpm: 80 and 100 were clean, so that 100 goes up, not 80."""
+    laid = plan("10/4:110", loops=6)
+    result = practise_virtually(laid, parse_spec("seed=2,sd_ms=6")).result
+    hits = result.performance.hits
+    within = [laid.score.tempo_map.bar_start(bar) + 60 for bar in (4, 5, 6, 7)]
+    more = np.repeat(hits[hits["piece"] == Piece.SNARE][:1], 4)
+    more["at_ns"] = laid.score.tempo_map.ns_at(within)
+    both = np.concatenate([hits, more])
+    played = Performance.from_array(both[np.argsort(both["at_ns"])], result.performance.chokes)
+    again = replace(result, performance=played, alignment=align(result.score, played, clocked=True))
+    made: dict[str, Any] = practice_document(again, Settings())
+    session = made["session"]
+    assert [(row["clean"], row["extras"]) for row in session["tempi"]] == [(True, 0), (False, 4), (True, 0)]
+    assert session["clean_up_to"] == 80
+    text = report_text(made)
+    assert "Clean up to 80 bpm, and again at 100 bpm." in text
+    assert "4 extra" in text
+    assert "not clean: " in text
+    assert reached(laid, session["tempi"]).tempo_bpm == 100
+    assert tempi_in_words(laid, laid.score) == "80 to 100 bpm"
+
+
+def test_there_is_no_drift_where_the_tempo_was_meant_to_rise() -> None:
+    drift = ("drift_pct_per_minute", "drift_ci")
+    assert [document(plan())["tempo"][key] for key in drift] == [None, None]
+    assert None not in [document(plan(None))["tempo"][key] for key in drift]
 
 
 def test_a_steady_tempo_has_no_rows() -> None:

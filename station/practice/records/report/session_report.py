@@ -27,7 +27,7 @@ from station.practice.records.report.mastery_report import passes_text
 from station.practice.records.report.next_steps import next_steps, steps_document
 from station.practice.records.report.phase_words import phase_document, phase_lines
 from station.practice.records.report.stick_words import sticking_lines, sticks_document, sticks_text
-from station.practice.records.report.tempo_report import clean_up_to, tempo_rows, tempo_text
+from station.practice.records.report.tempo_report import clean_up_to, reached, tempo_rows, tempo_text
 from station.practice.records.report.unheard_words import unheard_rows, unheard_text
 from station.practice.records.report.what_next import advice_of, measured_session, missed_document, table_in, what_next
 from station.practice.session.cues.quiet_bars import gap_of, gap_words
@@ -69,7 +69,10 @@ def practice_document(
     plan = result.plan
     document = assessment(summarise(result.score, result.performance, result.alignment, session_view(result, settings)))
     measured, tempi = measured_session(result, document["score"]), tempo_rows(result)
-    steps = next_steps(document, plan, measured, following, result.complete)
+    if tempi:  # a drift is nobody's where the tempo was meant to rise
+        document["tempo"] = {**table_in(document, "tempo"), "drift_pct_per_minute": None, "drift_ci": None}
+    onwards = reached(plan, tempi)
+    steps = next_steps(document, onwards, measured, following, result.complete)
     given = assigned_by(settings.sessions_dir, settings.student, plan.lesson.name)
     document["session"] = {
         "lesson": plan.lesson.name,
@@ -96,7 +99,7 @@ def practice_document(
         ],
         "unheard": unheard_rows(result),
         "goals_missed": missed_document(plan, measured),
-        "next": [*what_next(document, plan, measured, steps[0])],
+        "next": [*what_next(document, onwards, measured, steps[0])],
         "steps": steps_document(steps),
         "assignments": [taken.id for taken in given],
         "teacher": [words for taken in given for name, words in taken.said if name == plan.lesson.name],
@@ -215,9 +218,9 @@ def _last_tempo(tempi: Json) -> str:
 
 def _tempi(session: dict[str, Json]) -> str:
     """Each tempo of a session whose tempo rose, nothing of another."""
-    tempi, clean = session["tempi"], session["clean_up_to"]
+    tempi = session["tempi"]
     assert isinstance(tempi, list), "the report is ours"
-    return tempo_text(tempi, float(clean) if isinstance(clean, float | int) else None)
+    return tempo_text(tempi)
 
 
 def _gap_text(session: dict[str, Json]) -> str:

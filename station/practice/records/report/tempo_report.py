@@ -3,15 +3,19 @@
 A tempo is clean as a pass is (`drills.mastery.verdict`), at the level at which the session is judged.
 """
 
+from collections.abc import Mapping
+from dataclasses import replace
+
 import numpy as np
 
 from station.core.units import PPQ
 from station.drills.mastery.pass_measures.asked_parts import Part
 from station.drills.mastery.pass_measures.pass_facts import PassResult, PassView, measure_pass, usual_interval_ms
 from station.drills.mastery.rules import Rules
-from station.drills.mastery.verdict import judge
+from station.drills.mastery.verdict import Verdict, judge
 from station.engine.engine import KEYBOARD
 from station.music.judgement import Label
+from station.practice.session.plan import Plan
 from station.practice.session.session import SessionResult
 from station.scoring.matching.unheard import known_part
 from station.scoring.report.assessment_document import Json
@@ -22,18 +26,23 @@ def tempo_rows(result: SessionResult) -> list[Json]:
     plan = result.plan
     rules = Rules().for_lesson(plan.lesson, plan.level)
     return [
-        {
-            "beats_a_minute": round(tempo_bpm * PPQ / plan.lesson.beat_ticks, 3),
-            "bars": [bars[0] + 1, bars[1] + 1],
-            "notes": measured.notes,
-            "right": measured.right,
-            "wrong_pads": measured.wrong_pads,
-            "extras": measured.extras,
-            "sd_ms": None if measured.sd_ms is None else round(measured.sd_ms, 1),
-            "clean": judge(measured, rules).is_clean,
-        }
+        _row(tempo_bpm * PPQ / plan.lesson.beat_ticks, bars, measured, judge(measured, rules))
         for tempo_bpm, bars, measured in _measured(result)
     ]
+
+
+def _row(beats_a_minute: float, bars: tuple[int, int], measured: PassResult, verdict: Verdict) -> Json:
+    return {
+        "beats_a_minute": round(beats_a_minute, 3),
+        "bars": [bars[0] + 1, bars[1] + 1],
+        "notes": measured.notes,
+        "right": measured.right,
+        "wrong_pads": measured.wrong_pads,
+        "extras": measured.extras,
+        "sd_ms": None if measured.sd_ms is None else round(measured.sd_ms, 1),
+        "clean": verdict.is_clean,
+        "why": verdict.words,
+    }
 
 
 def clean_up_to(rows: list[Json]) -> float | None:
@@ -47,23 +56,54 @@ def clean_up_to(rows: list[Json]) -> float | None:
     return fastest
 
 
-def tempo_text(rows: list[Json], clean: float | None) -> str:
+def fastest_clean(rows: list[Json]) -> float | None:
+    """The fastest tempo that was clean, whatever was at slower ones; None where none was."""
+    clean = [float(str(row["beats_a_minute"])) for row in rows if isinstance(row, dict) and row["clean"]]
+    return max(clean, default=None)
+
+
+def reached(plan: Plan, rows: list[Json]) -> Plan:
+    """The plan at the fastest tempo that was clean, from where practice goes on; as it is where none was."""
+    fastest = fastest_clean(rows)
+    return plan if fastest is None else replace(plan, tempo_bpm=fastest * plan.lesson.beat_ticks / PPQ)
+
+
+def tempo_text(rows: list[Json]) -> str:
     """The rows for people, and how far it was clean; empty without rows."""
     if not rows:
         return ""
     lines = [_line(row) for row in rows if isinstance(row, dict)]
-    upshot = "Not yet clean at the first tempo." if clean is None else f"Clean up to {clean:g} bpm."
-    return "\n".join(["", "As the tempo rose", *lines, upshot, ""])
+    return "\n".join(["", "As the tempo rose", *lines, clean_words(rows), ""])
+
+
+def clean_words(rows: list[Json]) -> str:
+    """How far it was clean from the first tempo on, and at which faster ones it was again."""
+    upto = clean_up_to(rows)
+    again = [
+        f"{row['beats_a_minute']:g}"
+        for row in rows
+        if isinstance(row, dict) and row["clean"] and float(str(row["beats_a_minute"])) > (upto or 0.0)
+    ]
+    later = f"{', '.join(again[:-1])} and {again[-1]}" if len(again) > 1 else "".join(again)
+    if upto is None:
+        return f"Not clean at the first tempo, but at {later} bpm." if again else "Not yet clean at the first tempo."
+    return f"Clean up to {upto:g} bpm, and again at {later} bpm." if again else f"Clean up to {upto:g} bpm."
+
+
+def row_words(row: Mapping[str, Json]) -> tuple[str, str]:
+    """What was right at one tempo, with what was too many and on a wrong pad; the spread, and why it was not clean."""
+    strokes = ((row["wrong_pads"], "on a wrong pad"), (row["extras"], "extra"))
+    counted = [f"{row['right']} of {row['notes']} right", *(f"{count} {what}" for count, what in strokes if count)]
+    spread = [] if row["sd_ms"] is None else [f"spread {row['sd_ms']:.0f} ms"]
+    why = "clean" if row["clean"] else f"not clean: {row['why']}" if row.get("why") else "not clean"
+    return ", ".join(counted), ", ".join([*spread, why])
 
 
 def _line(row: dict[str, Json]) -> str:
     bars = row["bars"]
     assert isinstance(bars, list), "the report is ours"
-    spread = "" if row["sd_ms"] is None else f"spread {row['sd_ms']:.0f} ms"
-    right = f"{row['right']} of {row['notes']} right"
-    where = f"{bars[0]}-{bars[1]}"
-    clean = "clean" if row["clean"] else ""
-    return f"{row['beats_a_minute']:6g} bpm  bars {where:8} {right:18} {spread:14} {clean}".rstrip()
+    where, (right, how) = f"{bars[0]}-{bars[1]}", row_words(row)
+    return f"{row['beats_a_minute']:6g} bpm  bars {where:8} {right:18} {how}".rstrip()
 
 
 def _measured(result: SessionResult) -> list[tuple[float, tuple[int, int], PassResult]]:
