@@ -6,7 +6,7 @@ Values are as on a screen (sRGB, 0–1).
 Whatever draws names the night's colours; a `Theme` is a table that says what stands for each of them, looked up when
 they reach the screen. The themes' signals were sought for the greatest least distance (CIELAB) of any two of them as
 seen with normal sight and by protanopes, deuteranopes and tritanopes (Machado 2009), each at 4.6 : 1 or more on the
-theme's paper.
+theme's paper; by day, where they are dark, of any and the ink, too.
 """
 
 from collections.abc import Mapping
@@ -78,7 +78,7 @@ _INSTEAD: tuple[tuple[Colour, str, str, str], ...] = (
     (PANEL_EDGE, "000000", "FFFFFF", "FFFFFF"),
     (BRAND, "9A4A00", "FFB000", "FF9A3C"),
     (GOOD, "0067E5", "189BFA", "6070FC"),
-    (EARLY, "2B2E00", "CEFF10", "B2FFD3"),
+    (EARLY, "4E2400", "CEFF10", "B2FFD3"),
     (LATE, "A45C00", "C58B06", "FF9E00"),
     (MISSED, "CF2459", "FF5B76", "F22D51"),
     (WRONG, "87569D", "FFC9F4", "CDAAED"),

@@ -19,7 +19,11 @@ PLACE_DTYPE = np.dtype(
 
 
 def places_of(result: SessionResult, ticks: NDArray[np.int64]) -> NDArray[np.void]:
-    """Where `ticks` (n,) of the result's score lie, (n,) of `PLACE_DTYPE`; what comes after the last bar is in it."""
+    """Where `ticks` (n,) of the result's score lie, (n,) of `PLACE_DTYPE`; what comes after the last bar is in it.
+
+    So is the landing after the last pass: it is struck on the beat after the last of the bar that leads to it, with
+    which it counts.
+    """
     places = np.zeros(len(ticks), PLACE_DTYPE)
     if not len(ticks):
         return places
@@ -28,9 +32,13 @@ def places_of(result: SessionResult, ticks: NDArray[np.int64]) -> NDArray[np.voi
     row = np.minimum(tempo_map.bars_at(ticks), len(names) - 1)
     starts = np.asarray([tempo_map.bar_start(bar) for bar in range(int(row.max()) + 2)])
     within = np.minimum((ticks - starts[row]) / np.diff(starts)[row], 1.0)
-    beats = np.asarray([tempo_map.meter_at(int(start)).beats for start in starts[:-1]])[row]
-    places["row_bar"], places["bar"], places["beat"] = row, names[row] + 1, within * beats + 1
-    places["place"] = places["bar"] + within
+    of_bar = np.asarray([tempo_map.meter_at(int(start)).beats for start in starts[:-1]])
+    beats = of_bar[row]
+    practised = np.asarray(plan.practised_bars)[row]
+    is_after = practised < names[row]
+    places["row_bar"], places["bar"] = row, practised + 1
+    places["beat"] = within * beats + 1 + np.where(is_after, of_bar[np.maximum(row - 1, 0)], 0)
+    places["place"] = names[row] + 1 + within
     places["pass"] = np.searchsorted(np.asarray(plan.pass_starts), row, "right")
     return places
 

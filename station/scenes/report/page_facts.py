@@ -75,6 +75,7 @@ def _page(kept: KeptSession) -> SessionPage:
         wrong=int(counts["wrong_piece"]),
         extras=int(counts["extras"]),
         unknown=int(counts["unknown"]),
+        played_again=int(counts["played_again"]),
         headline=f"{headline(facts)[:1].upper()}{headline(facts)[1:]}.",
         praise=None if document["praise"] is None else str(document["praise"]),
         next_steps=next_sentences(document),

@@ -1,6 +1,7 @@
 """The timing of a page about a session: groups and bars as the report has them, each spread with its interval."""
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -110,6 +111,10 @@ def hand_figures(document: Document) -> Iterator[GroupFigures]:
         yield GroupFigures(hand.replace("_", " "), strokes, strokes, 0, 0, None, timing)
 
 
+FEWEST_PASSES = 5
+"""Of fewer passes the interval of a single bar is wider than all that it could tell (our choice)."""
+
+
 def bar_figures(result: SessionResult, document: Document, spreads: Spreads) -> Iterator[BarFigures]:
     """The lesson's bars, with what was right and what was too many in each."""
     cells = heat_map(result).cells
@@ -117,10 +122,13 @@ def bar_figures(result: SessionResult, document: Document, spreads: Spreads) -> 
     for (bar, _), cell in cells.items():
         right[bar] = right.get(bar, 0) + cell.right
     dots = every_hit(result).dots
-    extras = np.minimum(dots["bar"][dots["label"] == Label.EXTRA], result.plan.bars[1] + 1).tolist()
+    extras = dots["bar"][dots["label"] == Label.EXTRA].tolist()
+    came = sum(start < result.score.bar_count for start in result.plan.pass_starts)
     for row in document["per_bar"]:
         bar = int(row["bar"])
         group = _group(f"bar {bar}", row, spreads.bars.get(bar))
+        if came < FEWEST_PASSES:
+            group = replace(group, timing=replace(group.timing, mean_ci=None, sd_ci=None))
         yield BarFigures(bar, group, right.get(bar, 0), extras.count(bar))
 
 

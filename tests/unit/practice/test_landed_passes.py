@@ -3,6 +3,8 @@
 A bar of `rock_beat` has 13 strokes; the landing is a crash and a kick.
 """
 
+import csv
+import io
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
@@ -20,6 +22,7 @@ from station.music.score import Note, Score
 from station.music.tempo import TempoMap
 from station.practice.headless.virtual_session import practise_adaptively, practise_virtually
 from station.practice.records.rejudge import judge_again
+from station.practice.records.report.session_pairs import session_pairs_csv
 from station.practice.records.report.session_report import practice_document
 from station.practice.session.adaptation import Adaptation
 from station.practice.session.lesson_places import places_of
@@ -97,7 +100,10 @@ def test_the_landing_is_judged_and_counts_with_the_bar_that_leads_to_it(tmp_path
     assert isinstance(bars, list)
     counted = [(one["bar"], one["notes"]) for one in bars if isinstance(one, dict)]
     assert counted == [(1, 3 * PER_BAR), (2, 3 * PER_BAR + 2)]
-    assert places_of(result, result.score.notes["tick"][-1:])[["bar", "pass"]].tolist() == [(3, 3)]
+    landed = places_of(result, result.score.notes["tick"][-1:])[["bar", "beat", "place", "pass"]].tolist()
+    assert landed == [(2, 5.0, 3.0, 3)]  # as the report counts it: in bar 2, on the beat after its fourth
+    rows = list(csv.DictReader(io.StringIO(session_pairs_csv(result))))
+    assert [sum(row["bar"] == str(bar) for row in rows) for bar, _ in counted] == [notes for _, notes in counted]
     assert heat_map(result).cells[2, Limb.RIGHT_FOOT].notes == 3 * 2 + 1  # the kick: two strokes a bar
     (again,) = judge_again(read_capture(capture))
     replayed = again.result()

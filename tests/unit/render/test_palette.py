@@ -90,6 +90,14 @@ def test_signals_are_told_apart_by_everybody(theme: Theme, sight: str) -> None:
     assert least >= LEAST_APART[theme]
 
 
+@pytest.mark.parametrize("sight", SIGHT)
+def test_no_signal_is_taken_for_ink_by_day(sight: str) -> None:
+    ink = lab(np.array(SIGHT[sight]) @ linear(themed(INK, Theme.DAY)))
+    for colour in SIGNALS:
+        seen = lab(np.array(SIGHT[sight]) @ linear(themed(colour, Theme.DAY)))
+        assert float(np.linalg.norm(seen - ink)) >= LEAST_APART[Theme.DAY]
+
+
 @pytest.mark.parametrize("theme", Theme)
 def test_a_button_s_letters_read_on_it(theme: Theme) -> None:
     assert contrast(themed(NIGHT, theme), themed(BRAND, theme)) >= 4.5

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from station.render.palette import EARLY, GOOD, LATE
+from station.render.palette import EARLY, GOOD, INK, LATE
 from station.render.report.page.charts.asynchrony_histogram import asynchrony_histogram
 from station.render.report.page.charts.bar_chart import bar_chart
 from station.render.report.page.charts.chart import WIDTH, Chart
@@ -101,3 +101,17 @@ def test_loudness_tells_the_middle_beside_what_is_written() -> None:
     chart = loudness_chart([LoudnessRow("snare", "ghost", 30.0, np.array([40.0, 50.0, 60.0]))], ATLAS)
     (spot,) = chart.spots
     assert spot.words == "Snare, ghost: 3 strokes, 50 in the middle for 30 written"
+
+
+def test_an_interval_that_goes_on_beyond_the_axis_ends_in_an_arrow_there() -> None:
+    """The axis reaches from -40 to 40 ms; 500 early and 30 late: an arrow to the left, a cap to the right."""
+    wide = TimingFigures(10, 0.0, (-500.0, 30.0), 12.0, None)
+    (row,) = (GroupFigures("snare", 10, 10, 0, 0, 0, wide),)
+    triangles = of(lean_chart("Pieces", [row], 25.0, ATLAS), ShapeKind.TRIANGLE, INK)
+    whole = of(lean_chart("Pieces", [group("snare", 0.0)], 25.0, ATLAS), ShapeKind.TRIANGLE, INK)
+    assert (len(triangles), len(whole)) == (1, 0)
+    assert triangles["centre"][0][0] == pytest.approx(108.0), "the axis's left end"
+    assert triangles["axis"][0][0] == pytest.approx(-1.0), "to the left"
+    bars = [BarFigures(1, row, 10, 0), BarFigures(2, group("bar 2", 0.0), 10, 0)]
+    (down,) = of(bar_chart(bars, 25.0, ATLAS), ShapeKind.TRIANGLE, INK)
+    assert down["axis"][1] == pytest.approx(1.0), "down, where early is"

@@ -59,6 +59,7 @@ def hostile_page(word: str = HOSTILE[0]) -> SessionPage:
         wrong=0,
         extras=2,
         unknown=1,
+        played_again=7,
         headline=word,
         praise=word,
         next_steps=(Advised(word, (word, word)),),

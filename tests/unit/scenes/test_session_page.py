@@ -276,3 +276,22 @@ def test_what_is_measured_has_a_sign_where_it_has_a_side_and_counts_are_not_meas
         ("Measured: 47 ms (95 %: 41 to 53)",),
         ("Measured: 12 % (95 %: 8 to 16)",),
     ]
+
+
+def test_single_bars_have_intervals_from_five_passes_on(folders: dict[str, Path]) -> None:
+    """Six passes of the groove, two of the flams."""
+    groove, flams = (page_of(folders[name]).by_bar for name in ("groove", "flams"))
+    assert all(bar.group.timing.mean_ci is not None for bar in groove)
+    assert {(bar.group.timing.mean_ci, bar.group.timing.sd_ci) for bar in flams} == {(None, None)}
+    assert all(bar.group.timing.mean_ms is not None for bar in flams)
+
+
+def test_strokes_that_were_played_again_are_told(folders: dict[str, Path], tmp_path: Path) -> None:
+    again, report = tmp_path / "again", json.loads((folders["groove"] / "report.json").read_text())
+    shutil.copytree(folders["groove"], again)
+    report["counts"]["played_again"] = 173
+    (again / "report.json").write_text(json.dumps(report))
+    page = page_of(again)
+    assert page.played_again == 173
+    assert page.played_again_words == "173 strokes of bars that were played again, which do not count"
+    assert page_of(folders["groove"]).played_again == 0

@@ -103,7 +103,7 @@ def _line(row: dict[str, Json]) -> str:
     bars = row["bars"]
     assert isinstance(bars, list), "the report is ours"
     where, (right, how) = f"{bars[0]}-{bars[1]}", row_words(row)
-    return f"{row['beats_a_minute']:6g} bpm  bars {where:8} {right:18} {how}".rstrip()
+    return f"{row['beats_a_minute']:6g} bpm  bars {where:8} {right:40} {how}".rstrip()
 
 
 def _measured(result: SessionResult) -> list[tuple[float, tuple[int, int], PassResult]]:

@@ -62,7 +62,8 @@ def _score(flow: PaperFlow, page: SessionPage) -> None:
     beside, wide = flow.left + 84.0, flow.width - 84.0
     points = "–" if page.score is None else f"{page.score:.0f}"
     counts = [f"{page.right} of {page.notes} right", f"{page.misses} missed", f"{page.wrong} on a wrong piece"]
-    counts += [f"{page.extras} extra", *([f"{page.unknown} could not be heard"] if page.unknown else [])]
+    counts += [f"{page.extras} extra", *([page.played_again_words] if page.played_again else [])]
+    counts += [*([f"{page.unknown} could not be heard"] if page.unknown else [])]
     counted = " · ".join(counts)
     height = flow.words_height(page.headline, HEADING, wide)
     whole = max(height + 2.0 + flow.words_height(counted, BODY, wide), 52.0)

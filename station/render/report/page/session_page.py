@@ -207,6 +207,7 @@ class SessionPage:
     wrong: int
     extras: int
     unknown: int
+    played_again: int
     headline: str
     praise: str | None
     next_steps: tuple[Advised, ...]
@@ -225,3 +226,9 @@ class SessionPage:
     passes: tuple[PassRow, ...]
     lists: tuple[WordList, ...]
     foot: tuple[str, ...]
+
+    @property
+    def played_again_words(self) -> str:
+        """What is said of strokes that were nobody's fault: they belong to another attempt at the same bars."""
+        strokes = "1 stroke" if self.played_again == 1 else f"{self.played_again} strokes"
+        return f"{strokes} of bars that were played again, which do not count"

@@ -114,6 +114,9 @@ class Unobservable:
     judged: bool = True
 
 
+_CLOCK_OR_HAND = "whether your inner clock or your hands are what scatters"
+
+
 def unobservable(technique: Technique, swallowed: NDArray[np.uint8]) -> tuple[Unobservable, ...]:
     """All that the kit or the data leave open; `swallowed` (n,) of the notes."""
     said = [
@@ -136,7 +139,5 @@ def unobservable(technique: Technique, swallowed: NDArray[np.uint8]) -> tuple[Un
         unsaid = technique.chokes.matched - technique.chokes.judged
         said.append(Unobservable("whether cymbals were grabbed", unsaid, "the kit sent no choke at all"))
     if technique.keeper.cannot_tell is not None:
-        said.append(
-            Unobservable("clock from hand", technique.keeper.strokes, technique.keeper.cannot_tell.value, False)
-        )
+        said.append(Unobservable(_CLOCK_OR_HAND, technique.keeper.strokes, technique.keeper.cannot_tell.value, False))
     return tuple(one for one in said if one.count)

@@ -6,8 +6,12 @@ Here late is up, for bars go to the right as in the score.
 from collections.abc import Sequence
 from math import ceil
 
+import numpy as np
+
 from station.render.palette import EXTRA, GOOD, INK, INK_FAINT, INK_SOFT, MISSED, with_opacity
 from station.render.report.page.charts.chart import (
+    ARROW,
+    CUT,
     HAIR,
     LETTER,
     WIDTH,
@@ -61,7 +65,8 @@ def bar_chart(bars: Sequence[BarFigures], on_time_ms: float, atlas: Atlas) -> Ch
 
 
 _LEGEND = (
-    "Dots are means with their 95 % intervals. The fuller a cell, the more was right, missed, or not written at all."
+    f"Dots are means, of five passes and more with their 95 % intervals ({CUT})."
+    " The fuller a cell, the more was right, missed, or not written at all."
 )
 _MOST_SAID = 32
 """Bars whose figures are said to those who hear the page (our choice): more, nobody listens to."""
@@ -79,6 +84,12 @@ def _mean(draw_list: DrawList, x: float, bar: BarFigures, reach: float, scale: t
     if timing.mean_ci is not None:
         top, low = _y(timing.mean_ci[1], reach), _y(timing.mean_ci[0], reach)
         draw_list.box((x - size / 4, top), (size / 2, max(low - top, 0.5)), INK)
+        for y, is_cut, angle in (
+            (top, timing.mean_ci[1] > reach, -np.pi / 2),
+            (low, timing.mean_ci[0] < -reach, np.pi / 2),
+        ):
+            if is_cut:
+                draw_list.triangle((x, y), (ARROW[0] * size / 4.6, ARROW[1] * size / 4.6), INK, angle)
     draw_list.ellipse((x, _y(timing.mean_ms, reach)), (size, size), INK)
     inner = max(size - 1.3, 0.6)
     draw_list.ellipse((x, _y(timing.mean_ms, reach)), (inner, inner), time_colour(timing.mean_ms, on_time_ms))

@@ -22,6 +22,9 @@ LABEL = TypeStyle(LETTER, INK_SOFT)
 NUMBER = TypeStyle(LETTER, INK)
 HAIR = 1.0
 _WHISKER, _DOT = 2.6, 4.6
+ARROW = (5.0, 4.5)
+"""Half sizes of the arrow of what goes on beyond an axis."""
+CUT = "an arrow says that it goes on"
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,12 +97,15 @@ def sides(draw_list: DrawList, axis: Axis, y: float) -> None:
 
 
 def mean_mark(draw_list: DrawList, axis: Axis, y: float, mean: float, ci: Interval | None, colour: Colour) -> None:
-    """A dot at the mean, and whiskers as far as its interval."""
+    """A dot at the mean, and whiskers as far as its interval: with an arrow where that goes on beyond the axis."""
     if ci is not None:
         left, right = axis.x(ci[0]), axis.x(ci[1])
         draw_list.box((left, y - _WHISKER / 2), (max(right - left, 0.5), _WHISKER), INK)
-        for x in (left, right):
-            draw_list.box((x - HAIR, y - 4.5), (2 * HAIR, 9.0), INK)
+        for x, is_cut, angle in ((left, ci[0] < axis.low, np.pi), (right, ci[1] > axis.high, 0.0)):
+            if is_cut:
+                draw_list.triangle((x, y), ARROW, INK, angle)
+            else:
+                draw_list.box((x - HAIR, y - 4.5), (2 * HAIR, 9.0), INK)
     draw_list.ellipse((axis.x(mean), y), (_DOT, _DOT), INK)
     draw_list.ellipse((axis.x(mean), y), (_DOT - 1.4, _DOT - 1.4), colour)
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from station.render.palette import INK_SOFT
 from station.render.report.page.charts.chart import (
+    CUT,
     LABEL,
     LETTER,
     NUMBER,
@@ -40,7 +41,7 @@ def lean_chart(title: str, groups: Sequence[GroupFigures], on_time_ms: float, at
     return Chart(title, words, draw_list.shapes(), (WIDTH, low + 24.0), tuple(spots), _LEGEND)
 
 
-_LEGEND = "The dot is the mean, its whiskers the 95 % interval; the soft bar is one SD to either side."
+_LEGEND = f"The dot is the mean, its whiskers the 95 % interval ({CUT}); the soft bar is one SD to either side."
 
 
 def _row(draw_list: DrawList, axis: Axis, row: GroupFigures, y: float, on_time_ms: float) -> Spot:
