@@ -6,7 +6,7 @@ Values are as on a screen (sRGB, 0–1).
 Whatever draws names the night's colours; a `Theme` is a table that says what stands for each of them, looked up when
 they reach the screen. The themes' signals were sought for the greatest least distance (CIELAB) of any two of them as
 seen with normal sight and by protanopes, deuteranopes and tritanopes (Machado 2009), each at 4.6 : 1 or more on the
-theme's paper; by day, where they are dark, of any and the ink, too.
+theme's paper; by day, where they are dark, each is 25 or more from the ink, too.
 """
 
 from collections.abc import Mapping
