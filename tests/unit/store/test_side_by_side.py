@@ -4,12 +4,16 @@ from pathlib import Path
 
 import pytest
 
+from station.core.errors import DeviceError
 from station.store import sqlite_files
 from station.store.database import Database
 from station.store.database_url import sqlite_url
 from station.store.history import History
+from station.store.patience import in_a_hurry
 from station.store.rows import SessionState
 from station.store.sessions import session_names
+from station.store.student_names import student_key
+from station.store.turns import in_turn
 from tests.fakes.history_children import history_children, keep_in_a_loop, session_of
 
 _EACH = 12
@@ -48,3 +52,15 @@ def test_the_log_is_cut_when_a_long_reader_is_done(tmp_path: Path, monkeypatch: 
         history.keep(session_of("Ann", 40))
         history.keep(session_of("Ann", 41))
         assert log.stat().st_size < grown / 5
+
+
+def test_who_is_in_a_hurry_is_refused_by_a_writer_at_work_and_nothing_is_half_kept(history: History, url: str) -> None:
+    other = History(Database(url))
+    with history.database.writing() as connection:
+        in_turn(connection, student_key("Ann"))
+        with in_a_hurry(0.1), pytest.raises(DeviceError, match=r"locked|has not answered"):
+            other.keep(session_of("Ann", 1))
+    assert history.session_names("Ann") == frozenset()
+    other.keep(session_of("Ann", 1))
+    assert history.session_names("Ann") == {"session-1"}
+    other.database.close()
