@@ -29,6 +29,7 @@ from station.render.report.take.shown_take import ShownTake
 from station.scenes.demonstrator import Demonstrator, as_taught, demonstrator_of
 from station.scenes.report.take_clicks import take_clicks
 from station.scenes.report.take_clock import TakeClock
+from station.scenes.report.take_kit import take_kit
 from station.scenes.report.take_notes import extras_in_words, shown_passes, shown_strokes
 from station.scenes.report.take_views import shown_views
 from station.scenes.soundtrack import Sounds, Soundtrack
@@ -86,7 +87,7 @@ def take_drummer(result: SessionResult, clock: TakeClock, demonstrator: Demonstr
     score = replace(score, end_tick=max(score.end_tick, clock.lead.end_tick + plan.score.end_tick))
     passes = plan.score.bar_count // plan.section.bar_count
     style = in_passes(as_taught(demonstrator.style, plan.lesson.cues), plan.first_bar, plan.section.bar_count, passes)
-    motion = MotionPlan.of(score, seated(plan.kit, demonstrator.figure), demonstrator.figure)
+    motion = MotionPlan.of(score, seated(take_kit(plan), demonstrator.figure), demonstrator.figure)
     return Drummer(score, motion.kit, motion.figure, style, motion, motion.hands(style, SEARCHES))
 
 
