@@ -14,7 +14,7 @@ from station.practice.history.learnt import NOTHING_LEARNT, Learnt, write_learnt
 from station.practice.history.session_files import started_in
 from station.practice.history.session_intake import folder_text, new_row, take_in
 from station.practice.history.student_history import StudentHistory
-from station.practice.history.unarrived import forget_unarrived, remember_unarrived
+from station.practice.history.unarrived import forget_unarrived, overtake_unarrived, remember_unarrived
 from station.store.rows import SessionKind, SessionState
 
 
@@ -35,6 +35,7 @@ def keep_session(whose: StudentHistory, folder: Path, learnt: Learnt = NOTHING_L
         with whose.reached() as history:
             take_in(history, whose.student, folder, learnt)
         forget_unarrived(whose, folder)
+        overtake_unarrived(whose, learnt)
     except DeviceError as fault:
         remember_unarrived(whose, folder, learnt)
         remember_elsewhere(whose.folder, folder)

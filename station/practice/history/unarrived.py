@@ -50,6 +50,17 @@ def forget_unarrived(whose: StudentHistory, folder: Path) -> None:
         _of.get(_key(whose), {}).pop(folder, None)
 
 
+def overtake_unarrived(whose: StudentHistory, learnt: Learnt) -> None:
+    """The history knows later than what has not arrived of these bars and lessons."""
+    later = {(row.lesson, row.first_bar, row.last_bar) for row in learnt.mastery}
+    with _turn:
+        waiting = _of.get(_key(whose), {})
+        for folder, before in waiting.items():
+            rows = tuple(row for row in before.mastery if (row.lesson, row.first_bar, row.last_bar) not in later)
+            levels = {lesson: level for lesson, level in before.levels.items() if lesson not in learnt.levels}
+            waiting[folder] = Learnt(rows, levels, before.on_top)
+
+
 def mastery_unarrived(whose: StudentHistory) -> dict[tuple[str, int, int], tuple[MasteryRow, bool]]:
     """What was learnt last of bars of lessons, and whether on top of what was known (`Learnt.on_top`)."""
     with _turn:

@@ -25,7 +25,7 @@ from station.drills.mastery.rules import DEFAULT_RULES
 from station.practice.history.learnt import NOTHING_LEARNT, Learnt
 from station.practice.history.old_mastery import mastery_row, untold_faults
 from station.practice.history.student_history import StudentHistory
-from station.practice.history.unarrived import levels_unarrived, mastery_known, mastery_unarrived
+from station.practice.history.unarrived import levels_unarrived, mastery_known, mastery_unarrived, overtake_unarrived
 from station.practice.records.lesson_order import ahead_of, followed_course
 from station.practice.records.lesson_progress import progress_of
 from station.practice.records.teachers_wishes import NO_WISHES, Wishes, wishes_of
@@ -119,6 +119,7 @@ class LevelMemory:
         """Judge `lesson` at `level` from now on; raises `DeviceError`, and then all stays as it was."""
         with self.whose.reached() as history:
             history.remember(self.whose.student, levels={lesson: level.value})
+        overtake_unarrived(self.whose, Learnt(levels={lesson: level.value}))
 
 
 @dataclass(frozen=True, eq=False)

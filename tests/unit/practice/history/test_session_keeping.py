@@ -88,6 +88,25 @@ def test_a_session_and_what_was_learnt_are_kept_together_or_not_at_all(
     assert remembered(whose) == [followed.adaptation.state]
 
 
+def test_what_the_history_learns_later_is_newer_than_what_has_not_arrived(
+    settings: Settings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as patch:
+
+        def refused(*_: object) -> None:
+            raise OSError(28, "No space left on device")
+
+        patch.setattr(memory_rows, "put_level", refused)
+        practised(settings)
+    whose = StudentHistory.of(settings)
+    assert LevelMemory(whose).recall()[0] == {"rock-1": Level.ELEMENTARY}
+    _, later, saved = practised(settings, replace(HOLDS_IT, loops=1))
+    assert saved.unkept is None
+    assert remembered(whose) == [later.adaptation.state]
+    LevelMemory(whose).keep("rock-1", Level.BEGINNER)
+    assert LevelMemory(whose).recall()[0] == {"rock-1": Level.BEGINNER}
+
+
 def test_what_was_learnt_while_the_history_was_away_is_remembered_later(settings: Settings, away: Settings) -> None:
     folder, followed, saved = practised(away)
     assert followed.fault is not None
