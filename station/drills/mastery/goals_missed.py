@@ -84,7 +84,8 @@ def _right(result: PassResult, rules: Rules) -> Iterator[Miss]:
     needed = math.ceil(rules.min_right * total - _TINY)
     if result.right >= needed:
         return
-    share, goal = math.floor(100 * result.right / total), math.ceil(100 * rules.min_right - _TINY)
+    goal = math.ceil(100 * rules.min_right - _TINY)
+    share = min(round(100 * result.right / total), goal - 1)  # a goal that was missed is never rounded up to
     of = f" ({result.extras} strokes too many count as notes left out)" if result.extras else ""
     words = f"{result.right} of {result.notes} right, {needed} needed"
     if result.extras:  # nobody can play more right ones than there are

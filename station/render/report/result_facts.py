@@ -5,7 +5,7 @@ Asynchrony is played − written in ms, negative is early. Numbers without data 
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import floor
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -142,7 +142,7 @@ def headline(facts: ResultFacts) -> str:
     if not facts.count(Label.MATCH):
         return "nothing to judge"
     share = float(facts.right[facts.known].mean())
-    right = "" if share >= NEARLY_ALL else f"{floor(100 * share)} % right; "
+    right = "" if share >= NEARLY_ALL else f"{min(round(100 * share), ceil(100 * NEARLY_ALL) - 1)} % right; "
     return f"{right}{_time_in_words(facts)}"
 
 

@@ -58,6 +58,7 @@ SWUNG = replace(find_lesson("shuffle-1"), goals=Goals(target_tempo_bpm=300.0))  
         (measured(89), {}, "89 % of the notes were right, 90 % are the goal"),
         (measured(94), {"min_accuracy": 0.95}, "94 % of the notes were right, 95 % are the goal"),
         (measured(94), {"min_accuracy": 0.94}, "raise the tempo to 86 bpm."),
+        (measured(93, extras=10), {}, "85 % of the notes were right (10 strokes too many"),  # 93 of 110: 84.5 %
         (measured(extras=20), {}, "83 % of the notes were right (20 strokes too many count as notes left out), 90 %"),
         (measured(96, wrong_pads=3), {}, "3 strokes went to a wrong pad and 2 may"),
         (measured(sd_ms=35.5), {}, "spread by 36 ms and 35 are the goal"),

@@ -96,8 +96,11 @@ def test_fills_that_lie_elsewhere_are_named_apart_from_the_groove() -> None:
 
 
 def test_a_share_is_never_rounded_up_to_nearly_all() -> None:
-    """107 of 120 are 89.2 %."""
-    assert headline(played(13, passes=10)).startswith("89 % right; ")
+    """107 of 120 are 89.2 %, 43 of 48 are 89.6 %; 27 of 48 are 56.3 %, 31 of 48 are 64.6 %."""
+    said = [
+        headline(played(missed, passes)).partition(" %")[0] for missed, passes in ((13, 10), (5, 4), (21, 4), (17, 4))
+    ]
+    assert said == ["89", "89", "56", "65"]
 
 
 def test_no_hits_at_all() -> None:
