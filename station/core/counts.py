@@ -9,6 +9,11 @@ def counted(count: int, noun: str) -> str:
     return f"{count} {noun}{'' if count == 1 else 'es' if noun.endswith('z') else 's'}"
 
 
+def whole_minutes(seconds: float) -> int:
+    """Seconds in whole minutes, half of one rounded up: what a time is called wherever minutes are told."""
+    return int(seconds / 60 + 0.5)
+
+
 def is_count(word: str) -> bool:
     """Whether `word` is a whole number from 0 on that `int` can read."""
     return word.isdecimal() and len(word) <= _MOST_DIGITS

@@ -1,6 +1,7 @@
 """Days, weeks and months of practice, counted from sessions.
 
-A week begins on Monday; a session is of the day on which it began.
+A week begins on Monday; a session is of the day on which it began. A day of practice is one of which a session is
+kept: of one in which nothing was played nothing is kept, and a few bars are practice, too.
 """
 
 from collections import defaultdict
@@ -10,8 +11,6 @@ from datetime import date, timedelta
 
 from station.store.rows import SessionRow
 
-LEAST_S = 60.0
-"""So much has to be played for a day of practice (our choice: a stroke to hear the kit is none)."""
 WEEK = timedelta(days=7)
 MOST_MONTHS = 24
 """So many months are laid out (our choice: two years are scrolled through, more are not)."""
@@ -25,11 +24,6 @@ class PractisedDay:
     played_s: float = 0.0
     sessions: int = 0
     titles: tuple[str, ...] = ()
-
-    @property
-    def is_practice(self) -> bool:
-        """Whether it counts as a day of practice."""
-        return self.played_s >= LEAST_S
 
     @property
     def minutes(self) -> float:
@@ -63,7 +57,7 @@ Days = Mapping[date, PractisedDay]
 
 
 def practised_days(sessions: Iterable[SessionRow]) -> dict[date, PractisedDay]:
-    """The days on which anything was played, in order."""
+    """The days of practice, in order."""
     of_day: defaultdict[date, list[SessionRow]] = defaultdict(list)
     for row in sessions:
         of_day[row.started.date()].append(row)
@@ -86,7 +80,7 @@ def weeks_of(days: Days) -> dict[date, Week]:
     for day in days.values():
         monday = monday_of(day.day)
         week = found.get(monday, Week(monday))
-        found[monday] = Week(monday, week.played_s + day.played_s, week.days + day.is_practice)
+        found[monday] = Week(monday, week.played_s + day.played_s, week.days + 1)
     return found
 
 
@@ -107,4 +101,4 @@ def _month(first: date, days: Days) -> Month:
     cells += [None] * (-len(cells) % 7)
     played = [days[day] for day in own if day in days]
     weeks = tuple(tuple(cells[at : at + 7]) for at in range(0, len(cells), 7))
-    return Month(first, weeks, sum(day.played_s for day in played), sum(day.is_practice for day in played))
+    return Month(first, weeks, sum(day.played_s for day in played), len(played))

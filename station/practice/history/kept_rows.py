@@ -2,14 +2,16 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
-from datetime import date, datetime
+from datetime import datetime
 
+from station.core.counts import whole_minutes
+from station.practice.history.calendar_days import practised_days
 from station.store.rows import FigureRow, SessionRow
 
 
 @dataclass(frozen=True, slots=True)
 class Totals:
-    """So many sessions on so many days, `played_s` seconds of music in all."""
+    """So many sessions on so many days of practice, `played_s` seconds of music in all."""
 
     sessions: int
     days: int
@@ -18,18 +20,13 @@ class Totals:
     @property
     def minutes(self) -> int:
         """How long that is, in whole minutes."""
-        return round(self.played_s / 60)
+        return whole_minutes(self.played_s)
 
 
 def totals(rows: Iterable[SessionRow]) -> Totals:
     """What some sessions come to."""
     all_rows = list(rows)
-    return Totals(len(all_rows), len(days_of(all_rows)), sum(row.played_s for row in all_rows))
-
-
-def days_of(rows: Iterable[SessionRow]) -> list[date]:
-    """The days on which sessions were begun, in order."""
-    return sorted({row.started.date() for row in rows})
+    return Totals(len(all_rows), len(practised_days(all_rows)), sum(row.played_s for row in all_rows))
 
 
 SESSION_FIELDS = ("number", *(each.name for each in fields(SessionRow) if each.name != "id"))

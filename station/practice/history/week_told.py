@@ -5,6 +5,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 
+from station.core.counts import whole_minutes
 from station.core.disk.utf8 import one_line
 from station.practice.history.calendar_days import WEEK
 from station.practice.history.trend_fit import Line
@@ -29,24 +30,13 @@ class Practised:
     times: int
 
 
-def whole_minutes(seconds: Sequence[float]) -> list[int]:
-    """Seconds in whole minutes that add up to those of the sum: the largest remainders are rounded up."""
-    exact = [each / 60 for each in seconds]
-    minutes = [int(each) for each in exact]
-    short = round(sum(seconds) / 60) - sum(minutes)
-    for at in sorted(range(len(exact)), key=lambda index: minutes[index] - exact[index])[: max(short, 0)]:
-        minutes[at] += 1
-    return minutes
-
-
 def practised(rows: Iterable[SessionRow]) -> tuple[Practised, ...]:
     """What was played, the longest first."""
     played: defaultdict[str, list[float]] = defaultdict(list)
     for row in rows:
         played[title_of(row)].append(row.played_s)
     longest = sorted(played.items(), key=lambda item: (-sum(item[1]), item[0]))
-    minutes = whole_minutes([sum(times) for _, times in longest])
-    return tuple(Practised(title, m, len(times)) for (title, times), m in zip(longest, minutes, strict=True))
+    return tuple(Practised(title, whole_minutes(sum(times)), len(times)) for title, times in longest)
 
 
 def title_of(row: SessionRow) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from datetime import date, timedelta
 
-from station.core.counts import counted
+from station.core.counts import counted, whole_minutes
 from station.core.disk.utf8 import one_line
 from station.core.settings import Settings
 from station.drills.daily.daily_items import ItemKind
@@ -22,7 +22,6 @@ from station.practice.history.week_told import (
     end_of,
     got_better,
     practised,
-    whole_minutes,
 )
 from station.render.report.page.week_page import TeachersNote, WeekDay, WeekPage
 from station.store.history import History
@@ -44,7 +43,8 @@ _OFF = (
     " minutes on any day are a good beginning again."
 )
 _FOOT = (
-    "A minute here is a minute of playing; looking, listening and pauses are not counted. Made on the family's or the"
+    "A minute here is a minute of playing; looking, listening and pauses are not counted. Each"
+    " number is rounded by itself, so that a sum may differ by a minute. Made on the family's or the"
     " school's own computer; nothing was sent anywhere."
 )
 
@@ -93,10 +93,14 @@ def _headline(student: str, rows: Sequence[SessionRow], is_over: bool) -> str:
 def _days(rows: Sequence[SessionRow], monday: date, today: date) -> tuple[WeekDay, ...]:
     played = practised_days(rows)
     days = [monday + timedelta(days=n) for n in range(7)]
-    minutes = whole_minutes([played[day].played_s if day in played else 0.0 for day in days])
     return tuple(
-        WeekDay(f"{day:%A}", count, day in played, day > today and day not in played)
-        for day, count in zip(days, minutes, strict=True)
+        WeekDay(
+            f"{day:%A}",
+            whole_minutes(played[day].played_s) if day in played else 0,
+            day in played,
+            day > today and day not in played,
+        )
+        for day in days
     )
 
 
@@ -111,7 +115,7 @@ def _played(found: Sequence[Practised]) -> tuple[tuple[str, str], ...]:
 
 def _how_long(minutes: int, times: int) -> str:
     time = counted(minutes, "minute") if minutes else "less than a minute"
-    return f"{time}{f', {times} times' if times > 1 else ''}"
+    return f"{time}{f', in {times} sessions' if times > 1 else ''}"
 
 
 def _note(row: TeacherNoteRow) -> TeachersNote:

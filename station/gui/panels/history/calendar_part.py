@@ -5,6 +5,7 @@ from collections.abc import Callable
 from imgui_bundle import imgui
 
 from station.app.history.history_shown import HistoryPages
+from station.core.counts import counted, whole_minutes
 from station.gui import theme
 from station.practice.book.book_words import day_in_words
 from station.practice.history.calendar_days import Month, PractisedDay
@@ -91,5 +92,4 @@ def day_words(day: PractisedDay) -> str:
 
 
 def _minutes(seconds: float) -> str:
-    minutes = round(seconds / 60)
-    return "1 minute" if minutes == 1 else f"{minutes} minutes"
+    return counted(whole_minutes(seconds), "minute")

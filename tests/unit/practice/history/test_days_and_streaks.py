@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from datetime import date, datetime, timedelta
 
 from station.practice.history.calendar_days import months_of, practised_days, weeks_of
+from station.practice.history.kept_rows import totals
 from station.practice.history.streaks import streak_of, streak_words, this_week_words
 from station.store.rows import SessionRow
 
@@ -29,7 +30,17 @@ def test_a_day_adds_up_its_sessions() -> None:
         (1, 20.0, 2, ("Rock",)),
         (4, 10.0, 1, ("Rock",)),
     ]
-    assert not next(iter(practised_days(_played(0, seconds=20.0)).values())).is_practice
+
+
+def test_a_day_of_one_short_session_counts_wherever_days_are_counted() -> None:
+    """The README's own example, rock-1 played once, takes 0.8 minutes."""
+    rows = _played(0, 2, 4, seconds=48.0)
+    days = practised_days(rows)
+    (june,) = months_of(days, date(2026, 6, 7))
+    assert [june.days, totals(rows).days, weeks_of(days)[_MONDAY].days] == [3, 3, 3]
+    assert streak_of(days, _MONDAY).weeks == 0
+    assert streak_of(days, date(2026, 6, 7)).days == 3
+    assert totals(rows).minutes == 2  # 2.4
 
 
 def test_weeks_begin_on_monday() -> None:
