@@ -81,7 +81,7 @@ class Students:
         """Let a student play from now on; returns the name. Raises `BadInput` for a name that is none, or no other."""
         known = [each.name for each in self.known]
         name = written if written in known else plain_name(written)
-        other = sharing(self._store.now.sessions_dir, name, known)
+        other = sharing(name, known)
         if other is not None:
             raise BadInput(name, "", f"would share a folder with {other}: take a name that differs in more")
         self._store.update(lambda settings: switched(settings, name))

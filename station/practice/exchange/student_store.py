@@ -30,6 +30,7 @@ from station.practice.exchange.return_file import Return
 from station.practice.history.session_files import write_document
 from station.practice.history.student_history import StudentHistory
 from station.practice.records.assigned_lessons import Taken, all_taken, assignments_folder, write_taken
+from station.store.student_names import student_key
 
 _FILE_NAME = f"assignment{Kind.ASSIGNMENT.ending}"
 _ID_LETTERS = 8
@@ -230,7 +231,7 @@ def keep_note(path: Path, settings: Settings) -> tuple[TakenAssignment, Note, bo
     one = next((each for each in taken_assignments(settings)[0] if each.assignment.id == note.assignment_id), None)
     if one is None:
         raise BadInput(path, "", f"it answers {note.title}, which {settings.student} has not taken")
-    if alike(folder_name(note.student)) != alike(folder_name(settings.student)):
+    if student_key(note.student) != student_key(settings.student):
         raise BadInput(path, "", f"it is a note for {note.student}, not for {settings.student}")
     if note.return_id not in one.returns:
         raise BadInput(path, "", f"it answers a return of {note.title} that {settings.student} has not made")

@@ -9,7 +9,7 @@ import json
 from datetime import datetime
 from pathlib import Path
 
-from station.core.disk.file_names import folder_name
+from station.core.disk.file_names import alike, folder_name, marked, telling_name
 from station.core.disk.files import write_whole
 from station.core.errors import DeviceError
 
@@ -34,15 +34,45 @@ _STARTED = "%Y-%m-%dT%H-%M-%S"
 
 
 def student_folder(sessions: Path, student: str) -> Path:
-    """Where all of a student's is kept, under the folder of all sessions; none of the folders that are no student's."""
-    name = folder_name(student)
-    return sessions / (f"{name}_" if name.casefold() in OWN_FOLDERS else name)
+    """Where all of a student's is kept, under the folder of all sessions; none of the folders that are no student's.
+
+    One that is there is taken, in whatever spelling.
+    """
+    own = sessions / own_folder_name(student)
+    return own if own.is_dir() else next(iter(student_folders(sessions, student)), own)
+
+
+def student_folders(sessions: Path, student: str) -> list[Path]:
+    """All folders of a student that are there, in every spelling, the one of their name's own spelling first."""
+    name = own_folder_name(student)
+    try:
+        there = [path for path in sessions.iterdir() if alike(path.name) == alike(name)]
+    except OSError:
+        return []
+    found = [path for path in there if path.is_dir() and not leads_to_another(path)]
+    return sorted(found, key=lambda path: (path.name != name, path.name))
+
+
+def own_folder_name(student: str) -> str:
+    """What a new folder of a student is called: names that differ have folders that differ."""
+    name = telling_name(student)
+    return marked(name, student) if name.casefold() in OWN_FOLDERS else name
+
+
+def leads_to_another(folder: Path) -> bool:
+    """Whether a student's folder is a link to a folder of another student's, which is never followed."""
+    if not folder.is_symlink():
+        return False
+    there = folder.resolve()
+    return there.is_relative_to(folder.parent.resolve()) and alike(there.name) != alike(folder.name)
 
 
 def session_folder(sessions: Path, student: str, lesson: str, started: datetime) -> Path:
     """Make and return a new folder for a session; raises `DeviceError` where none can be made."""
     stem = session_name(started, lesson)
     parent = student_folder(sessions, student)
+    if leads_to_another(parent):
+        raise DeviceError(f"{parent}: is a link to another student's folder: take it away, or take another name")
     for attempt in range(1, 1000):
         path = parent / (stem if attempt == 1 else f"{stem}_{attempt}")
         try:

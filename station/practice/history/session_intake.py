@@ -38,7 +38,7 @@ from station.practice.history.session_files import (
     TAKE_NAME,
     session_name,
     started_in,
-    student_folder,
+    student_folders,
 )
 from station.store.rows import JudgementRow, KeptSession, SessionKind, SessionRow, SessionState
 
@@ -103,8 +103,9 @@ def everything_in(
 
     Each is a transaction of its own: what was taken in stays, wherever it ends. Raises `DeviceError`.
     """
-    ours, came = student_folder(sessions, student), list[Path]()
-    new = _new_folders(history, ours, student)
+    came = list[Path]()
+    all_ours = student_folders(sessions, student)
+    new = _new_folders(history, all_ours, student)
     taken, faults = 0, []
     for done, (path, blank) in enumerate(new):
         progress(done, len(new))
@@ -118,22 +119,28 @@ def everything_in(
             history.keep(kept, learnt.mastery, learnt.levels)
             taken += 1
             came.append(path)
-    forget_elsewhere(ours, came)
+    for ours in all_ours:
+        forget_elsewhere(ours, came)
     return TakenIn(taken, tuple(faults))
 
 
-def _new_folders(history: "History", ours: Path, student: str) -> list[tuple[Path, SessionRow]]:
+def _new_folders(history: "History", all_ours: list[Path], student: str) -> list[tuple[Path, SessionRow]]:
     """Those of which the history knows nothing, and those of begun sessions that are over, wherever they lie."""
     kept = history.session_names(student)
     begun = {row.name: row for row in history.sessions(student, state=SessionState.BEGUN)}
     found: list[tuple[Path, SessionRow]] = []
-    for name, path, started in folders_of(ours):
+    for name, path, started in (each for ours in all_ours for each in folders_of(ours)):
         row = begun.pop(name, None)
         if name not in kept and (row is None or is_over(path)):
             found.append((path, new_row(student, path, started)))
     elsewhere = ((Path(row.folder), row) for row in begun.values())
     found += [(path, _blank(row)) for path, row in elsewhere if is_over(path)]
-    listed = [path for path in sessions_elsewhere(ours) if is_over(path) and path not in (each for each, _ in found)]
+    listed = [
+        path
+        for ours in all_ours
+        for path in sessions_elsewhere(ours)
+        if is_over(path) and path not in (each for each, _ in found)
+    ]
     return [*found, *((path, blank_row(history, student, path)) for path in listed)]
 
 

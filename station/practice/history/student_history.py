@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 from station.core.errors import DeviceError, StationError
 from station.core.settings import Settings
 from station.practice.history.old_mastery import take_in_old
-from station.practice.history.session_files import student_folder
+from station.practice.history.session_files import leads_to_another, student_folder
 from station.store.patience import in_a_hurry
 
 if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
@@ -51,7 +51,8 @@ class StudentHistory:
         from station.store.opening import history_of  # noqa: PLC0415 - a fifth of a second that only an answer needs
 
         history = history_of(self.settings)
-        take_in_old(history, self.folder, self.student)
+        if not leads_to_another(self.folder):
+            take_in_old(history, self.folder, self.student)
         return history
 
     @contextmanager

@@ -7,26 +7,28 @@ from collections.abc import Callable, Iterator
 from datetime import datetime
 from math import inf
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from station.core.counts import counted
 from station.core.disk.file_names import alike, folder_name
-from station.core.errors import BadInput, DeviceError
+from station.core.errors import DeviceError
 from station.core.settings import Settings
 from station.practice.exchange.notes_kept import take_in_notes
-from station.practice.history.kept_json import kept_document
 from station.practice.history.moved_folders import follow_moved, forget_gone
+from station.practice.history.named_folders import give_new_names, reported_name
 from station.practice.history.old_mastery import FOLDER, take_in_old, untold_faults
 from station.practice.history.session_files import (
-    DOCUMENT_NAME,
     OWN_FOLDERS,
     VIRTUAL_STUDENT,
+    leads_to_another,
+    own_folder_name,
     started_in,
-    student_folder,
+    student_folders,
 )
 from station.practice.history.session_intake import Progress, everything_in
 from station.practice.history.student_history import StudentHistory
 from station.practice.history.unarrived import forget_arrived
+from station.store.student_names import student_key
 
 if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
     from station.store.history import History
@@ -40,12 +42,16 @@ def catch_up(settings: Settings, tell: Callable[[str], None], progress: Progress
     taken, faults = 0, []
     try:
         with StudentHistory.of(settings).reached(inf) as history:
+            for folder in _all_folders(settings.sessions_dir):
+                if leads_to_another(folder):
+                    tell(f"{folder}: is a link to another student's folder, and is left alone")
             for student in _students(history, settings):
                 whose = StudentHistory(settings, student)
-                take_in_old(history, whose.folder, student)
-                faults += untold_faults(history, whose.folder)
-                take_in_notes(history, whose.folder, student)
-                follow_moved(history, whose.folder, student)
+                for folder in student_folders(settings.sessions_dir, student):
+                    take_in_old(history, folder, student)
+                    faults += untold_faults(history, folder)
+                    take_in_notes(history, folder, student)
+                    follow_moved(history, folder, student)
                 found = everything_in(history, settings.sessions_dir, student, progress)
                 forget_gone(history, student, datetime.now())
                 forget_arrived(whose, history)
@@ -65,37 +71,30 @@ def catch_up(settings: Settings, tell: Callable[[str], None], progress: Progress
 def _students(history: "History", settings: Settings) -> Iterator[str]:
     """Who plays, then whoever else has a folder under the folder of all sessions."""
     sessions = settings.sessions_dir
-    named = [settings.student, *(each.name for each in settings.students), *(row.name for row in history.students())]
-    known = {alike(student_folder(sessions, name).name): name for name in reversed(named)}
+    named = [*(row.name for row in history.students()), settings.student, *(each.name for each in settings.students)]
+    give_new_names(sessions, named)
+    known = {alike(own_folder_name(name)): name for name in named}
+    seen = {student_key(settings.student), student_key(VIRTUAL_STUDENT)}
     yield settings.student
     for folder in _folders(sessions):
-        name = known.get(alike(folder.name))
-        if name is None and _is_somebodys(folder):
-            yield _reported_name(folder)
-        elif name not in (None, settings.student, VIRTUAL_STUDENT):
+        name = known.get(alike(folder.name)) or (reported_name(folder) if _is_somebodys(folder) else None)
+        if name is not None and student_key(name) not in seen:
+            seen.add(student_key(name))
             yield name
 
 
-def _folders(sessions: Path) -> list[Path]:
+def _all_folders(sessions: Path) -> list[Path]:
     try:
-        inside = sorted(sessions.iterdir())
+        return sorted(path for path in sessions.iterdir() if path.is_dir())
     except OSError:
         return []
+
+
+def _folders(sessions: Path) -> list[Path]:
     others = {*OWN_FOLDERS, folder_name(VIRTUAL_STUDENT)}
-    return [path for path in inside if path.is_dir() and path.name.casefold() not in others]
+    inside = _all_folders(sessions)
+    return [path for path in inside if path.name.casefold() not in others and not leads_to_another(path)]
 
 
 def _is_somebodys(folder: Path) -> bool:
     return any(started_in(path.name) is not None or path.name == FOLDER for path in folder.iterdir())
-
-
-def _reported_name(folder: Path) -> str:
-    """What the last report calls the student, where that name has this folder."""
-    last = max((path for path in folder.iterdir() if started_in(path.name) is not None), default=None)
-    try:
-        document: Any = None if last is None else kept_document(last / DOCUMENT_NAME)
-        name = document["session"]["student"]
-    except (BadInput, KeyError, TypeError):
-        return folder.name
-    is_theirs = isinstance(name, str) and name.isprintable() and student_folder(folder.parent, name) == folder
-    return name if is_theirs else folder.name

@@ -3,11 +3,9 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from datetime import date
-from pathlib import Path
 
-from station.core.disk.file_names import alike
 from station.core.settings import Settings
-from station.practice.history.session_files import VIRTUAL_STUDENT, student_folder
+from station.practice.history.session_files import VIRTUAL_STUDENT
 from station.practice.history.student_history import StudentHistory
 from station.store.student_names import student_key
 
@@ -47,11 +45,6 @@ def shares_folder(name: str, other: str) -> bool:
     return student_key(name) == student_key(other)
 
 
-def sharing(sessions: Path, name: str, others: Sequence[str]) -> str | None:
-    """Which of the `others` has the folder that `name` would have, on any file system; None where nobody has."""
-    wanted = _folder_of(sessions, name)
-    return next((each for each in others if each != name and _folder_of(sessions, each) == wanted), None)
-
-
-def _folder_of(sessions: Path, name: str) -> str:
-    return alike(student_folder(sessions, name).name)
+def sharing(name: str, others: Sequence[str]) -> str | None:
+    """Which of the `others` is the student whom `name` would be, in another spelling; None where nobody is."""
+    return next((each for each in others if each != name and shares_folder(name, each)), None)

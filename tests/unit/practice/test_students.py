@@ -2,17 +2,18 @@
 
 import json
 from dataclasses import replace
-from datetime import date
+from datetime import date, datetime
 from pathlib import Path
 
 import pytest
 
-from station.core.settings import Settings
+from station.core.errors import DeviceError
+from station.core.settings import Settings, StudentSettings
 from station.drills.library import find_lesson
 from station.drills.mastery.mastery_json import document_of
 from station.drills.mastery.next_pass import new_item
 from station.drills.mastery.practice_steps import item_of
-from station.practice.history.session_files import OWN_FOLDERS, student_folder, write_document
+from station.practice.history.session_files import OWN_FOLDERS, session_folder, student_folder, write_document
 from station.practice.own_data.catching_up import catch_up
 from station.practice.records.students import KnownStudent, known_students, sharing
 
@@ -87,11 +88,11 @@ def test_a_history_that_is_away_is_said_once_and_costs_nothing(settings: Setting
     assert catch_up(settings, told.append) == 1
 
 
-@pytest.mark.parametrize("name", ["Ann/Lee", "Ann-Lee", "ann-lee", "ANN LEE", "Ann Lee/", "../Ann Lee", "Ａｎｎ Lee"])
-def test_two_names_that_become_one_folder_are_found(tmp_path: Path, name: str) -> None:
-    assert sharing(tmp_path, name, ["Bea", "Ann Lee"]) == "Ann Lee"
-    assert sharing(tmp_path, "Ann Lee", ["Bea", "Ann Lee"]) is None
-    assert sharing(tmp_path, "Ann Leigh", ["Bea", "Ann Lee"]) is None
+@pytest.mark.parametrize("name", ["Ann-Lee", "ann-lee", "ANN LEE", "Ann  Lee ", "Ａｎｎ Lee"])
+def test_two_spellings_of_a_name_are_one_student(name: str) -> None:
+    assert sharing(name, ["Bea", "Ann Lee"]) == "Ann Lee"
+    assert sharing("Ann Lee", ["Bea", "Ann Lee"]) is None
+    assert sharing("Ann Leigh", ["Bea", "Ann Lee"]) is None
 
 
 @pytest.mark.parametrize("name", ["..", "../..", "/etc", "CON", "lessons", "Courses", "a\0b", "\n", "~", "." * 300])
@@ -105,3 +106,62 @@ def test_when_somebody_played_is_said(tmp_path: Path) -> None:
     today = date(2026, 3, 9)
     words = [KnownStudent("A", last).words(today) for last in (None, today, date(2026, 3, 8), date(2026, 2, 1))]
     assert words == ["nothing played yet", "played today", "played yesterday", "played on 1 February 2026"]
+
+
+@pytest.mark.parametrize(
+    ("name", "other"),
+    [
+        ("🥁", "🎸"),
+        ("..", " "),
+        ("Zoe.", "Zoe"),
+        ("a/b", "a-b"),
+        ("CON", "CON_"),
+        ("lessons", "lessons_"),
+        ("n" * 80 + "a", "n" * 80 + "b"),
+    ],
+)
+def test_names_that_differ_are_students_apart(settings: Settings, name: str, other: str) -> None:
+    assert sharing(name, [other]) is None
+    folders = [student_folder(settings.sessions_dir, each).name for each in (name, other)]
+    assert folders[0].casefold() != folders[1].casefold()
+    for each, folder, day in zip((name, other), folders, (2, 3), strict=True):
+        played(settings.sessions_dir, folder, f"2026-03-0{day}T10-00-00_rock-1", each)
+    assert catch_up(settings, lambda _line: None) == 2
+    assert {each.name for each in known_students(settings, [])} == {name, other}
+
+
+@pytest.mark.parametrize("name", ["Ann", "Zoë", "Ann Lee", "O_Neil", "ann.lee", "שלום", "n" * 80])
+def test_a_name_that_loses_nothing_keeps_its_folder(tmp_path: Path, name: str) -> None:
+    assert student_folder(tmp_path, name).name == name.replace(" ", "-")
+
+
+def test_a_folder_from_before_is_its_students_still(settings: Settings) -> None:
+    for folder, name in (("unnamed", "🥁"), ("Zoe", "Zoe."), ("Zoe-Lee", "Zoe Lee")):
+        played(settings.sessions_dir, folder, "2026-03-02T10-00-00_rock-1", name)
+    named = replace(settings, students=(StudentSettings("Zoe."),))
+    assert catch_up(named, lambda _line: None) == 3
+    for name in ("🥁", "Zoe.", "Zoe Lee"):
+        assert [path.name for path in student_folder(settings.sessions_dir, name).iterdir()] == [
+            "2026-03-02T10-00-00_rock-1"
+        ]
+    assert {each.name for each in known_students(settings, [])} == {"🥁", "Zoe.", "Zoe Lee"}
+    assert catch_up(named, pytest.fail) == 0
+
+
+def test_a_folder_in_another_spelling_is_taken_and_all_spellings_come_in(settings: Settings) -> None:
+    played(settings.sessions_dir, "Ann", "2026-03-02T10-00-00_rock-1", "Ann")
+    assert student_folder(settings.sessions_dir, "ANN").name == "Ann"
+    played(settings.sessions_dir, "ann", "2026-03-03T10-00-00_rock-1", "ann")
+    assert catch_up(settings, lambda _line: None) == 2
+    assert [each.last for each in known_students(settings, [])] == [date(2026, 3, 3)]
+
+
+def test_a_link_to_another_students_folder_is_left_alone(settings: Settings) -> None:
+    played(settings.sessions_dir, "Ann", "2026-03-02T10-00-00_rock-1", "Ann")
+    (settings.sessions_dir / "Cem").symlink_to("Ann")
+    told: list[str] = []
+    assert catch_up(settings, told.append) == 1
+    assert "Cem: is a link to another student's folder" in told[0]
+    assert [each.name for each in known_students(settings, [])] == ["Ann"]
+    with pytest.raises(DeviceError, match="a link to another student's folder"):
+        session_folder(settings.sessions_dir, "Cem", "rock-1", datetime(2026, 3, 4))

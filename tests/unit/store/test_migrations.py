@@ -202,3 +202,14 @@ def test_another_programs_migrations_are_not_ours(url: str) -> None:
         History(database)
     assert set(_schema(database)) == {"songs", "alembic_version"}
     database.close()
+
+
+def test_students_who_shared_a_key_are_known_by_their_own(url: str) -> None:
+    before = (("unnamed", "🥁"), ("zoe", "Zoe."), ("ann-lee", "Ann Lee"))
+    rows = [f"INSERT INTO students (key, name) VALUES ('{key}', '{name}')" for key, name in before]
+    history = History(_migrated(url, "0002", *rows))
+    for _, name in before:
+        history.remember(name, levels={"rock-1": "beginner"})
+    history.remember("🎸", levels={"rock-1": "beginner"})
+    assert sorted(row.name for row in history.students()) == sorted(["🥁", "🎸", "Zoe.", "Ann Lee"])
+    history.database.close()
