@@ -3,7 +3,7 @@
 Every method is one transaction; all of them raise `DeviceError` where the database cannot be reached or refuses.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from datetime import datetime
 
 from station.store import memory_rows, sessions, students
@@ -206,10 +206,16 @@ class History:
         with self.database.reading() as connection:
             return students.students_known(connection)
 
-    def delete_student(self, student: str) -> bool:
-        """Forget a student and all that is theirs; whether there was anything. `scrub` leaves nothing of them."""
+    def delete_student(self, student: str, meanwhile: Callable[[], None] = lambda: None) -> bool:
+        """Forget a student and all that is theirs, and nothing where that fails; whether there was anything.
+
+        What cannot be undone is done `meanwhile`: nobody else writes, and where it fails, too, nothing is forgotten.
+        `scrub` leaves nothing of them.
+        """
         with self.database.writing() as connection:
-            return students.delete_student(connection, student)
+            was_there = students.delete_student(connection, student)
+            meanwhile()
+        return was_there
 
     def scrub(self) -> str | None:
         """Leave nothing of what was deleted in the database's files; why that could not be done, None if it was."""

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from station.app.settings.first_start import LONGEST_NAME
 from station.app.settings.settings_store import SettingsStore
 from station.app.settings.students import Students, forgotten
 from station.cli.caught_up import caught_up
@@ -12,6 +13,7 @@ from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput, DeviceError, StationError
 from station.practice.history.session_files import VIRTUAL_STUDENT
 from station.practice.own_data.student_deletion import Theirs, delete_theirs, what_is_theirs
+from station.practice.records.students import shares_folder
 from station.store.history import History
 
 
@@ -32,24 +34,29 @@ def run(options: DeleteOptions) -> int:
         raise store.fault
     history = history_of(store.now)
     caught_up(store.now)
-    _check_known(store, history, options.student)
-    theirs = what_is_theirs(history, store.now, options.student)
+    student = _known(store, history, options.student)
+    theirs = what_is_theirs(history, store.now, student)
     _tell(theirs)
     if not options.yes:
-        _ask(options.student)
+        _ask(student)
     remains = delete_theirs(history, theirs)
-    _forget(store, options.student)
+    _forget(store, student)
     if remains is not None:
         say(f"the file still has traces of it until all programs that use it have ended: {history.name}: {remains}")
-    say(f"deleted: nothing of {one_line(options.student)} is left here")
+    say(f"deleted: nothing of {one_line(student)} is left here")
     return 0
 
 
-def _check_known(store: SettingsStore, history: History, student: str) -> None:
-    """Raises `BadInput` for a name that nobody has to the letter: another spelling may mean another student."""
+def _known(store: SettingsStore, history: History, student: str) -> str:
+    """The student as they are known, however they are spelled; raises `BadInput` for a name that nobody has."""
     known = [each.name for each in Students(store).known] + [each.name for each in history.students()]
-    if student not in (*known, VIRTUAL_STUDENT):
-        raise BadInput(student, "", f"no such student{did_you_mean(student, known)}")
+    if student in (*known, VIRTUAL_STUDENT):
+        return student
+    same = next((each for each in known if shares_folder(each, student)), None)
+    if same is None:
+        near = [each for each in known if len(each) <= LONGEST_NAME]
+        raise BadInput(student, "", f"no such student{did_you_mean(student, near)}")
+    return same
 
 
 def _tell(theirs: Theirs) -> None:

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from pathlib import Path
 
 if sys.platform == "win32":
     import msvcrt
@@ -31,3 +32,15 @@ else:
         except OSError:
             return False
         return True
+
+
+def is_locked(path: Path) -> bool:
+    """Whether somebody holds a lock on that file right now; nobody where it cannot be opened."""
+    try:
+        descriptor = os.open(path, os.O_RDWR)
+    except (OSError, ValueError):
+        return False
+    try:
+        return not lock(descriptor)
+    finally:
+        os.close(descriptor)

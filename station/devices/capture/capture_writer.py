@@ -14,6 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
 
+from station.core.disk.file_lock import lock
 from station.core.errors import DeviceError
 from station.devices.capture.capture import MAGIC, CaptureRecord, RecordKind, RecordWriter, parse_capture, start_record
 
@@ -58,6 +59,7 @@ class CaptureFile:
             self._file = os.open(path, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o644)
         except OSError as fault:
             raise DeviceError(f"{path}: no capture can be written: {fault.strerror or fault}") from fault
+        lock(self._file)  # who deletes files sees that this one is being written
         self._is_on_disk = stat.S_ISREG(os.fstat(self._file).st_mode)
         try:
             self._writer = RecordWriter(self._continue_file())

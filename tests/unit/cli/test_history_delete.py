@@ -5,7 +5,7 @@ import shutil
 import sqlite3
 import subprocess
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from datetime import datetime
 from io import StringIO
 from pathlib import Path
@@ -15,8 +15,10 @@ import pytest
 from station.cli.command_line import main
 from station.cli.history_verbs import delete_student
 from station.core.settings import Settings, StudentSettings, data_folder, load_settings, save_settings
+from station.devices.capture.capture_writer import CaptureFile
 from station.practice.history.session_files import student_folder
-from station.store.rows import MasteryRow, TeacherNoteRow
+from station.store import sqlite_files
+from station.store.rows import MasteryRow, SessionRow, SessionState, TeacherNoteRow
 from tests.fakes.kept_sessions import kept, on_the_disk, users_history
 
 HOSTILE = ("../../etc", "<script>x</script>", "=cmd()", "z" * 200, "\u202eevil שלום", "🥁 drum")
@@ -111,13 +113,19 @@ def test_it_says_what_goes_and_what_stays_and_asks(
     assert returns.is_dir()
 
 
-def test_another_spelling_is_asked_back(capsys: pytest.CaptureFixture[str]) -> None:
+def test_another_name_is_asked_back_and_another_spelling_is_the_student(capsys: pytest.CaptureFixture[str]) -> None:
     folder = keep_all_of("Ann", "rock-1")
-    for name in ("ann", "../Ann", "Anna", "."):
+    keep_all_of("z" * 300, "rock-1")
+    for name in ("../Ann", "Anna", "."):
         assert main(["history", "delete", "--student", name, "--yes"]) == 2
-        assert "no such student; did you mean Ann?" in capsys.readouterr().err or name == "."
+        told = capsys.readouterr().err
+        assert "no such student; did you mean Ann?" in told or name == "."
+        assert "zzz" not in told
     assert folder.is_dir()
     assert len(users_history().sessions("Ann")) == 3
+    assert main(["history", "delete", "--student", "ann", "--yes"]) == 0
+    assert "This deletes all of Ann" in capsys.readouterr().err
+    assert not folder.exists()
 
 
 def test_links_are_never_followed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -194,3 +202,41 @@ def test_settings_that_are_wrong_delete_nothing(capsys: pytest.CaptureFixture[st
     settings.unlink()
     assert folder.is_dir()
     assert len(users_history().sessions("Ann")) == 3
+
+
+def test_a_history_that_another_program_holds_keeps_the_folder(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = keep_all_of("Ann", "rock-1")
+    monkeypatch.setattr(sqlite_files, "PATIENCE_S", 0.01)
+    with closing(sqlite3.connect(data_folder() / "history.sqlite3", isolation_level=None)) as other:
+        other.execute("BEGIN IMMEDIATE")
+        assert main(["history", "delete", "--student", "Ann", "--yes"]) == 2
+        other.execute("ROLLBACK")
+    assert "locked" in capsys.readouterr().err
+    assert len(list(folder.iterdir())) == 3
+    assert main(["history", "delete", "--student", "Ann", "--yes"]) == 0
+    assert not folder.exists()
+
+
+def test_who_plays_right_now_is_not_deleted(capsys: pytest.CaptureFixture[str]) -> None:
+    folder = keep_all_of("Ann", "rock-1")
+    running = folder / "2026-11-24T19-00-00_rock-1"
+    users_history().begin(SessionRow("Ann", running.name, DAY, str(running), state=SessionState.BEGUN))
+    capture = CaptureFile(running / "session.capture", 0)
+    assert main(["history", "delete", "--student", "Ann", "--yes"]) == 2
+    assert f"{running}: this session runs in another program right now" in capsys.readouterr().err
+    assert len(list(folder.iterdir())) == 4
+    capture.close(1)
+    assert main(["history", "delete", "--student", "Ann", "--yes"]) == 0
+    assert not folder.exists()
+
+
+def test_a_folder_in_another_spelling_goes_too() -> None:
+    folder = keep_all_of("Ann", "rock-1")
+    other = shutil.copytree(folder, folder.with_name("ann"))
+    assert main(["history", "delete", "--student", "Ann", "--yes"]) == 0
+    assert not folder.exists()
+    assert not other.exists()
+    assert main(["history", "list", "--student", "Ann"]) == 0
+    assert users_history().students() == []
