@@ -57,6 +57,7 @@ class Controller:
         for part in (*first, parts.editor, parts.phase, parts.song, parts.sound):
             attempt(partial(part.advance, now_ns))
         attempt(lambda: parts.toasts.notify(parts.export.news() or parts.export.written() or ""))
+        attempt(lambda: parts.toasts.notify(parts.history.page_written()))
         attempt(lambda: take_imported(parts))
         if parts.history_opening.advance():
             parts.look_again()

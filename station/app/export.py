@@ -16,7 +16,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import assert_never
 
-from station.app.actions.file_actions import CancelFilm, Export, ExportReport, ExportTake, FileAction, FilmTake
+from station.app.actions.file_actions import CancelFilm, Export, ExportTake, FileAction, FilmTake
 from station.app.music_files.named_parts import load_part
 from station.app.music_files.part_export import bars_of, write_part
 from station.app.settings.view_settings import ViewSettings
@@ -34,7 +34,7 @@ from station.practice.history.session_files import student_folder
 
 FOLDER = "take-along"
 _PAPER = "a4"
-FILM, LOOP, LESSON, SHEET, _TAKE, _PAGE = ".mp4", ".gif", ".toml", ".pdf", ".mid", ".html"
+FILM, LOOP, LESSON, SHEET, _TAKE, PAGE = ".mp4", ".gif", ".toml", ".pdf", ".mid", ".html"
 ANIMATE = (sys.executable, "-m", "station.cli.command_line", "animate")
 JUDGE_AGAIN = (sys.executable, "-m", "station.cli.command_line", "battle", "--judge-again")
 _BACKGROUND = 10
@@ -88,10 +88,6 @@ class Exporter:
         match action:
             case Export(ending):
                 return self._export(ending, lesson, bars, settings, view_settings)
-            case ExportReport(number, name):
-                out = _folder_of(settings) / f"{folder_name(name)}{_PAGE}"
-                self._write(write_report, number, settings, out)
-                return "the page is being written; you may go on"
             case ExportTake(capture):
                 self._write(write_take, str(capture), capture.with_suffix(_TAKE))
                 return ""
@@ -274,14 +270,6 @@ def write_take(capture: str, out: Path) -> ExportedFile:
     return ExportedFile(out, write_part(load_part(capture), out))
 
 
-def write_report(number: int, settings: Settings, out: Path) -> ExportedFile:
-    """Write the page about a session of the history, by its id; raises `StationError`."""
-    from station.scenes.report.page_files import page_bytes
-
-    write_whole(out, page_bytes(str(number), settings, _PAGE))
-    return ExportedFile(out)
-
-
 def lesson_file_of(lesson: Lesson, bars: Bars) -> str:
     """The text of a lesson that repeats these bars: its own, or one written anew where it came from no file."""
     if not lesson.text:
@@ -291,10 +279,10 @@ def lesson_file_of(lesson: Lesson, bars: Bars) -> str:
 
 def _place(lesson: Lesson, bars: Bars, settings: Settings, ending: str) -> Path:
     """Where the file goes; raises `DeviceError` where there can be no folder."""
-    return _folder_of(settings) / f"{folder_name(lesson.name)}_{bars[0] + 1}-{bars[1] + 1}{ending}"
+    return take_along_folder(settings) / f"{folder_name(lesson.name)}_{bars[0] + 1}-{bars[1] + 1}{ending}"
 
 
-def _folder_of(settings: Settings) -> Path:
+def take_along_folder(settings: Settings) -> Path:
     """What the student takes along; raises `DeviceError` where there can be no folder."""
     folder = student_folder(settings.sessions_dir, settings.student) / FOLDER
     try:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from datetime import date
 from enum import IntEnum
 from pathlib import Path
 
@@ -137,7 +138,7 @@ class ShownResult:
 
     `heat` says how right each bar was, `hits` has every stroke, `before` is an earlier session of the lesson, or says
     why there is none to be compared with, `wrong_pads` says what was struck for what. `student` is who played, empty
-    for whoever sits here.
+    for whoever sits here; of a session of another day it is `day`.
     """
 
     facts: ResultFacts
@@ -148,3 +149,4 @@ class ShownResult:
     before: PreviousSession | str = NONE_KEPT
     wrong_pads: tuple[WrongPad, ...] = ()
     student: str = ""
+    day: date | None = None

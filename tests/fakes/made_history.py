@@ -21,7 +21,7 @@ LESSONS = (
     ("funk-1", "Funk 1: sixteenths", 76.0),
 )
 _LIMBS = ("right_hand", "left_hand", "right_foot", "left_foot")
-_PIECES = ("closed_hi_hat", "snare", "kick", "ride", "crash_1", "high_tom", "floor_tom_1")
+_PIECES = ("hihat", "snare", "kick", "ride", "crash_1", "tom_1", "floor_tom_1")
 _FIRST_HOUR = 16
 _LEANS = {"right_hand": -4.0, "left_hand": 9.0, "right_foot": -14.0, "left_foot": 2.0}
 

@@ -65,15 +65,7 @@ def history(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     ctx.yield_(2)
     seen["found"] = part.shown
     unread("sessions")
-    ctx.item_click(f"**/{OLD.day} {OLD:%b} {OLD:%Y}{session_label(number)}")
-    seen["opening"] = drive.state.history.opening == number
-    drive.wait_for(ctx, Stage.RESULT)
-    ctx.yield_(3)
-    state = drive.state
-    seen["opened"] = [state.room.student, None if state.report is None else state.report.document["score"]]
-    unread("opened")
-    drive.station.dispatch(Dismiss())
-    drive.wait_for(ctx, Stage.IDLE)
+    _open_and_leave(drive, ctx, number)
     for section in (HistorySection.TRENDS, HistorySection.WEEKS):
         drive.window.pages.history.section = section
         ctx.yield_(2)
@@ -84,6 +76,25 @@ def history(drive: Drive, ctx: imgui.test_engine.TestContext) -> None:
     _in_large_letters(drive, ctx, unread)
     weeks = None if drive.state.history.pages is None else drive.state.history.pages.weeks
     seen["pieces"] = None if weeks is None else [weeks.part.value, len(weeks.rows)]
+
+
+def _open_and_leave(drive: Drive, ctx: imgui.test_engine.TestContext, number: int) -> None:
+    """Open a session and go back to the list, whose rows stay where they were."""
+    seen = drive.seen
+    row = f"**/{OLD.day} {OLD:%b} {OLD:%Y}{session_label(number)}"
+    lies = ctx.item_info(row).rect_full.min.y
+    ctx.item_click(row)
+    seen["opening"] = drive.state.history.opening == number
+    drive.wait_for(ctx, Stage.RESULT)
+    ctx.yield_(3)
+    state = drive.state
+    seen["opened"] = [state.room.student, None if state.report is None else state.report.document["score"]]
+    drive.wait_until(ctx, lambda state: not state.history.reads)
+    seen["unread opened"] = drive.unread(ctx)
+    drive.station.dispatch(Dismiss())
+    drive.wait_for(ctx, Stage.IDLE)
+    ctx.yield_(2)
+    seen["moved"] = ctx.item_info(row).rect_full.min.y - lies
 
 
 def _in_large_letters(drive: Drive, ctx: imgui.test_engine.TestContext, unread: Callable[[str], None]) -> None:

@@ -500,6 +500,7 @@ def test_the_history_is_looked_through_and_a_session_opened_from_it(
     assert seen["opening"], "another process judges it, and the window goes on"
     assert seen["opened"][0].startswith("you, ")
     assert seen["opened"][1] == seen["score"]
+    assert seen["moved"] == 0, "the rows stay where they were when one is opened"
     assert seen["pieces"] == ["piece", 7]
     unread = {name: lines for name, lines in seen.items() if name.startswith("unread")}
     assert len(unread) == 13

@@ -30,15 +30,7 @@ class CancelFilm:
     """Give the video up."""
 
 
-@dataclass(frozen=True, slots=True)
-class ExportReport:
-    """Write the page about the session of the history whose id is `number` and that is called `name`."""
-
-    number: int
-    name: str
-
-
-FileAction = ExportReport | Export | ExportTake | FilmTake | CancelFilm
+FileAction = Export | ExportTake | FilmTake | CancelFilm
 
 
 @dataclass(frozen=True, slots=True)

@@ -49,4 +49,19 @@ class OpenKept:
     number: int
 
 
-HistoryAction = ShowPages | ReadAgain | OpenKept
+@dataclass(frozen=True, slots=True)
+class WritePage:
+    """Write the page about the session of the history whose id is `number` and whose folder is or was `name`."""
+
+    number: int
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class OpenPage:
+    """Show the page that was written about that session in the user's browser."""
+
+    number: int
+
+
+HistoryAction = ShowPages | ReadAgain | OpenKept | WritePage | OpenPage

@@ -9,10 +9,19 @@ from concurrent.futures import Executor, Future
 from datetime import date
 from typing import assert_never
 
-from station.app.actions.history_actions import Asked, HistoryAction, OpenKept, ReadAgain, ShowPages
+from station.app.actions.history_actions import (
+    Asked,
+    HistoryAction,
+    OpenKept,
+    OpenPage,
+    ReadAgain,
+    ShowPages,
+    WritePage,
+)
 from station.app.history.history_shown import HistoryPages, HistoryView
 from station.app.history.open_kept import Opened, opened_session
 from station.app.history.read_history import read_pages
+from station.app.history.session_pages import SessionPages
 from station.app.room_state import Stage
 from station.app.settings.settings_store import SettingsStore
 from station.app.worker_process import StartWork, Work
@@ -26,6 +35,7 @@ class HistoryPage:
 
     def __init__(self, store: SettingsStore, reader: Executor, start: StartWork, read: Read = read_pages) -> None:
         self._store, self._reader, self._start, self._read = store, reader, start, read
+        self._files = SessionPages(start)
         self._asked = Asked()
         self._coming: list[Future[HistoryPages]] = []
         self._pages: HistoryPages | None = None
@@ -73,6 +83,10 @@ class HistoryPage:
             self._opened = found.row.id
         return found
 
+    def page_written(self) -> str:
+        """A line where the page of a session has come, else empty; raises the `StationError` that it met."""
+        return self._files.advance()
+
     def _end_opening(self) -> None:
         if self._opening is not None:
             self._opening[1].end()
@@ -81,12 +95,14 @@ class HistoryPage:
     def view(self) -> HistoryView:
         """What is shown."""
         opening = None if self._opening is None else self._opening[0]
-        return HistoryView(self._asked, self._pages, bool(self._coming), self._fault, opening, self._opened)
+        return HistoryView(
+            self._asked, self._pages, bool(self._coming), self._fault, opening, self._opened, self._files.view()
+        )
 
     # --- what the user does ------------------------------------------------------------------------------------------
 
     def act(self, action: HistoryAction) -> None:
-        """Do what the user asks; raises `DeviceError` where no process can be had."""
+        """Do what the user asks; raises `DeviceError` where no process can be had, or a page is not there."""
         match action:
             case ShowPages(asked):
                 self._asked = asked
@@ -96,6 +112,10 @@ class HistoryPage:
             case OpenKept(number):
                 self._end_opening()
                 self._opening = number, self._start(opened_session, number, self._store.now)
+            case WritePage(number, name):
+                self._files.write(number, name, self._store.now)
+            case OpenPage(number):
+                self._files.open(number)
             case _:
                 assert_never(action)
 
@@ -109,6 +129,7 @@ class HistoryPage:
     def close(self) -> None:
         """End what is read and judged."""
         self._end_opening()
+        self._files.close()
         self._drop()
         self._reader.shutdown(wait=False, cancel_futures=True)
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from datetime import date
 
 from station.app.actions.history_actions import Asked
+from station.app.history.session_pages import PageFiles
 from station.practice.history.calendar_days import Month, PractisedDay
 from station.practice.history.overview import WeekTable
 from station.practice.history.streaks import Streak
@@ -50,6 +51,7 @@ class HistoryView:
 
     `reads` while something is still to come; `fault` is why nothing could be read, empty where it was. `opening` is the
     id of the session that is being judged again to be shown, `opened` of the one that was shown last, None for none.
+    `page_files` are the pages of sessions, as files.
     """
 
     asked: Asked = field(default_factory=Asked)
@@ -58,3 +60,4 @@ class HistoryView:
     fault: str = ""
     opening: int | None = None
     opened: int | None = None
+    page_files: PageFiles = field(default_factory=PageFiles)

@@ -75,7 +75,8 @@ def opened_session(number: int, settings: Settings) -> Opened:
 
 def _lesson(row: SessionRow, folder: str, settings: Settings) -> SavedSession:
     kept = kept_session(session_place(str(row.id), settings), settings)
-    shown = shown_result(kept.result, kept.document, folder, _NO_BEFORE, student=whose(row.started.date()))
+    day = row.started.date()
+    shown = shown_result(kept.result, kept.document, folder, _NO_BEFORE, whose(day), day)
     return SavedSession(kept.result, shown)
 
 

@@ -1,6 +1,7 @@
 """A result as it is shown: one's own when a session is over, a student's when their return is opened."""
 
 from dataclasses import dataclass, replace
+from datetime import date
 
 from station.app.room_state import ShownResult
 from station.core.errors import StationError
@@ -45,8 +46,12 @@ def shown_result(
     folder: str = "",
     before: PreviousSession | str = NONE_KEPT,
     student: str = "",
+    day: date | None = None,
 ) -> ShownResult:
-    """The `result` with the `document` of it in `folder`; `student` is who played, empty for whoever sits here."""
+    """The `result` with the `document` of it in `folder`; `student` is who played, empty for whoever sits here.
+
+    `day` is when, of a session of another day that they played themselves.
+    """
     return ShownResult(
         facts=session_facts(result, document),
         document=document,
@@ -56,4 +61,5 @@ def shown_result(
         before=before,
         wrong_pads=wrong_pads(result),
         student=student,
+        day=day,
     )

@@ -17,6 +17,8 @@ from station.practice.records.previous_session import PreviousSession
 from station.scenes.hit_table import EveryHit
 
 TEACHER_LABEL, STUDENT_LABEL, STOP_LABEL = "Teacher##playback", "You##playback", "Stop##playback"
+THEN_LABEL = "You then##playback"
+"""Of a session of another day."""
 PREVIOUS_LABEL = "###previous"
 """What stands before it is the day."""
 _WIDE = 90.0
@@ -48,7 +50,7 @@ class PlaybackRow:
         row_bar = int(here["row_bar"][0]) if len(here) else 0
         self._button(TEACHER_LABEL, Whose.TEACHER, row_bar, row)
         theme.tooltip("The bar as the teacher plays it, with the click")
-        self._students(report.student, row_bar, row)
+        self._students(report, row_bar, row)
         if not report.student:
             self._previous(report.before, row_bar, row)
         imgui.end_disabled()
@@ -65,14 +67,22 @@ class PlaybackRow:
         if len(here):
             self._dispatch(HearBar(int(here["row_bar"][0]), Whose.STUDENT))
 
-    def _students(self, student: str, row_bar: int, row: FlowRow) -> None:
+    def _students(self, report: ShownResult, row_bar: int, row: FlowRow) -> None:
+        student, day = report.student, report.day
+        if day is not None:
+            self._button(THEN_LABEL, Whose.STUDENT, row_bar, row)
+            when = f"{day.day} {day:%B %Y}"
+            theme.tooltip(
+                f"This pass over the bar as you played it on {when}, with the click; translucent sticks are yours"
+            )
+            return
         if not student:
             self._button(STUDENT_LABEL, Whose.STUDENT, row_bar, row)
             theme.tooltip("The bar as you played it in this pass, with the click; translucent sticks are yours")
             return
         short = theme.one_line(student, theme.points(_WIDE) - 2 * imgui.get_style().frame_padding.x)
         self._button(f"{short}##played", Whose.STUDENT, row_bar, row)
-        theme.tooltip(f"The bar as {student} played it in this pass, with the click; translucent sticks are theirs")
+        theme.tooltip(f"This pass over the bar as {student} played it, with the click; translucent sticks are theirs")
 
     def _previous(self, before: PreviousSession | str, row_bar: int, row: FlowRow) -> None:
         if isinstance(before, str):

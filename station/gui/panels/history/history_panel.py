@@ -60,8 +60,6 @@ class HistoryPanel:
         if not view.pages.sessions:
             theme.soft(_NOTHING)
             return
-        if view.opening is not None:
-            theme.soft("Judging the session again from its capture …")
         self._tabs(state, view, view.pages)
 
     def _show_day(self, only: SessionFilter) -> None:

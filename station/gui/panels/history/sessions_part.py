@@ -1,15 +1,15 @@
 """The list of sessions, the newest first: searched, filtered, only its visible lines drawn; a press opens one."""
 
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from imgui_bundle import imgui
 
 from station.app.actions.action import Action
-from station.app.actions.file_actions import ExportReport
 from station.app.actions.history_actions import OpenKept
 from station.app.history.history_shown import HistoryPages, HistoryView
 from station.gui import theme
+from station.gui.panels.history.page_row import PageRow
 from station.gui.widgets.long_combo import long_combo
 from station.practice.book.book_words import day_in_words
 from station.practice.history.session_list import (
@@ -20,13 +20,34 @@ from station.practice.history.session_list import (
     result_words,
     session_words,
     short_when,
-    when_words,
 )
 from station.store.rows import SessionKind, SessionRow
 
 SEARCH_LABEL, KIND_LABEL, LESSON_LABEL = "##history-search", "##history-kind", "##history-lesson"
-ALL_LABEL, REPORT_LABEL = "All days##history", "Write the page of the opened session##history"
+ALL_LABEL = "All days##history"
 _KINDS = (None, *SessionKind)
+_TITLE_WIDE = 210.0
+"""Design pixels that a title has before further columns get any."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Column:
+    """A column: its `title`, the `widest` text that it holds (empty: what the others leave), what stands in a row."""
+
+    title: str
+    widest: str
+    text: Callable[[SessionRow], str]
+
+
+_WHAT = _Column("What", "", played_title)
+_SCORE = _Column("Score", "Score", result_words)
+_MORE = (
+    _Column("bpm", "000.0", lambda row: "" if row.beats_a_minute is None else f"{row.beats_a_minute:g}"),
+    _Column("± ms", "± ms", lambda row: "" if row.sd_ms is None else f"{row.sd_ms:.0f}"),
+    _Column("min", "min", lambda row: f"{row.played_s / 60:.0f}"),
+)
+"""In this order where there is room, before the score; all of it stands in a row's tooltip as well."""
+_WHEN = "30 May 23:59"
 
 
 class SessionsPart:
@@ -35,6 +56,7 @@ class SessionsPart:
     def __init__(self, dispatch: Callable[[Action], None]) -> None:
         self._dispatch = dispatch
         self.only = SessionFilter()
+        self._page = PageRow(dispatch)
         self._listed: tuple[HistoryPages, SessionFilter, tuple[SessionRow, ...]] | None = None
 
     @property
@@ -45,28 +67,28 @@ class SessionsPart:
     def gui(self, pages: HistoryPages, view: HistoryView, can_open: bool) -> None:
         """Draw it; while `can_open` is not, nothing is pressed."""
         self._filters(pages)
-        opened = next((row for row in pages.sessions if row.id == view.opened), None)
-        if opened is not None and opened.kind is SessionKind.LESSON:
-            self._report(opened)
+        self._page.gui(pages, view)
         rows = self._rows(pages)
         if not rows:
             theme.soft("No session is like that.")
             return
         theme.soft(f"{len(rows)} of {len(pages.sessions)} sessions; press one to open it")
         flags = imgui.TableFlags_.row_bg | imgui.TableFlags_.scroll_y
-        if not imgui.begin_table("##sessions", 4, flags):
+        columns = _columns(imgui.get_content_region_avail().x, max(row.id for row in rows))
+        if not imgui.begin_table(f"##sessions{len(columns)}", 1 + len(columns), flags):
             return
         imgui.table_setup_scroll_freeze(0, 1)
-        for title, widest in (("When", "30 May 23:59"), ("What", ""), ("min", "min"), ("Score", "Score 0")):
+        for title, widest in (("When", _WHEN), *((each.title, each.widest) for each in columns)):
             flag = imgui.TableColumnFlags_.width_fixed if widest else imgui.TableColumnFlags_.width_stretch
             imgui.table_setup_column(title, flag, imgui.calc_text_size(widest).x if widest else 1.0)
         imgui.table_headers_row()
+        chosen = view.opened if view.opening is None else view.opening
         imgui.begin_disabled(not can_open)
         clipper = imgui.ListClipper()
         clipper.begin(len(rows))
         while clipper.step():
             for at in range(clipper.display_start, clipper.display_end):
-                self._row(rows[at], pages, is_marked=rows[at].id in (view.opening, view.opened))
+                self._row(rows[at], pages, columns, is_marked=rows[at].id == chosen)
         clipper.end()
         imgui.end_disabled()
         imgui.end_table()
@@ -103,27 +125,31 @@ class SessionsPart:
         theme.tooltip("Sessions of one lesson alone")
         self.only = replace(self.only, search=search, kind=_KINDS[kind], lesson=names[lesson])
 
-    def _report(self, row: SessionRow) -> None:
-        """The page about the session that was opened last."""
-        if imgui.button(REPORT_LABEL, imgui.ImVec2(-1, 0)):
-            self._dispatch(ExportReport(row.id, row.name))
-        what = "bars, strokes and advice, and the take to see and hear, for any browser"
-        theme.tooltip(f"{played_title(row)}, {when_words(row)}: {what}")
-
-    def _row(self, row: SessionRow, pages: HistoryPages, is_marked: bool) -> None:
+    def _row(self, row: SessionRow, pages: HistoryPages, columns: Sequence[_Column], is_marked: bool) -> None:
         imgui.table_next_row()
         imgui.table_next_column()
         flags = imgui.SelectableFlags_.span_all_columns
         when = short_when(row, pages.today or row.started.date())
         if imgui.selectable(f"{when}{session_label(row.id)}", is_marked, flags)[0]:
             self._dispatch(OpenKept(row.id))
-        theme.tooltip(session_words(row))
-        imgui.table_next_column()
-        _text(played_title(row))
-        imgui.table_next_column()
-        imgui.text(f"{row.played_s / 60:.0f}")
-        imgui.table_next_column()
-        _text(result_words(row))
+        theme.tooltip(f"{session_words(row)}\nNumber {row.id}, as `station report {row.id}` has it")
+        for column in columns:
+            imgui.table_next_column()
+            _text(column.text(row))
+
+
+def _columns(width: float, greatest: int) -> list[_Column]:
+    """The columns beside the day's that `width` pixels have room for; `greatest` is of the sessions' numbers."""
+    number = _Column("No.", max("No.", "0" * len(str(greatest)), key=len), lambda row: str(row.id))
+    between, bar = 2 * imgui.get_style().cell_padding.x, imgui.get_style().scrollbar_size
+    taken = [imgui.calc_text_size(widest).x + between for widest in (_WHEN, _SCORE.widest, number.widest)]
+    left = width - sum(taken) - between - bar - theme.points(_TITLE_WIDE)
+    more: list[_Column] = []
+    for column in _MORE:
+        left -= imgui.calc_text_size(column.widest).x + between
+        if left >= 0:
+            more.append(column)
+    return [_WHAT, *more, _SCORE, number]
 
 
 def _text(text: str) -> None:

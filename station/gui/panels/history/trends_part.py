@@ -1,6 +1,6 @@
 """Trends of a lesson: a plot and a sentence for each measure, and what they rest on."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from datetime import timedelta
 
@@ -11,11 +11,13 @@ from station.app.actions.action import Action
 from station.app.actions.history_actions import Asked
 from station.app.actions.teacher_actions import TakeUp
 from station.app.history.history_shown import HistoryPages
+from station.app.history.trend_shown import axis_of, dot_words, dots_of, told
 from station.gui import theme
 from station.gui.widgets import plots
 from station.gui.widgets.long_combo import long_combo
-from station.practice.history.trends import WORDS, Measure, Trend, Verdict, trend_words
+from station.practice.history.trends import WORDS, Measure, Trend, Verdict
 from station.render import palette
+from station.store.rows import SessionRow
 
 LESSON_LABEL, PRACTISE_LABEL = "##trend-lesson", "Practise it##trend"
 _HIGH = 130.0
@@ -30,6 +32,8 @@ _TIPS = {
     Measure.LEAN: "The mean of all strokes against the click: above 0 is late, below is early",
     Measure.TEMPO: "At which tempo you played it: a choice, not a mark",
 }
+_NEAR = 8.0
+"""A dot is pointed at from so many design pixels."""
 _TICKS = 3
 _MARGIN = 0.12
 
@@ -59,8 +63,9 @@ class TrendsPart:
             return asked
         theme.soft(_ABOUT)
         if imgui.begin_child("##trends"):
+            rows = {row.id: row for row in pages.sessions}
             for trend in shown.trends:
-                _trend(trend)
+                _trend(trend, rows)
             if imgui.button(PRACTISE_LABEL, imgui.ImVec2(theme.points(_HIGH), 0)):
                 self._dispatch(TakeUp(shown.lesson))
             theme.tooltip("Choose this lesson in the list")
@@ -68,31 +73,28 @@ class TrendsPart:
         return asked
 
 
-def _trend(trend: Trend) -> None:
+def _trend(trend: Trend, rows: Mapping[int, SessionRow]) -> None:
     words = WORDS[trend.measure]
     near = "" if trend.near is None or trend.line is None else f", as at {trend.near:.0f} bpm"
     theme.part(f"{words.label} in {words.unit}{near}")
     is_news = trend.is_sure and trend.verdict in (Verdict.BETTER, Verdict.WORSE, Verdict.CHANGED)
-    imgui.text_wrapped(trend_words(trend)) if is_news else theme.soft(trend_words(trend))
+    imgui.text_wrapped(told(trend)) if is_news else theme.soft(told(trend))
     if trend.points and implot.begin_plot(f"##{trend.measure}", imgui.ImVec2(-1, theme.points(_HIGH)), plots.SEEN):
-        _plot(trend)
+        pointed = _plot(trend)
         implot.end_plot()
-        theme.tooltip(_TIPS[trend.measure])
+        theme.tooltip(_TIPS[trend.measure] if pointed is None else dot_words(trend, pointed, rows))
 
 
-def _plot(trend: Trend) -> None:
+def _plot(trend: Trend) -> int | None:
+    """Draw it; returns the dot that is pointed at, None for none."""
     line = trend.line
-    if line is None:
-        day = np.array([point.day for point in trend.points])
-        value = np.array([point.value for point in trend.points])
-    else:
-        day, value = line.days, line.values
-    shown = value if trend.measure is not Measure.LEAN else np.append(value, 0.0)
-    span = max(float(np.ptp(shown)), WORDS[trend.measure].small)
+    day, value = dots_of(trend)
+    low, high = axis_of(trend.measure, value)
+    span = high - low
     first, last = float(day[0]), max(float(day[-1]), float(day[0]) + 1.0)
     edge = (last - first) * _MARGIN / 2
     plots.fixed(implot.ImAxis_.x1, first - edge, last + edge)
-    plots.fixed(implot.ImAxis_.y1, float(shown.min()) - _MARGIN * span, float(shown.max()) + _MARGIN * span)
+    plots.fixed(implot.ImAxis_.y1, low - _MARGIN * span, high + _MARGIN * span)
     _dates(trend, first, last)
     if trend.measure is Measure.LEAN:
         plots.across("##beat", [0.0], plots.spec(palette.INK_FAINT))
@@ -104,6 +106,15 @@ def _plot(trend: Trend) -> None:
         )
         implot.plot_line("##line", at, middle, plots.spec(palette.GOOD, 2.0))
     implot.plot_scatter("##days", day, value, plots.spec(palette.BRAND, 1.0, 3.5, implot.Marker_.circle))
+    return _pointed_at(day, value)
+
+
+def _pointed_at(day: plots.Array, value: plots.Array) -> int | None:
+    mouse, near = imgui.get_mouse_pos(), theme.points(_NEAR)
+    places = [implot.plot_to_pixels(float(x), float(y)) for x, y in zip(day, value, strict=True)]
+    off = [((place.x - mouse.x) ** 2 + (place.y - mouse.y) ** 2) ** 0.5 for place in places]
+    nearest = min(range(len(off)), key=off.__getitem__)
+    return nearest if off[nearest] <= near else None
 
 
 def _dates(trend: Trend, first: float, last: float) -> None:

@@ -7,6 +7,7 @@ from imgui_bundle import imgui
 
 from station.app.actions.history_actions import Asked
 from station.app.history.history_shown import HistoryPages
+from station.app.history.part_names import full_name, short_name
 from station.gui import theme
 from station.gui.widgets.flow_row import FlowRow
 from station.gui.widgets.long_combo import long_combo
@@ -23,14 +24,16 @@ _MEASURES = {
 }
 _FAR = {WeekMeasure.LEAN: 30.0, WeekMeasure.SPREAD: 50.0, WeekMeasure.HIT: 40.0}
 """How far from what is wanted is shaded most: milliseconds and percents (our choice: twice what a pass may have)."""
+_WEEK = "Week of"
 _MOST = 0.55
 """Opacity of the darkest cell."""
 _ABOUT = (
     "A number is the mean of the week's days, ± how far the truth may lie, 19 times in 20; without ± it cannot be told."
     " Another lesson or tempo changes it too."
 )
-_COLUMN = 60.0
-"""Design pixels."""
+_COLUMN = 48.0
+"""Design pixels of a column at least."""
+_WIDER = "Wider than the panel: Shift and the wheel, or the bar below, show the rest; the busiest stand first."
 
 
 def weeks_part(pages: HistoryPages, asked: Asked) -> Asked:
@@ -67,19 +70,33 @@ def weeks_part(pages: HistoryPages, asked: Asked) -> Asked:
 
 
 def _table(table: WeekTable) -> None:
+    first, widths = imgui.calc_text_size(_WEEK).x, _widths(table)
+    between = 2 * imgui.get_style().cell_padding.x
+    taken = first + sum(widths) + between * (len(widths) + 1) + imgui.get_style().scrollbar_size
+    if taken > imgui.get_content_region_avail().x:
+        theme.soft(_WIDER)
     flags = imgui.TableFlags_.scroll_x | imgui.TableFlags_.scroll_y | imgui.TableFlags_.sizing_fixed_fit
     if not imgui.begin_table("##weeks", len(table.rows) + 1, flags):
         return
     imgui.table_setup_scroll_freeze(1, 1)
-    imgui.table_setup_column("Week of")
-    for name, _ in table.rows:
-        imgui.table_setup_column(_short(name), imgui.TableColumnFlags_.width_fixed, theme.points(_COLUMN))
+    imgui.table_setup_column(_WEEK, imgui.TableColumnFlags_.width_fixed, first)
+    for (name, _), width in zip(table.rows, widths, strict=True):
+        imgui.table_setup_column(short_name(table.part, name), imgui.TableColumnFlags_.width_fixed, width)
     imgui.table_headers_row()
     for at in reversed(range(len(table.weeks))):
         cells = [cells[at] for _, cells in table.rows]
         if any(cells):
             _week(table, table.weeks[at], cells)
     imgui.end_table()
+
+
+def _widths(table: WeekTable) -> list[float]:
+    """Pixels of each column: as wide as its widest text."""
+    texts = (
+        [short_name(table.part, name), *(_number(table.measure, cell) for cell in cells if cell is not None)]
+        for name, cells in table.rows
+    )
+    return [max(theme.points(_COLUMN), *(imgui.calc_text_size(text).x for text in own)) for own in texts]
 
 
 def _week(table: WeekTable, monday: date, cells: list[Cell | None]) -> None:
@@ -94,12 +111,9 @@ def _week(table: WeekTable, monday: date, cells: list[Cell | None]) -> None:
         colour = palette.with_opacity(theme.themed(palette.MISSED), _MOST * _off(table.measure, cell.value))
         imgui.table_set_bg_color(imgui.TableBgTarget_.cell_bg, imgui.color_convert_float4_to_u32(imgui.ImVec4(*colour)))
         imgui.text(_number(table.measure, cell))
-        theme.tooltip(f"{name.replace('_', ' ')}, week of {monday.day} {monday:%B}: {cell_words(table.measure, cell)}")
-
-
-def _short(name: str) -> str:
-    """A limb or a piece as a narrow column has it."""
-    return name.replace("right_", "R ").replace("left_", "L ").replace("_", " ")
+        theme.tooltip(
+            f"{full_name(table.part, name)}, week of {monday.day} {monday:%B}: {cell_words(table.measure, cell)}"
+        )
 
 
 def _off(measure: WeekMeasure, value: float) -> float:

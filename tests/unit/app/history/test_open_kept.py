@@ -3,14 +3,14 @@
 import json
 import shutil
 from collections.abc import Iterator
+from datetime import date
 from pathlib import Path
 
 import pytest
 
 from station.app.actions.action import Show
 from station.app.actions.battle_actions import CloseBattle, JudgeBattle, ReplayBest
-from station.app.actions.file_actions import ExportReport
-from station.app.actions.history_actions import OpenKept
+from station.app.actions.history_actions import OpenKept, WritePage
 from station.app.actions.practice_actions import Begin, Dismiss, Listen
 from station.app.battle.battle_shown import BattleStage
 from station.app.child_programs import ChildPrograms
@@ -101,6 +101,7 @@ def test_a_lesson_s_result_is_that_of_its_end(room: Room, tmp_path: Path, is_gon
     assert state.report is not None
     assert state.report.document == report
     assert state.report.folder == ("" if is_gone else str(folder))
+    assert state.report.day == date(2026, 3, 1)
     assert state.room.student == "you, 1 Mar 2026", "nobody takes it for what they played just now"
     dots = state.report.hits.dots
     assert len(dots) >= report["counts"]["matched"], "every stroke is there to be seen and heard"
@@ -190,11 +191,13 @@ def test_the_page_of_a_session_is_written_where_the_student_s_files_are(room: Ro
     number = room.keep(lesson(tmp_path, room), is_gone=True)
     room.open(number)
     assert room.station.view().history.opened == number
-    room.station.dispatch(ExportReport(number, "2026-03-01T18-30-05_x"))
+    room.station.dispatch(WritePage(number, "2026-03-01T18-30-05_x"))
+    assert room.station.view().history.page_files.writing == number
     room.station.update(2)
-    said = room.station.view().toast
+    said, files = room.station.view().toast, room.station.view().history.page_files
     (page,) = tmp_path.rglob("*.html")
     assert said.endswith("2026-03-01T18-30-05_x.html")
+    assert (files.writing, dict(files.written)) == (None, {number: page})
     assert "Ada" in page.relative_to(tmp_path).parts
     assert page.read_text().startswith("<!DOCTYPE html>")
 
