@@ -56,10 +56,11 @@ def align_clocked(score: Score, performance: Performance, note_class: Indices, h
     at_ns: NDArray[np.int64] = np.asarray(performance.hits["at_ns"])
     bounces = Unwritten(score).may_bounce(performance)  # they would say that all presses came early
     bias_ns = common_bias_ns(score.onset_ns, note_class, at_ns[~bounces], hit_class[~bounces])
-    warp = click_warp(written_of(score, note_class), (at_ns - bias_ns) / NS_PER_S, may_bounce(hit_class, bounces))
-    attempt = np.zeros(len(at_ns), np.int64)
+    heard = may_bounce(hit_class, bounces)
+    warp = click_warp(written_of(score, note_class), (at_ns - bias_ns) / NS_PER_S, heard, bias_ns / NS_PER_S)
+    attempt, lean_ns = np.zeros(len(at_ns), np.int64), np.full(len(at_ns), bias_ns)
     if warp is not None:
         at_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64) + bias_ns
-        attempt = warp.segment
-    matching = match_take(score, performance, note_class, hit_class, Way(at_ns, attempt, bias_ns))
+        attempt, lean_ns = warp.segment, lean_ns + np.rint(warp.lean_s * NS_PER_S).astype(np.int64)
+    matching = match_take(score, performance, note_class, hit_class, Way(at_ns, attempt, lean_ns))
     return labelled(matching, Timed(at_ns, score.onset_ns, at_ns, attempt, Reference.CLICK))

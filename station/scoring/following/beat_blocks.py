@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.scoring.following.anchors import Hits
-from station.scoring.following.beat_offsets import EDGE, BeatWay, Offsets, Pause, block_gains, pauses_of
+from station.scoring.following.beat_offsets import EDGE, Offsets, Pause, block_gains, pauses_of
 from station.scoring.following.written import Nats, Written
 
 Floats = NDArray[np.float64]
@@ -44,11 +44,11 @@ class Blocks:
         gains, said = block_gains(written, beats[start:end], hits.classes[start:end], starts, edges, offsets)
         return cls(starts + start, gains, said, start, pauses_of(own, starts))
 
-    def split(self, block: int, way: BeatWay) -> int:
-        """The hit at which the state of `block` begins: near its first beat, where most evidence is left."""
+    def split(self, block: int, states: Indices) -> int:
+        """The hit at which the state of `block`, of `states` (b,), begins: near its first beat, where most is left."""
         if block == 0 or block in self.pauses:
             return int(self.starts[block])
-        before, after = int(way.states[block - 1]), int(way.states[block])
+        before, after = int(states[block - 1]), int(states[block])
         low = int(self.starts[max(block - 1, 0)])
         high = int(self.starts[block + 1]) if block + 1 < len(self.starts) else self.first_hit + len(self.said)
         own = self.said[low - self.first_hit : high - self.first_hit]

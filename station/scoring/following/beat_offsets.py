@@ -143,15 +143,19 @@ def forward(
 ) -> tuple[Floats, NDArray[np.bool_], int]:
     """One beat, after a `pause` or none: the totals (s,) after it, which were jumped into before it, and from where."""
     best = int(total.argmax())
-    price = None if pause is None else pause.prices_from(best, offsets, written)
-    if price is None:
-        price = offsets.prices_from(best, written)
-    else:
-        total = total - PRICES[When.PAUSE, Where.ON_TIME]
-        price = price - PRICES[When.PAUSE, Where.ON_TIME]
+    total, price = priced(total, best, offsets, written, pause)
     jumped = total[best] - price
     is_better = jumped > total
     return np.where(is_better, jumped, total) + gain, is_better, best
+
+
+def priced(total: Floats, state: int, offsets: Offsets, written: Written, pause: Pause | None) -> tuple[Floats, Floats]:
+    """The totals, any shape, of who goes on after a `pause` or none, and nats (s,) against a jump from `state`."""
+    price = None if pause is None else pause.prices_from(state, offsets, written)
+    if price is None:
+        return total, offsets.prices_from(state, written)
+    on_time = PRICES[When.PAUSE, Where.ON_TIME]
+    return total - on_time, price - on_time
 
 
 @dataclass(frozen=True, eq=False)

@@ -118,7 +118,7 @@ class FreeRun:
             blocks = self._blocks(start, until)
             way = best_way(blocks.gains, first, self._offsets, self._written, self._end_cost(until))
             left = np.flatnonzero(way.states != self._offsets.here)
-            jump = max(start + blocks.split(int(left[0]), way), earliest) if len(left) else until
+            jump = max(start + blocks.split(int(left[0]), way.states), earliest) if len(left) else until
             settled = until if until == end else start + SETTLED
             lost = self._first_lost(blocks, way, start, until)
             if lost is not None and lost < min(jump, settled):

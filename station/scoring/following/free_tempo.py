@@ -51,7 +51,9 @@ def align_unclocked(
     led_class = may_bounce(hit_class, Unwritten(score).may_bounce(performance))
     warp = find_warp(written, at_ns / NS_PER_S, led_class)
     hit_ns = np.rint(warp.score_s * NS_PER_S).astype(np.int64)
-    matching = match_take(score, performance, note_class, hit_class, Way(hit_ns, warp.segment))
+    matching = match_take(
+        score, performance, note_class, hit_class, Way(hit_ns, warp.segment, np.zeros(len(hit_ns), np.int64))
+    )
     return labelled(matching, _timed(score, at_ns, warp, matching.assignment, may_share_base))
 
 

@@ -6,12 +6,15 @@ clock runs anew at the new place. Without a click the clock must be set at the b
 where no beat fits any more: there the place and tempo are found from nothing (`anchors`). Times are seconds.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from station.scoring.following.anchors import Hits, found
 from station.scoring.following.beat_blocks import AHEAD, MOST_JUMPS, SETTLED, Blocks
 from station.scoring.following.beat_offsets import Offsets, best_way, end_cost, offsets_of
+from station.scoring.following.click_sway import LOOK_BEATS, Sway, first_far
 from station.scoring.following.free_run import LOST_HITS, FreeRun, RawWay, silences
 from station.scoring.following.place_choice import EARLY_S, ENOUGH, SAME_TEMPO, PlaceChoice, possible
 from station.scoring.following.tempo_tracker import Place
@@ -40,41 +43,100 @@ _SAME_BEAT = 0.1
 """Parts of a beat: two places so near within a beat are on one beat (our choice)."""
 
 
-def clicked_way(written: Written, hits: Hits) -> tuple[Floats, Indices]:
-    """Score time of each hit (m,) and the first hits of the jumps, by the click.
+@dataclass(frozen=True, eq=False)
+class ClickWay:
+    """Score time of each hit (m,), how far each leans from the click there, late is positive, and where jumps end."""
 
-    The hits' times are score time, but for whole beats that the player skipped or went back.
+    score_s: Floats
+    lean_s: Floats
+    jumps: Indices
+
+
+def clicked_way(written: Written, hits: Hits, common_s: float) -> ClickWay:
+    """Where the hits are by the click: their times are score time, but for a lean and where the player jumped.
+
+    `common_s` is the lean that is common to most of them and was taken off their times.
     """
+    common = round(common_s / written.quarter_s * PARTS)
+    known: tuple[int, ...] = (0, common)
     offsets = offsets_of(written, slips=False)
-    beats, shift, jumps = written.beats.beat(hits.at_s), np.zeros(len(hits.at_s)), []
-    start, now = 0, 0.0
-    for _ in range(MOST_JUMPS):
-        at, parts = _next_jump(written, hits, beats + now, start, offsets, -offsets.price)
-        if at is None:
-            break
-        now += parts / PARTS
-        shift[at:] = now
-        jumps.append(at)
-        start = at
-    score_s = hits.at_s if not jumps else written.beats.time(beats + shift)
-    return score_s, np.array([j for j in jumps if j], np.int64)
-
-
-def _next_jump(
-    written: Written, hits: Hits, beats: Floats, start: int, offsets: Offsets, first: Floats
-) -> tuple[int | None, int]:
-    """The first hit from `start` on that is elsewhere and by how many parts of a beat; None where there is none."""
+    beats, shift, lean = written.beats.beat(hits.at_s), np.zeros(len(hits.at_s)), np.zeros(len(hits.at_s))
+    jumps: list[int] = []
+    start, now, leant = 0, 0.0, 0.0
     while start < len(beats):
-        end = min(start + AHEAD, len(beats))
-        window = Blocks.of(written, hits, beats, start, end, offsets)
-        last = end_cost(written, float(beats[-1]), offsets) if end == len(beats) else None
-        way = best_way(window.gains, first, offsets, written, last, window.pauses)
-        left = np.flatnonzero(way.states != offsets.here)
-        settled = end if end == len(beats) else start + SETTLED
-        if len(left) and window.starts[left[0]] < settled:
-            return window.split(int(left[0]), way), int(offsets.parts[way.states[left[0]]])
-        start, first = settled, -offsets.price
-    return None, 0
+        leg = _next_leg(written, hits, beats + (now + leant), start, offsets, known)
+        here = slice(start, leg.end)
+        shift[here], lean[here] = now, -leant - leg.leans / PARTS
+        start = leg.end
+        if len(leg.leans):
+            known = ()
+            leant += float(leg.leans[-1]) / PARTS
+        if leg.parts:
+            now += leg.parts / PARTS
+            shift[start:], lean[start:] = now, -leant
+            jumps.append(start)
+            if len(jumps) == MOST_JUMPS:
+                break
+    there = beats + shift
+    score_s = written.beats.time(there) if jumps else hits.at_s
+    lean_s = written.beats.time(there) - written.beats.time(there - lean) if lean.any() else lean
+    return ClickWay(score_s, lean_s, np.array([j for j in jumps if j], np.int64))
+
+
+@dataclass(frozen=True, eq=False)
+class _Leg:
+    """From a hit to before `end` without a jump, and the `leans` of its hits; the next is `parts` of a beat away."""
+
+    end: int
+    parts: int
+    leans: Indices
+
+
+def _next_leg(
+    written: Written, hits: Hits, beats: Floats, start: int, offsets: Offsets, known: tuple[int, ...]
+) -> _Leg:
+    """What is played from hit `start` on, which is at `beats` (m,) or elsewhere, until a jump or the clock runs anew.
+
+    `known` are the leans that the first hit may have, or about so; none where it is at `beats`.
+    """
+    steady, ahead = _window(written, hits, beats, start, offsets, AHEAD)
+    way = best_way(steady.gains, -offsets.price, offsets, written, ahead, steady.pauses)
+    if way.worth > ENOUGH * possible(hits.part(start, start + len(steady.said))):
+        none = np.zeros(len(way.states), np.int64)
+        return _leg_of(steady, way.states, none, offsets.parts[way.states], start, len(beats))
+    sway = Sway.of(offsets, known or (0,))
+    near = int(np.searchsorted(np.maximum.accumulate(beats), beats[start] + LOOK_BEATS)) - start
+    window, last = _window(written, hits, beats, start, sway.states, min(max(near, 1), AHEAD))
+    first = sway.begin(-offsets.price, known or (0,), not known)
+    swaying = sway.best_way(window.gains, first, written, last, window.pauses)
+    return _leg_of(window, swaying.states, swaying.leans, offsets.parts[swaying.offsets], start, len(beats))
+
+
+def _window(
+    written: Written, hits: Hits, beats: Floats, start: int, offsets: Offsets, most: int
+) -> tuple[Blocks, Floats | None]:
+    """At `most` so many hits from `start` on, and what their end says of each offset; None where more follow."""
+    end = min(start + most, len(beats))
+    blocks = Blocks.of(written, hits, beats, start, end, offsets)
+    return blocks, end_cost(written, float(beats[-1]), offsets) if end == len(beats) else None
+
+
+def _leg_of(window: Blocks, states: Indices, leans: Indices, parts: Indices, start: int, count: int) -> _Leg:
+    """The leg from hit `start` of `count`: until the way jumps, or leans so far that the clock must run anew.
+
+    `states`, `leans` and `parts` of the offsets (b,) are those of the blocks of `window`.
+    """
+    size = len(window.said)
+    settled = size if start + size == count else max(size * SETTLED // AHEAD, 1)
+    far, left = first_far(leans), np.flatnonzero(parts)
+    until = start + settled
+    if far < len(leans):
+        until = min(until, int(window.starts[far]))
+    of_hits = np.repeat(leans, np.diff(window.starts, append=start + size))
+    if len(left) and window.starts[left[0]] < until:
+        at = window.split(int(left[0]), states)
+        return _Leg(at, int(parts[left[0]]), of_hits[: at - start])
+    return _Leg(until, 0, of_hits[: until - start])
 
 
 def free_way(written: Written, hits: Hits, ends: bool = True) -> tuple[RawWay, float]:

@@ -112,6 +112,10 @@ MOST_FOR_DISTANCE = 6.0
 UNHEARD_END = 5.0
 """Nats at most against a performance that ends before the score does: most play to the end (our choice)."""
 
+LEAN_MOVES = 4.0
+"""Nats against a player's lean from the click having moved by a 24th of a beat from one beat to the next: ½(4.2/SD)² at
+a tempo whose SD is 1.5 % (HUMANS: professionals hold ±1–2 %)."""
+
 TEMPO_SD = 0.3
 """SD of log tempo against what is written, at the beginning: who practises plays at 70 % more readily than at half."""
 

@@ -24,10 +24,14 @@ Indices = NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Warp:
-    """Score time in s of each hit (m,), and the segment (m,), from 0, that it belongs to."""
+    """Score time in s of each hit (m,), and the segment (m,), from 0, that it belongs to.
+
+    `lean_s` (m,) is how far each leans from the click, late is positive; 0 where the way is the player's own.
+    """
 
     score_s: Floats
     segment: Indices
+    lean_s: Floats
 
 
 def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
@@ -36,22 +40,23 @@ def find_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp:
     hits = Hits(hit_s[known], hit_classes[known])
     way, tempo = free_way(written.of_classes(hits.classes), hits)
     segment = _segments(way.jumps, len(known))
-    return _filled(_smoothed(hits.at_s, way, segment) * tempo, segment, hit_s, known)
+    score_s = _smoothed(hits.at_s, way, segment) * tempo
+    return _filled(score_s, np.zeros(len(known)), segment, hit_s, known)
 
 
-def click_warp(written: Written, hit_s: Floats, hit_classes: Indices) -> Warp | None:
+def click_warp(written: Written, hit_s: Floats, hit_classes: Indices, common_s: float) -> Warp | None:
     """The way of hits (m,), sorted, whose times are score time but for bars that were left out or played again.
 
-    None where there are none.
+    None where there are none, and the player leans no more here than there. `common_s` is the lean that was taken off.
     """
     known = np.flatnonzero(np.isin(hit_classes, written.answered))
     if not len(known):
         return None
     hits = Hits(hit_s[known], hit_classes[known])
-    score_s, jumps = clicked_way(written, hits)
-    if score_s is hits.at_s:
+    way = clicked_way(written, hits, common_s)
+    if way.score_s is hits.at_s and not way.lean_s.any():
         return None
-    return _filled(score_s, _segments(jumps, len(known)), hit_s, known)
+    return _filled(way.score_s, way.lean_s, _segments(way.jumps, len(known)), hit_s, known)
 
 
 def _segments(jumps: Indices, count: int) -> Indices:
@@ -82,7 +87,7 @@ def _smoothed(at_s: Floats, raw: RawWay, segment: Indices) -> Floats:
     return way
 
 
-def _filled(way: Floats, segment: Indices, hit_s: Floats, known: Indices) -> Warp:
+def _filled(way: Floats, lean_s: Floats, segment: Indices, hit_s: Floats, known: Indices) -> Warp:
     """The warp of all hits: those of classes that the score lacks lie between their neighbours'."""
     after = np.searchsorted(known, np.arange(len(hit_s)))
     home = np.minimum(after, len(known) - 1)
@@ -92,4 +97,4 @@ def _filled(way: Floats, segment: Indices, hit_s: Floats, known: Indices) -> War
         own, here = np.flatnonzero(segment[home] == k), np.flatnonzero(segment == k)
         score_s[own] = np.interp(hit_s[own], beside[here], way[here])
     score_s[known] = way
-    return Warp(score_s, segment[home])
+    return Warp(score_s, segment[home], lean_s[home])

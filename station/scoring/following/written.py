@@ -99,6 +99,11 @@ class Written:
         return at_s[order], classes[order]
 
     @cached_property
+    def quarter_s(self) -> float:
+        """How long its quarters usually last, in seconds."""
+        return float(np.median(np.diff(self.beat_s)))
+
+    @cached_property
     def far_beats(self) -> int:
         """As far as this many quarters a player is looked for at the beat that they keep."""
         return max(int(np.ceil(self._length)), _LEAST_FAR_BEATS) if self.is_short else _FAR_BEATS
@@ -120,7 +125,7 @@ class Written:
     @cached_property
     def fits(self) -> "Fits":
         """What hits say at its places."""
-        fits = Fits(self.note_beats, self.classes, float(np.median(np.diff(self.beat_s))), self.far_beats)
+        fits = Fits(self.note_beats, self.classes, self.quarter_s, self.far_beats)
         buzzes = ~np.isnan(self.buzz_s)
         if buzzes.any():
             ends = self.beats.beat(self.at_s[buzzes] + self.buzz_s[buzzes] + _LATE_BOUNCE_S)

@@ -119,17 +119,17 @@ _MOST_ARTICULATIONS = 64
 
 
 def assign(
-    notes: AssignmentSide, hits: AssignmentSide, leaning: Leaning, unpaired: NDArray[np.bool_], deviation_ns: int = 0
+    notes: AssignmentSide, hits: AssignmentSide, leaning: Leaning, unpaired: NDArray[np.bool_], lean_ns: Times
 ) -> HitAssignment:
     """The matching of `hits` (m,) to `notes` (n,).
 
-    `unpaired` (m,) marks hits that are never paired with another piece's note; `deviation_ns` is believed at first to
-    be common to all.
+    `unpaired` (m,) marks hits that are never paired with another piece's note; `lean_ns` (n,) is where
+    the player is believed to stand at first.
     """
     count = len(notes.at_ns)
     span = _span(notes, hits)
     hit_lane = lanes(hits.at_ns, hits.lane, span)
-    player = _Player(np.full(count, deviation_ns), np.zeros(count, np.int64), None)
+    player = _Player(lean_ns, np.zeros(count, np.int64), None)
     partner = np.full(count, -1, np.int64)
     room: Room | None = leaning.room
     reach_ns = _widest(leaning.room)
@@ -138,7 +138,7 @@ def assign(
         partner = pair_nearest(note_lane, hit_lane, reach_ns, room)
         if room is None and np.count_nonzero(partner != before) <= _SETTLED * count:
             break
-        player = _player(notes, hits, partner, leaning.place, player)
+        player = _player(notes, hits, partner, leaning.place, lean_ns, player)
         if player.sd_ms is not None:
             room, reach_ns = None, reach_by_spread(player.sd_ms)
     if _differ(notes.spot):
@@ -229,7 +229,9 @@ _APART_NS = 4 * NS_PER_S
 """More than lanes overlap by leans and reaches."""
 
 
-def _player(notes: AssignmentSide, hits: AssignmentSide, partner: Indices, place: Indices, before: _Player) -> _Player:
+def _player(
+    notes: AssignmentSide, hits: AssignmentSide, partner: Indices, place: Indices, lean_ns: Times, before: _Player
+) -> _Player:
     """The player as the pairs show them; as `before` where they are too few."""
     known = np.flatnonzero(partner >= 0)
     known = known[np.argsort(notes.at_ns[known], kind="stable")]
@@ -238,7 +240,8 @@ def _player(notes: AssignmentSide, hits: AssignmentSide, partner: Indices, place
     spread = robust_sd(deviation[main])
     if spread is None:
         return before
-    lean = _leans(notes.classes, place, known, deviation - median(deviation[main]))
+    beside = deviation - lean_ns[known]
+    lean = _leans(notes.classes, place, known, beside - median(beside[main]))
     off, at_s = (deviation - lean[known])[main], notes.at_ns[known[main]] / NS_PER_S
     trend = local_trend(at_s, off, _TREND_HALF_WIDTH, max(robust_sd(off) or 0.0, NS_PER_MS))
     rest = robust_sd(off - trend) or 0.0

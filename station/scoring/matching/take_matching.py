@@ -30,11 +30,24 @@ from station.scoring.matching.played_graces import with_far_graces
 
 @dataclass(frozen=True, eq=False)
 class Way:
-    """Where the hits (m,) are: `score_ns` of score time, in the run `attempt`, from 0; `lean_ns` common to all."""
+    """Where the hits (m,) are: `score_ns` of score time, in the run `attempt`, from 0.
+
+    `lean_ns` (m,) is how far the player leans from there, common to all pieces.
+    """
 
     score_ns: Times
     attempt: Indices
-    lean_ns: int = 0
+    lean_ns: Times
+
+    def lean_at(self, note_ns: Times, owner: Indices) -> Times:
+        """The lean at notes (n,) that hits of the attempt `owner` (n,) may answer."""
+        lean_ns = np.zeros(len(note_ns), np.int64)
+        for attempt in np.unique(self.attempt).tolist():
+            mine, notes = self.attempt == attempt, owner == attempt
+            on_time_ns, own_ns = (self.score_ns - self.lean_ns)[mine], self.lean_ns[mine]
+            order = np.argsort(on_time_ns, kind="stable")
+            lean_ns[notes] = np.rint(np.interp(note_ns[notes], on_time_ns[order], own_ns[order])).astype(np.int64)
+        return lean_ns
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +72,7 @@ def match_take(
     notes = AssignmentSide(score.onset_ns, note_class, owner, spots(score.notes))
     hits = AssignmentSide(way.score_ns, hit_class, way.attempt, spots(performance.hits))
     leaning = Leaning(leaning_places(score), reach_of(score, note_class))
-    assignment = assign(notes, hits, leaning, unwritten.own_only, way.lean_ns)
+    assignment = assign(notes, hits, leaning, unwritten.own_only, way.lean_at(score.onset_ns, owner))
     assignment = with_far_graces(score, assignment, hits)
     assignment = with_buzz_onsets(score, assignment, hits, rules.may_bounce(performance))
     alone = np.select([again, unwritten.quiet], [Label.PLAYED_AGAIN, Label.IGNORED], Label.EXTRA)
