@@ -5,11 +5,10 @@ from datetime import date
 from pathlib import Path
 
 from station.cli.console import say
+from station.cli.history_verbs.opened_history import settings_for
 from station.cli.options.option_fields import Command, day, option, option_alone, optional_argument, required
-from station.cli.today import settings_of
 from station.core.disk.files import write_whole
 from station.core.errors import BadInput
-from station.core.settings import Settings
 from station.practice.history.session_choice import HELP
 
 ENDINGS = (".html", ".pdf")
@@ -34,21 +33,22 @@ def run(options: ReportOptions) -> int:
     out = options.out
     if out.suffix.lower() not in ENDINGS:
         raise BadInput(out, "", f"expected a name that ends in {' or '.join(ENDINGS)}")
-    write_whole(out, _page(options, settings_of(options.student), out.suffix.lower()))
+    write_whole(out, _page(options, out.suffix.lower()))
     say(f"report   {out}")
     return 0
 
 
-def _page(options: ReportOptions, settings: Settings, ending: str) -> bytes:
+def _page(options: ReportOptions, ending: str) -> bytes:
     from station.scenes.report.page_files import page_bytes, week_bytes
 
     if options.week is None:
         if options.session is None:
             raise BadInput("report", "", "say which session, or --week")
+        settings = settings_for(options.student, must_have_played=False)
         return page_bytes(options.session, settings, ending)
     if options.session is not None:
         raise BadInput("--week", "", f"is about a whole week: leave {options.session} out")
-    today = date.today()
+    settings, today = settings_for(options.student), date.today()
     return week_bytes(settings, today if options.week == _THIS_WEEK else options.week, today, ending)
 
 

@@ -4,9 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from station.cli.console import say
-from station.cli.history_verbs.opened_history import opened_history
+from station.cli.history_verbs.opened_history import opened_history, settings_for
 from station.cli.options.option_fields import option, required
-from station.cli.today import settings_of
 from station.core.counts import counted
 from station.core.disk.utf8 import one_line
 from station.store.copying import Copied
@@ -31,7 +30,7 @@ def back_up(options: BackupOptions) -> int:
     """Write all of it into one SQLite file, whole or not at all."""
     from station.store.backup import back_up as copy_to_file
 
-    settings = settings_of(None)
+    settings = settings_for(None, must_have_played=False)
     done = copy_to_file(opened_history(settings, settings.student), options.out)
     counts = f"{counted(done.added, 'session')} of {counted(done.students, 'student')}"
     say(f"backup   {one_line(str(options.out))}: {counts}")
@@ -44,11 +43,12 @@ def copy(options: CopyOptions) -> int:
     from station.store.database import Database
     from station.store.history import History
 
-    settings = settings_of(options.student)
+    settings = settings_for(options.student, must_have_played=False)
+    student = None if options.student is None else settings.student
     source = opened_history(settings, settings.student)
     target = History(Database(options.to))
     try:
-        _tell(copy_history(source, target, options.student), target.name)
+        _tell(copy_history(source, target, student), target.name)
     finally:
         target.database.close()
     return 0

@@ -5,9 +5,8 @@ from datetime import datetime
 from pathlib import Path
 
 from station.cli.console import say
-from station.cli.history_verbs.opened_history import opened_history
+from station.cli.history_verbs.opened_history import opened_history, settings_for
 from station.cli.options.option_fields import option, required
-from station.cli.today import settings_of
 from station.core.counts import counted
 from station.core.disk.utf8 import one_line
 
@@ -24,8 +23,8 @@ def run(options: ExportOptions) -> int:
     """Write them, whole or not at all."""
     from station.practice.own_data.take_away import take_away
 
-    settings = settings_of(None)
-    student = settings.student if options.student is None else options.student
+    settings = settings_for(options.student)
+    student = settings.student
     taken = take_away(opened_history(settings, student), settings, student, options.out, datetime.now())
     for path in taken.left_out:
         say(f"left out {one_line(str(path))}: a link, or no plain file")

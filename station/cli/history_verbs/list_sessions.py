@@ -4,9 +4,8 @@ from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 
 from station.cli.console import print_json, say, write
-from station.cli.history_verbs.opened_history import opened_history
+from station.cli.history_verbs.opened_history import opened_history, settings_for
 from station.cli.options.option_fields import day, flag, option
-from station.cli.today import settings_of
 from station.core.counts import counted
 from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput
@@ -34,7 +33,7 @@ def run(options: ListOptions) -> int:
     """List them, the oldest first."""
     if options.since is not None and options.until is not None and options.until < options.since:
         raise BadInput("--until", options.until.isoformat(), f"is before --since {options.since}")
-    settings = settings_of(options.student)
+    settings = settings_for(options.student)
     rows = opened_history(settings, settings.student).sessions(
         settings.student, _begin(options.since), _end(options.until)
     )

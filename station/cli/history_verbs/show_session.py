@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 
 from station.cli.console import print_json, write
 from station.cli.history_verbs.list_sessions import title_of
-from station.cli.history_verbs.opened_history import opened_history
+from station.cli.history_verbs.opened_history import opened_history, settings_for
 from station.cli.options.option_fields import argument, flag, option
-from station.cli.today import settings_of
 from station.core.counts import counted
 from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput
@@ -50,7 +49,7 @@ class _Kept:
 
 def run(options: ShowOptions) -> int:
     """Show it."""
-    settings = settings_of(options.student)
+    settings = settings_for(options.student, must_have_played=False)
     history = opened_history(settings, settings.student)
     chosen = choose_session(history, settings.student, options.session)
     if chosen.row is None:

@@ -17,9 +17,11 @@ from typing import TYPE_CHECKING
 
 from station.core.counts import is_count
 from station.core.disk.files import read_regular
+from station.core.disk.utf8 import one_line
 from station.core.errors import BadInput, DeviceError
 from station.devices.capture.capture import MOST_BYTES
 from station.practice.history.session_files import BATTLE_CAPTURE_NAME, CAPTURE_NAME
+from station.practice.history.who_is_here import others_here
 from station.store.rows import SessionRow
 
 if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks
@@ -96,7 +98,7 @@ def _kept(row: SessionRow) -> ChosenSession:
 def _last(history: History, student: str) -> SessionRow:
     rows = history.sessions(student)
     if not rows:
-        raise BadInput(LAST, "", f"nothing of {student} is kept in the history")
+        raise BadInput(LAST, "", f"nothing of {one_line(student)} is kept{others_here(history, student)}")
     return rows[-1]
 
 
@@ -112,11 +114,17 @@ def _only_one(history: History, student: str, day: date) -> SessionRow:
     ends = begins + timedelta(days=1) if day < date.max else None
     rows = history.sessions(student, begins, ends)
     if not rows:
-        raise BadInput(day.isoformat(), "", f"nothing of {student} is kept of that day; {_SEE}")
+        fault = f"nothing of {one_line(student)} is kept of that day{_see(history, student)}"
+        raise BadInput(day.isoformat(), "", fault)
     if len(rows) > 1:
         numbers = [str(row.id) for row in rows[:_MOST_NAMED]] + (["…"] if len(rows) > _MOST_NAMED else [])
         raise BadInput(day.isoformat(), "", f"{len(rows)} sessions are of that day, say which: {', '.join(numbers)}")
     return rows[0]
+
+
+def _see(history: History, student: str) -> str:
+    """Where to look: among the student's sessions, else at who is here."""
+    return f"; {_SEE}" if history.latest(student, 1) else others_here(history, student) or f"; {_SEE}"
 
 
 def _in_files(history: History | None, word: str) -> ChosenSession:

@@ -55,14 +55,21 @@ def kept_session(place: SessionPlace, settings: Settings) -> KeptSession:
     exam = None if place.exam is None else _exam(place.exam, place.source)
     if place.report is None:
         fair = fair_session(result, settings)
-        document = practice_document(fair.result, settings, fair.lag)
+        document = _of(place.student, practice_document(fair.result, settings, fair.lag))
         return KeptSession(fair.result, document, exam, at, (NO_REPORT,))
     document = _report(place.report, place.source)
     left_out_ms = _left_out_ms(document, place.source)
     judged = judged_as_told(result, left_out_ms).result if left_out_ms else result
     if _tells_of(document, practice_document(judged, settings)):
         return KeptSession(judged, document, exam, at)
-    return KeptSession(result, practice_document(result, settings), exam, at, (OTHER_REPORT,))
+    return KeptSession(result, _of(place.student, practice_document(result, settings)), exam, at, (OTHER_REPORT,))
+
+
+def _of(student: str, document: dict[str, Json]) -> dict[str, Json]:
+    """A report that was made now, by the name of who played, not of who looks at it; a capture does not say whose."""
+    session = document["session"]
+    assert isinstance(session, dict)
+    return {**document, "session": {**session, "student": student}}
 
 
 def _report(data: bytes, source: str) -> dict[str, Json]:

@@ -29,13 +29,15 @@ from station.store.rows import SessionKind
 class SessionPlace:
     """A session as it lies there: `source` is what complaints of it begin with.
 
-    `report` and `exam` are the bytes of its JSON files, None where it has none.
+    `report` and `exam` are the bytes of its JSON files, None where it has none; `student` is whose it is in the
+    history, empty where it is not there.
     """
 
     source: str
     capture: Capture
     report: bytes | None = None
     exam: bytes | None = None
+    student: str = ""
 
 
 def session_place(word: str, settings: Settings) -> SessionPlace:
@@ -48,7 +50,8 @@ def session_place(word: str, settings: Settings) -> SessionPlace:
     _check_kind(chosen, folder)
     capture = parse_capture(chosen.capture_data(history), chosen.source)
     report, exam = (_file(history, chosen, folder, name) for name in (DOCUMENT_NAME, EXAM_NAME))
-    return SessionPlace(chosen.source, capture, report, exam)
+    student = "" if chosen.row is None else chosen.row.student
+    return SessionPlace(chosen.source, capture, report, exam, student)
 
 
 def _own_folder(chosen: ChosenSession) -> Path | None:

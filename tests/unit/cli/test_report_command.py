@@ -37,6 +37,8 @@ def test_last_and_a_day_are_the_student_s(
     monkeypatch.setenv("XDG_DOCUMENTS_DIR", str(tmp_path))
     top, out = Settings(student="Ada").sessions_dir / "Ada", tmp_path / "x.html"
     asked = ("report", "last", "--student", "Ada", "--out", str(out))
+    assert "Ada: no such student" in refused(capsys, *asked)
+    top.mkdir(parents=True)
     assert "nothing of Ada is kept" in refused(capsys, *asked)
     for day in ("2026-03-01", "2026-03-03", "2026-03-02"):
         shutil.copytree(session, top / f"{day}T08-00-00_rock-1")

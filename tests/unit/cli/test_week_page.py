@@ -82,6 +82,7 @@ def test_a_week_without_practice_blames_nobody(tmp_path: Path) -> None:
     assert "What got better" not in told
     for word in ("0", "fail", "lazy", "only", "must", "should", "lost", "unfortunately"):
         assert word not in told.replace("2026", "").lower().split()
+    assert main(["assignment", "take", str(assignment_in(tmp_path)), "--student", "Zoë"]) == 0
     assert "Zoë did not play" in words_of(page(tmp_path, "--student", "Zoë"))
 
 
@@ -91,7 +92,7 @@ def test_names_titles_and_notes_are_words_and_nothing_else(name: str, tmp_path: 
     history.keep(kept(name, _MONDAY, title=name))
     history.keep_note(name, TeacherNoteRow("n", "a", name, name, _MONDAY, f"{name}\n{name}", name, b""))
     text = page(tmp_path, "2026-11-23", "--student", name)
-    plain = page(tmp_path, "2026-11-23", "--student", "Nobody")
+    plain = page(tmp_path, "2025-11-23", "--student", name)
     assert "<script" not in text
     assert "<img" not in text
     assert text.count("<style") == text.count("</style") == 1
@@ -105,12 +106,17 @@ def test_names_titles_and_notes_are_words_and_nothing_else(name: str, tmp_path: 
     assert out.read_bytes().startswith(b"%PDF")
 
 
-def test_what_comes_next_and_what_the_teacher_wrote(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    given, today = tmp_path / "week3.drum-assignment", date.today()
-    due = (today + timedelta(days=1)).isoformat()
+def assignment_in(folder: Path) -> Path:
+    """One for rock-1 until tomorrow."""
+    given, due = folder / "week3.drum-assignment", (date.today() + timedelta(days=1)).isoformat()
     words = ["--lesson", "rock-1", "--due", due, "--title", "Week <3>", "--teacher", "Carla", "--out", str(given)]
     assert main(["assignment", "new", *words]) == 0
-    assert main(["assignment", "take", str(given), "--student", "Ann"]) == 0
+    return given
+
+
+def test_what_comes_next_and_what_the_teacher_wrote(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    today = date.today()
+    assert main(["assignment", "take", str(assignment_in(tmp_path)), "--student", "Ann"]) == 0
     now = datetime.combine(today, datetime.min.time())
     note = TeacherNoteRow("n", "a", "Week 2", "Carla", now, "Well done.\nSofter now.", "At 90.", b"")
     users_history().keep_note("Ann", note)

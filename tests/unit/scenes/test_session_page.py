@@ -161,6 +161,7 @@ def test_without_a_report_the_capture_is_judged(folders: dict[str, Path], tmp_pa
     page, reported = page_of(alone), page_of(folders["groove"])
     assert page.score == pytest.approx(reported.score, abs=0.001)
     assert "no report of its own" in page.remarks[0]
+    assert page.student == "", "a capture does not say whose it is"
 
 
 def test_a_report_of_another_session_is_not_believed(folders: dict[str, Path], tmp_path: Path) -> None:
