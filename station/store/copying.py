@@ -44,27 +44,30 @@ _Item = TypeVar("_Item", int, str)
 class Copied:
     """What came of a copy: so many `students`, so many sessions `added` and `replaced` by what was written later.
 
-    `stayed` names the sessions (student: name) that differ and stay as they are in the history that was copied into.
+    They are `renumbered` where they have other numbers there than here. `stayed` names the sessions (student: name)
+    that differ and stay as they are in the history that was copied into.
     """
 
     students: int
     added: int
     replaced: int
     stayed: tuple[str, ...] = ()
+    renumbered: bool = False
 
 
 def copy_history(source: History, target: History, student: str | None = None) -> Copied:
     """Copy all that `source` holds, or what is one student's, into `target`, whole or not at all.
 
-    It is copied as it was at one moment, whatever others write meanwhile. Raises `BadInput` where both are the same
-    database or the student is not known, `DeviceError` where one of them fails.
+    Sessions keep their numbers in a file that holds none yet; elsewhere they get those of that history. All is copied
+    as it was at one moment, whatever others write meanwhile. Raises `BadInput` where both are the same database or the
+    student is not known, `DeviceError` where one of them fails.
     """
     if _same(source, target):
         raise BadInput(target.name, "", "is the history itself: it can be copied into another only")
     with source.database.reading() as old, target.database.writing() as new:
         students = _students(source, old, new, student)
         _captures(old, new, list(students))
-        copied, numbers = _sessions(old, new, students)
+        copied, numbers = _sessions(old, new, students, keeps=_is_empty_file(target, new))
         for some in _batches(numbers):
             for table in (FIGURES, JUDGEMENTS, DOCUMENTS):
                 _parts(old, new, table, {number: numbers[number] for number in some})
@@ -80,6 +83,11 @@ def _same(source: History, target: History) -> bool:
     if one.path is not None and other.path is not None:
         return one.path.samefile(other.path)
     return one.url == other.url
+
+
+def _is_empty_file(target: History, new: Connection) -> bool:
+    """Whether numbers are free there; a server counts on by itself and would give them out again."""
+    return target.database.path is not None and new.execute(select(SESSIONS.c.id).limit(1)).first() is None
 
 
 def _students(source: History, old: Connection, new: Connection, student: str | None) -> dict[int, int]:
@@ -104,8 +112,10 @@ def _captures(old: Connection, new: Connection, students: Sequence[int]) -> None
 # --- sessions ---------------------------------------------------------------------------------------------------------
 
 
-def _sessions(old: Connection, new: Connection, students: Mapping[int, int]) -> tuple[Copied, dict[int, int]]:
-    """What became of the sessions; the ids of those that were added or replaced, there by here."""
+def _sessions(
+    old: Connection, new: Connection, students: Mapping[int, int], *, keeps: bool
+) -> tuple[Copied, dict[int, int]]:
+    """What became of the sessions; the ids of those that were added or replaced, there by here; it `keeps` them."""
     keys = SESSIONS.c.student_id, SESSIONS.c.name
     mine = old.execute(select(SESSIONS).where(SESSIONS.c.student_id.in_(students)).order_by(*keys)).all()
     theirs = select(SESSIONS).where(SESSIONS.c.student_id.in_(students.values()))
@@ -121,13 +131,16 @@ def _sessions(old: Connection, new: Connection, students: Mapping[int, int]) -> 
         elif _differs(other, row):
             stayed.append(row)
     values = [{**_values(row), "student_id": students[row.student_id], "folder": row.folder} for row in added]
+    if keeps:
+        values = [{**each, "id": row.id} for each, row in zip(values, added, strict=True)]
     if values:
         new.execute(insert(SESSIONS), values)
     ids = {(each.student_id, each.name): each.id for each in new.execute(theirs)}
     numbers = replaced | {row.id: ids[students[row.student_id], row.name] for row in added}
     names = {each.id: each.name for each in old.execute(select(STUDENTS))}
     told = tuple(f"{names[row.student_id]}: {row.name}" for row in stayed)
-    return Copied(len(students), len(added), len(replaced), told), numbers
+    is_renumbered = any(here != there for here, there in numbers.items())
+    return Copied(len(students), len(added), len(replaced), told, is_renumbered), numbers
 
 
 def _gives_way(there: Row[Any], row: Row[Any]) -> bool:

@@ -57,5 +57,6 @@ def copy(options: CopyOptions) -> int:
 def _tell(done: Copied, name: str) -> None:
     for session in done.stayed:
         say(f"{one_line(session)} is another session there, or a newer one, and stays")
+    numbers = "; sessions have other numbers there" if done.renumbered else ""
     counts = f"{counted(done.added, 'session')} added, {done.replaced} replaced"
-    say(f"copied   {one_line(name)}: {counts}, of {counted(done.students, 'student')}")
+    say(f"copied   {one_line(name)}: {counts}, of {counted(done.students, 'student')}{numbers}")

@@ -29,7 +29,7 @@ from station.store.rows import SessionRow, TeacherNoteRow
 
 _MOST_TITLES, _MOST_AHEAD, _MOST_BEGUN, _MOST_NOTES = 10, 3, 2, 3
 """So many are named (our choice: the page stays one page)."""
-_BEGINS = {ItemKind.GO_ON: "goes on", ItemKind.NEW: "is new"}
+_BEGINS = {ItemKind.GO_ON: "goes on", ItemKind.NEW: "is new to {}"}
 _BETTER = (
     "Like is compared with like, the same piece at about the same speed, over the last six weeks. Only what is hardly"
     " chance is told here."
@@ -60,7 +60,7 @@ def week_page(history: History, settings: Settings, day: date, today: date) -> W
     better = got_better(recent, monday)
     now = min(today, sunday)
     return WeekPage(
-        student=one_line(student) or "The student",
+        student=_begins_with(student),
         when=_when(monday, sunday),
         headline=_headline(student, rows, is_over=today > sunday),
         kind="" if rows else _OFF,
@@ -82,12 +82,18 @@ def _when(monday: date, sunday: date) -> str:
 
 
 def _headline(student: str, rows: Sequence[SessionRow], is_over: bool) -> str:
-    name, week = one_line(student) or "The student", "" if is_over else " so far"
+    name, week = _begins_with(student), "" if is_over else " so far"
     if not rows:
         return f"{name} did not play in this week{week}."
     summed = totals(rows)
     minutes = counted(summed.minutes, "minute") if summed.minutes else "less than a minute"
     return f"{name} played on {counted(summed.days, 'day')} of this week{week}, {minutes} in all."
+
+
+def _begins_with(student: str) -> str:
+    """The student's name as a sentence begins with it: in a capital, where it is written in small letters."""
+    name = one_line(student) or "The student"
+    return name[:1].upper() + name[1:]
 
 
 def _days(rows: Sequence[SessionRow], monday: date, today: date) -> tuple[WeekDay, ...]:
@@ -140,10 +146,15 @@ def _ahead(settings: Settings, today: date) -> tuple[str, ...]:
     silent: list[str] = []
     book = LessonBook(settings, silent.append)
     asked = [line for one in taken_assignments(settings)[0] if (line := _asked(one, settings)) is not None]
-    again = [f"{one_line(each.title)} comes again {_on(each.due, today)}." for each in book.returning()[:_MOST_AHEAD]]
+    again = [f"“{one_line(each.title)}” comes again {_on(each.due, today)}." for each in book.returning()[:_MOST_AHEAD]]
     planned = book.page(today).kept.items or daily_plan(day_facts(settings, today)).items
+    name = _begins_with(settings.student)
     begun = {one_line(item.title): _BEGINS[item.kind] for item in reversed(planned) if item.kind in _BEGINS}
-    lines = [f"{title} {how}." for title, how in reversed(begun.items()) if not any(title in line for line in asked)]
+    lines = [
+        f"“{title}” {how.format(name)}."
+        for title, how in reversed(begun.items())
+        if not any(title in line for line in asked)
+    ]
     return (*asked[-_MOST_AHEAD:], *again, *lines[:_MOST_BEGUN])
 
 
@@ -153,9 +164,8 @@ def _asked(one: TakenAssignment, settings: Settings) -> str | None:
         return None
     due = one.assignment.due
     until = "" if due is None else f", for {day_in_words(due)}"
-    return (
-        f"{one_line(one.assignment.title)}, from {one_line(one.assignment.teacher)}{until}: {'; '.join(open_lessons)}."
-    )
+    title, teacher = one_line(one.assignment.title), one_line(one.assignment.teacher)
+    return f"“{title}”, from {teacher}{until}: {'; '.join(open_lessons)}."
 
 
 def _on(due: date, today: date) -> str:

@@ -48,6 +48,29 @@ def test_a_backup_has_all_of_it_and_replaces_an_older_one(tmp_path: Path, capsys
     assert main(["history", "backup", "--out", str(data_folder() / "history.sqlite3")]) == 2
 
 
+def numbers_in(path: Path) -> dict[str, int]:
+    with sqlite3.connect(path) as connection:
+        return dict(
+            connection.execute(
+                "SELECT students.name, sessions.id FROM sessions JOIN students ON students.id = student_id"
+            )
+        )
+
+
+def test_a_backup_keeps_the_numbers_and_a_copy_says_where_they_differ(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    mine, backup, school = data_folder() / "history.sqlite3", tmp_path / "backup.sqlite3", tmp_path / "school.sqlite3"
+    users_history().keep(kept("Aaron", datetime(2026, 11, 24, 18, 0)))  # first by the alphabet, last by number
+    assert main(["history", "backup", "--out", str(backup)]) == 0
+    assert numbers_in(backup) == numbers_in(mine)
+    History(Database(sqlite_url(school))).keep(kept("Zoë", datetime(2026, 11, 24, 18, 0)))
+    capsys.readouterr()
+    assert main(["history", "copy", "--to", sqlite_url(school)]) == 0
+    assert capsys.readouterr().err.endswith("of 3 students; sessions have other numbers there\n")
+    assert numbers_in(school) != numbers_in(mine)
+
+
 def test_one_student_moves_into_another_history(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     school = tmp_path / "school.sqlite3"
     url = sqlite_url(school)

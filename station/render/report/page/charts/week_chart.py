@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from station.render.palette import BRAND, INK, INK_FAINT, INK_SOFT, with_opacity
+from station.render.palette import BRAND, INK, INK_SOFT
 from station.render.report.page.charts.chart import HAIR, LETTER, WIDTH, Chart, Spot
 from station.render.report.page.week_page import WeekDay
 from station.render.text.atlas import Atlas
@@ -12,8 +12,6 @@ from station.render.text.fonts import Face
 _LEFT, _RIGHT = 6.0, WIDTH - 6.0
 _TOP, _LOW, _HEIGHT = 22.0, 126.0, 150.0
 _SHARE = 0.62
-_LEAST_TOP = 10
-"""Minutes of a full bar at least (our choice: two minutes are no wall)."""
 _LEAST_BAR = 2.0
 
 
@@ -21,7 +19,7 @@ def week_chart(days: Sequence[WeekDay], atlas: Atlas) -> Chart:
     """The chart of seven `days`."""
     draw_list = DrawList(atlas)
     wide = (_RIGHT - _LEFT) / len(days)
-    most = max([_LEAST_TOP, *(day.minutes for day in days)])
+    most = max([1, *(day.minutes for day in days)])
     draw_list.box((_LEFT, _LOW), (_RIGHT - _LEFT, HAIR), INK_SOFT)
     spots = []
     for index, day in enumerate(days):
@@ -31,7 +29,7 @@ def week_chart(days: Sequence[WeekDay], atlas: Atlas) -> Chart:
             draw_list.box((middle - wide * _SHARE / 2, _LOW - high), (wide * _SHARE, high), BRAND)
             minutes = str(day.minutes) if day.minutes else "< 1"
             draw_list.text(minutes, (middle, _LOW - high - 5), TypeStyle(LETTER + 2, INK, Face.BOLD, align=0.5))
-        ink = with_opacity(INK_FAINT, 0.8) if day.is_ahead else INK
+        ink = INK_SOFT if day.is_ahead else INK
         draw_list.text(day.name[:3], (middle, _LOW + LETTER + 4), TypeStyle(LETTER, ink, align=0.5))
         spots.append(Spot(_words(day), left, 0.0, wide, _HEIGHT))
     words = ", ".join(spot.words for spot in spots)
