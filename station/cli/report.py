@@ -1,7 +1,7 @@
 """`station report`: a page about one session or about a week, which stands alone in a browser or on paper."""
 
 from dataclasses import dataclass
-from datetime import date
+from datetime import date, timedelta
 from pathlib import Path
 
 from station.cli.console import say
@@ -14,6 +14,8 @@ from station.practice.history.session_choice import HELP
 ENDINGS = (".html", ".pdf")
 _THIS_WEEK = date.min
 """What `--week` without a day stands for: today's."""
+_LAST_WEEK = date.max - timedelta(days=date.max.weekday() + 1)
+"""The last day of the last whole week."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,6 +35,8 @@ def run(options: ReportOptions) -> int:
     out = options.out
     if out.suffix.lower() not in ENDINGS:
         raise BadInput(out, "", f"expected a name that ends in {' or '.join(ENDINGS)}")
+    if out.is_file() and (there := out.resolve()).suffix.lower() not in ENDINGS:
+        raise BadInput(out, "", f"is a link to {there}, which is no page: choose another name")
     write_whole(out, _page(options, out.suffix.lower()))
     say(f"report   {out}")
     return 0
@@ -48,6 +52,8 @@ def _page(options: ReportOptions, ending: str) -> bytes:
         return page_bytes(options.session, settings, ending)
     if options.session is not None:
         raise BadInput("--week", "", f"is about a whole week: leave {options.session} out")
+    if options.week > _LAST_WEEK:
+        raise BadInput("--week", options.week.isoformat(), "its week ends after the last day that there is")
     settings, today = settings_for(options.student), date.today()
     return week_bytes(settings, today if options.week == _THIS_WEEK else options.week, today, ending)
 

@@ -19,6 +19,8 @@ from station.store.sqlite_files import FOR_THE_OWNER, keep_no_log
 from station.store.tables import BACKUPS
 from station.store.upserts import put
 
+_BESIDE = ("-wal", "-shm", "-journal")
+"""How the files end that SQLite keeps beside its own."""
 _AS_LONG_AS_S = 1.0
 """So long whoever reads an older backup may still read it (our choice)."""
 
@@ -29,14 +31,19 @@ def back_up(history: History, path: Path) -> Copied:
     Raises `BadInput` where something else than a backup is at `path`, `DeviceError` where it cannot be written or is
     being read; what was there stays then.
     """
+    own = history.database.path
+    if own is not None and path.resolve() in (own.resolve().with_name(own.name + end) for end in _BESIDE):
+        raise BadInput(path, "", "belongs to the history itself: a backup needs another file")
     if path.exists():
         _let_go(history, path)
     with growing(path) as part:
         part.chmod(FOR_THE_OWNER)
         try:
             copied = _copy(history, part)
+        except DeviceError as fault:
+            raise DeviceError(str(fault).replace(str(part), str(path))) from fault
         finally:
-            for end in ("-wal", "-shm", "-journal"):
+            for end in _BESIDE:
                 with suppress(OSError):
                     part.with_name(part.name + end).unlink(missing_ok=True)
     place = {"computer": platform.node(), "file": str(path.resolve())}

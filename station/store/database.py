@@ -3,9 +3,10 @@
 Whatever a database refuses becomes a `DeviceError` that names it, without its password.
 """
 
+import shutil
 import sqlite3
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 from sqlalchemy import Connection, Engine, create_engine, event
@@ -16,6 +17,14 @@ from station.core.errors import DeviceError
 from station.store.database_url import file_of, name_of, parsed
 from station.store.server_links import connect_args, connected
 from station.store.sqlite_files import begun, prepared
+
+_NO_ROOM_BYTES = 64 * 2**10
+"""With less a file cannot even be read: SQLite keeps 32 KiB beside it (its page "WAL-mode File Format")."""
+_DAMAGED = ("malformed", "not a database")
+_PUT_AWAY = (
+    "; put a backup in its place, or move it away: sessions are taken in again from their folders then, mastery and"
+    " levels begin anew"
+)
 
 
 class Database:
@@ -56,7 +65,18 @@ class Database:
         try:
             yield
         except (SQLAlchemyError, sqlite3.Error, OSError) as fault:
-            raise DeviceError(f"history {self.name}: {_reason(fault)}") from fault
+            raise DeviceError(f"history {self.name}: {_reason(fault)}{self._what_to_do(fault)}") from fault
+
+    def _what_to_do(self, fault: Exception) -> str:
+        """What mends a file that its disk or its bytes refuse; empty for all else."""
+        if self.path is None:
+            return ""
+        if any(words in str(fault) for words in _DAMAGED):
+            return _PUT_AWAY
+        with suppress(OSError):
+            if shutil.disk_usage(self.path.parent).free < _NO_ROOM_BYTES:
+                return "; the disk that it is on is full: make room there and try again"
+        return ""
 
     def _engine(self) -> Engine:
         try:

@@ -5,6 +5,7 @@ Every method is one transaction; all of them raise `DeviceError` where the datab
 
 from collections.abc import Callable, Iterable, Mapping
 from datetime import datetime
+from pathlib import Path
 
 from station.store import memory_rows, sessions, students
 from station.store.database import Database
@@ -25,6 +26,10 @@ from station.store.scrubbing import scrub
 from station.store.student_names import student_key
 
 
+def _is_empty(path: Path) -> bool:
+    return path.is_file() and path.stat().st_size == 0
+
+
 class History:
     """What is kept in `database`, whose tables are made or migrated first.
 
@@ -33,6 +38,8 @@ class History:
 
     def __init__(self, database: Database) -> None:
         self.database = database
+        self.was_empty = database.path is not None and _is_empty(database.path)
+        """Whether its file was there without a byte: what it knew is lost, and it begins anew."""
         try:
             make_ready(database)
         except BaseException:

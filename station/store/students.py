@@ -1,5 +1,7 @@
 """Who is known here, by names that are written in one way or another; statements on one connection."""
 
+from datetime import datetime
+
 from sqlalchemy import Connection, delete, func, select
 
 from station.store.rows import SessionState, StudentRow
@@ -27,7 +29,8 @@ def students_known(connection: Connection) -> list[StudentRow]:
     kept = (SESSIONS.c.student_id == STUDENTS.c.id) & (SESSIONS.c.state == SessionState.KEPT.value)
     wanted = select(STUDENTS.c.name, played.label("last")).outerjoin(SESSIONS, kept).group_by(STUDENTS.c.id)
     rows = [StudentRow(each.name, each.last) for each in connection.execute(wanted)]
-    return sorted(rows, key=lambda row: (row.last is None, -row.last.timestamp() if row.last else 0.0, row.name))
+    rows.sort(key=lambda row: row.name)
+    return sorted(rows, key=lambda row: (row.last is not None, row.last or datetime.min), reverse=True)
 
 
 def delete_student(connection: Connection, name: str) -> bool:

@@ -8,6 +8,7 @@ from station.cli.history_verbs.opened_history import opened_history, settings_fo
 from station.cli.options.option_fields import option, required
 from station.core.counts import counted
 from station.core.disk.utf8 import one_line
+from station.core.errors import StationError
 from station.store.copying import Copied
 
 
@@ -46,11 +47,18 @@ def copy(options: CopyOptions) -> int:
     settings = settings_for(options.student, must_have_played=False)
     student = None if options.student is None else settings.student
     source = opened_history(settings, settings.student)
-    target = History(Database(options.to))
+    database = Database(options.to)
+    is_new = database.path is not None and not database.path.exists()
     try:
-        _tell(copy_history(source, target, student), target.name)
+        _tell(copy_history(source, History(database), student), database.name)
+    except StationError:
+        if is_new and database.path is not None:
+            database.close()
+            for end in ("", "-wal", "-shm", "-journal"):
+                database.path.with_name(database.path.name + end).unlink(missing_ok=True)
+        raise
     finally:
-        target.database.close()
+        database.close()
     return 0
 
 

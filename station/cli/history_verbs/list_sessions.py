@@ -76,7 +76,7 @@ def _line(row: SessionRow) -> str:
     score = "" if row.score is None else f"{row.score:.0f}"
     spread = "" if row.sd_ms is None else f"{row.sd_ms:.0f} ms"
     minutes = f"{row.played_s / 60:.1f}"
-    facts = f"{row.id:6}  {row.started:%Y-%m-%d %H:%M}  {minutes:>7}  {tempo:>4}  {score:>5}  {spread:>6}"
+    facts = f"{row.id:6}  {row.started.isoformat(' ', 'minutes')}  {minutes:>7}  {tempo:>4}  {score:>5}  {spread:>6}"
     return f"{facts}  {title_of(row)}{'' if row.complete else ' (stopped early)'}".rstrip()
 
 

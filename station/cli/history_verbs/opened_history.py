@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from station.cli.caught_up import shown_intake
 from station.cli.console import say
 from station.cli.today import settings_of
 from station.core.settings import Settings
@@ -16,12 +17,19 @@ def opened_history(settings: Settings, student: str) -> "History":
 
     Raises `BadInput` and `DeviceError`.
     """
+    from station.practice.history.old_mastery import begun_anew, untold_faults
     from station.practice.history.session_intake import everything_in
     from station.practice.history.student_history import StudentHistory
 
     history = StudentHistory(settings, student).open()
-    for fault in everything_in(history, settings.sessions_dir, student).faults:
+    for fault in untold_faults(history, StudentHistory(settings, student).folder):
         say(fault)
+    with shown_intake() as progress:
+        found = everything_in(history, settings.sessions_dir, student, progress)
+    for fault in found.faults:
+        say(fault)
+    if history.was_empty and found.sessions:
+        say(begun_anew(history))
     return history
 
 

@@ -79,7 +79,7 @@ def _kept(history: History, row: SessionRow, folder: Path | None) -> _Kept:
 def _lines(kept: _Kept) -> list[str]:
     row = kept.row
     return [
-        f"session {row.id} of {one_line(row.student)}, {row.started:%Y-%m-%d %H:%M}: {title_of(row)}",
+        f"session {row.id} of {one_line(row.student)}, {row.started.isoformat(' ', 'minutes')}: {title_of(row)}",
         *(f"  {name:12}{words}" for name, words in _facts(kept) if words),
         *(f"  {_figure_name(figure):12}{_figure_words(figure)}" for figure in kept.figures),
         f"  {'files':12}{_where(kept)}",

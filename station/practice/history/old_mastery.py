@@ -47,6 +47,11 @@ def untold_faults(history: "History", folder: Path) -> list[str]:
     return lines
 
 
+def begun_anew(history: "History") -> str:
+    """What is lost where a history's file was emptied."""
+    return f"history {history.name}: was empty: sessions come from their folders again, mastery and levels begin anew"
+
+
 def mastery_row(state: ItemState) -> MasteryRow:
     """What is known of an item, as the history keeps it."""
     return MasteryRow(state.item.name, *state.item.bars, json.dumps(document_of(state)))

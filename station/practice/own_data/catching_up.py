@@ -16,7 +16,7 @@ from station.core.settings import Settings
 from station.practice.exchange.notes_kept import take_in_notes
 from station.practice.history.moved_folders import follow_moved, forget_gone
 from station.practice.history.named_folders import give_new_names, reported_name
-from station.practice.history.old_mastery import FOLDER, take_in_old, untold_faults
+from station.practice.history.old_mastery import FOLDER, begun_anew, take_in_old, untold_faults
 from station.practice.history.session_files import (
     OWN_FOLDERS,
     VIRTUAL_STUDENT,
@@ -57,6 +57,8 @@ def catch_up(settings: Settings, tell: Callable[[str], None], progress: Progress
                 forget_arrived(whose, history)
                 taken += found.sessions
                 faults += found.faults if found.sessions else ()  # what is damaged is named once, with what is not
+            if history.was_empty and taken:
+                tell(begun_anew(history))
     except DeviceError as fault:
         tell(f"{fault}; practice goes on, and what is played stays in its folder until the history can be reached")
     for line in faults[:_MOST_TOLD]:

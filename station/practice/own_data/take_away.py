@@ -48,6 +48,8 @@ def take_away(history: History, settings: Settings, student: str, out: Path, now
     folder = student_folder(settings.sessions_dir, student)
     if out.resolve().is_relative_to(folder.resolve()):
         raise BadInput(out, "", "lies in the student's own folder: choose another place")
+    if any(each.parent == settings.sessions_dir.resolve() for each in out.resolve().parents):
+        raise BadInput(out, "", "lies in a student's folder: choose another place")
     rows = all_sessions(history, student)
     files = FolderFiles.of(folder)
     if not (rows or files.count or own_settings(settings, student)):

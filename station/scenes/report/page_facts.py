@@ -11,6 +11,7 @@ from station.core.pieces import Dynamic, Piece
 from station.core.units import NS_PER_S, PPQ
 from station.engine.engine import KEYBOARD
 from station.music.judgement import Label
+from station.practice.history.session_files import CAPTURE_NAME, DOCUMENT_NAME
 from station.practice.now.tempo_now import tempi_in_words, tempo_at
 from station.practice.session.session import SessionResult
 from station.render.report.page.session_page import (
@@ -56,7 +57,9 @@ def session_page(kept: KeptSession, source: str) -> SessionPage:
     try:
         return _page(kept)
     except _NO_REPORT as fault:  # it was edited: our own words look for what our own reports have
-        raise BadInput(source, "", f"is no whole report of a session ({fault!r})") from fault
+        report = f"{source.removesuffix(CAPTURE_NAME)}{DOCUMENT_NAME}" if source.endswith(CAPTURE_NAME) else source
+        lacks = f": it lacks {fault.args[0]}" if isinstance(fault, KeyError) and fault.args else ""
+        raise BadInput(report, "", f"is no whole report of a session{lacks}") from fault
 
 
 def _page(kept: KeptSession) -> SessionPage:

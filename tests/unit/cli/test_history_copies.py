@@ -9,6 +9,7 @@ import pytest
 
 from station.cli.command_line import main
 from station.core.settings import Settings, data_folder, save_settings
+from station.store import opening
 from station.store.database import Database
 from station.store.database_url import sqlite_url
 from station.store.history import History
@@ -113,3 +114,32 @@ def test_the_doctor_says_where_it_is_and_how(tmp_path: Path, capsys: pytest.Capt
         False,
         "mend the setting history, or leave it empty for a file of yours",
     )
+
+
+def test_the_files_beside_the_history_are_no_place_for_a_backup(capsys: pytest.CaptureFixture[str]) -> None:
+    for end in ("-wal", "-shm", "-journal"):
+        assert main(["history", "backup", "--out", str(data_folder() / f"history.sqlite3{end}")]) == 2
+        assert "belongs to the history itself" in capsys.readouterr().err
+
+
+def test_what_fails_leaves_no_file_and_names_none_that_is_hidden(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    to = tmp_path / "to.sqlite3"
+    assert main(["history", "copy", "--to", sqlite_url(to), "--student", "Nobody"]) == 2
+    assert not list(tmp_path.glob("to.sqlite3*"))
+    with sqlite3.connect(data_folder() / "history.sqlite3") as connection:
+        connection.execute("DROP TABLE judgements")
+    capsys.readouterr()
+    assert main(["history", "backup", "--out", str(tmp_path / "backup.sqlite3")]) == 2
+    assert ".part" not in capsys.readouterr().err
+    assert not list(tmp_path.glob("*backup*"))
+
+
+def test_a_damaged_file_says_what_to_do(capsys: pytest.CaptureFixture[str]) -> None:
+    opening._opened.cache_clear()
+    for path in data_folder().glob("history.sqlite3*"):
+        path.unlink()
+    (data_folder() / "history.sqlite3").write_bytes(b"damaged " * 1000)
+    assert main(["history", "list"]) == 2
+    assert "put a backup in its place, or move it away" in capsys.readouterr().err

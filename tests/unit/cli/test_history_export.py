@@ -187,3 +187,10 @@ def test_any_name_can_take_its_own_away(name: str, tmp_path: Path) -> None:
         assert not any(part in ("..", "") for entry in archive.namelist() for part in entry.split("/"))
         rows = table(archive.read("sessions.csv"))
     assert [(plain(row["student"]), plain(row["lesson"])) for row in rows] == [(name, name)]
+
+
+def test_nothing_is_taken_into_another_students_folder(ann: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = ann.parent / "Ben" / "ann.zip"
+    assert main(["history", "export", "--student", "Ann", "--out", str(out)]) == 2
+    assert "lies in a student's folder" in capsys.readouterr().err
+    assert not out.exists()

@@ -10,7 +10,7 @@ import pytest
 
 from station.cli.command_line import main
 from station.core.errors import BadInput, DeviceError
-from station.core.settings import load_settings
+from station.core.settings import data_folder, load_settings
 from station.practice.history.session_choice import choose_session, history_for
 from station.practice.history.session_files import student_folder
 from station.store.history import History
@@ -199,3 +199,38 @@ def test_what_is_kept_nowhere_cannot_be_read(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match="neither in a folder nor in the history"):
         choose_session(history, "Ann", str(number)).capture_data(history)
     assert load_settings().student == "student"
+
+
+def test_a_history_that_was_emptied_says_what_is_lost(capsys: pytest.CaptureFixture[str]) -> None:
+    folder = student_folder(load_settings().sessions_dir, "Ann") / "2026-11-20T10-00-00_just-play"
+    folder.mkdir(parents=True)
+    (folder / "take.json").write_text('{"length_s": 60}')
+    path = data_folder() / "history.sqlite3"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.touch()
+    assert main(["history", "--student", "Ann"]) == 0
+    assert "was empty: sessions come from their folders again, mastery and levels begin anew" in capsys.readouterr().err
+
+
+def test_a_damaged_old_file_is_told_by_the_list(capsys: pytest.CaptureFixture[str]) -> None:
+    old = student_folder(load_settings().sessions_dir, "Ann") / "mastery"
+    old.mkdir(parents=True)
+    (old / "rock-1_1-2.json").write_text("{")
+    for count in (1, 0):
+        assert main(["history", "--student", "Ann"]) == 0
+        assert capsys.readouterr().err.count("mastery begins anew") == count
+
+
+def test_many_sessions_at_once_are_announced(capsys: pytest.CaptureFixture[str]) -> None:
+    folder = student_folder(load_settings().sessions_dir, "Ann")
+    for minute in range(100):
+        (folder / f"2026-11-20T10-{minute // 60:02}-{minute % 60:02}_just-play").mkdir(parents=True)
+        (folder / f"2026-11-20T10-{minute // 60:02}-{minute % 60:02}_just-play" / "take.json").write_text("{")
+    assert main(["history", "--student", "Ann"]) == 0
+    assert "taking 100 sessions into the history…" in capsys.readouterr().err
+
+
+def test_a_year_has_four_digits(capsys: pytest.CaptureFixture[str]) -> None:
+    users_history().keep(kept("Ann", datetime(1, 1, 1, 18, 0)))
+    assert main(["history", "--student", "Ann"]) == 0
+    assert "  0001-01-01 18:00  " in capsys.readouterr().out

@@ -134,3 +134,31 @@ def test_a_folder_has_its_page_where_the_history_is_away(
     assert (tmp_path / "away.pdf").read_bytes() == (tmp_path / "there.pdf").read_bytes()
     capsys.readouterr()
     assert "127.0.0.1" in refused(capsys, "report", "last", "--out", str(tmp_path / "last.pdf"))
+
+
+def test_an_edited_report_is_named_with_what_it_lacks(
+    session: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    edited = tmp_path / "edited"
+    shutil.copytree(session, edited)
+    report = json.loads((edited / "report.json").read_text())
+    del report["tempo"]
+    (edited / "report.json").write_text(json.dumps(report))
+    line = refused(capsys, "report", str(edited), "--out", str(tmp_path / "x.html"))
+    assert f"{edited / 'report.json'}: is no whole report of a session: it lacks tempo" in line
+
+
+def test_no_page_is_written_over_a_sessions_own_files(
+    session: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    before = (session / "report.json").read_bytes()
+    link = tmp_path / "x.pdf"
+    link.symlink_to(session / "report.json")
+    assert "is a link to" in refused(capsys, "report", str(session), "--out", str(link))
+    assert (session / "report.json").read_bytes() == before
+
+
+@pytest.mark.parametrize("day", ["9999-12-27", "9999-12-31"])
+def test_a_week_that_has_no_end_is_refused(day: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    line = refused(capsys, "report", "--week", day, "--out", str(tmp_path / "x.html"))
+    assert "ends after the last day" in line

@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from sqlalchemy import Engine, event
@@ -149,3 +150,10 @@ def test_a_file_that_many_make_at_the_same_moment(url: str) -> None:
     history = History(Database(url))
     assert len(history.students()) == _SAME_MOMENT
     history.database.close()
+
+
+def test_a_full_disk_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    database = Database(sqlite_url(tmp_path / "history.sqlite3"))
+    monkeypatch.setattr(shutil, "disk_usage", lambda _path: SimpleNamespace(free=0))  # as a full disk says it
+    with pytest.raises(DeviceError, match="disk I/O error; the disk that it is on is full"), database.refusals():
+        raise sqlite3.OperationalError("disk I/O error")
