@@ -67,8 +67,10 @@ def copies_known(history: History) -> list[str]:
 
 def _copy(history: History, part: Path) -> Copied:
     database = Database(sqlite_url(part))
-    copied = copy_history(history, History(database))
-    database.close()
+    try:
+        copied = copy_history(history, History(database))
+    finally:
+        database.close()
     keep_no_log(part)
     return copied
 
