@@ -64,7 +64,7 @@ def dot_words(trend: Trend, at: int, rows: Mapping[int, SessionRow]) -> str:
     words = WORDS[trend.measure]
     near = "" if trend.line is None or trend.near is None else f", as at {trend.near:.0f} bpm"
     own = [rows[point.session] for point in trend.points if int(point.day) == whole and point.session in rows]
-    lines = [f"{day_in_words(day)}: {words.label.lower()} {_number(values[at])} {words.unit}{near}"]
+    lines = [f"{day_in_words(day)} {day.year}: {words.label.lower()} {_number(values[at])} {words.unit}{near}"]
     lines += [_played(row) for row in own[:_NAMED]]
     return "\n".join([*lines, *([f"and {len(own) - _NAMED} more"] if len(own) > _NAMED else [])])
 

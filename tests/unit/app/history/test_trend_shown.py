@@ -64,7 +64,7 @@ def test_a_dot_says_its_day_tempo_and_score() -> None:
     assert len(dots_of(found)[0]) == 6
     first, second = dot_words(found, 3, {row.id: row for row in rows}).split("\n")
     assert first.endswith("score 80 points, as at 70 bpm")
-    assert "5 Nov" in first
+    assert "5 November 2026: " in first
     assert second == "17:05, 70 bpm, 80 of 100"
 
 
