@@ -11,6 +11,10 @@ if TYPE_CHECKING:
 
 _LEAST_S = 2
 """No connection is given up sooner by libpq."""
+_NO_PASSWORD = (
+    "no password supplied: it belongs in the file ~/.pgpass, which its owner alone may read (chmod 600), else it is"
+    " left aside"
+)
 _T = TypeVar("_T")
 
 
@@ -46,8 +50,13 @@ def connected(_dialect: object, _record: object, words: tuple[Any, ...], argumen
     within_s = left_of(arguments["connect_timeout"])
     if within_s <= 0:
         raise psycopg.OperationalError("the server has not answered, and nobody waits longer")
-    with waiting():
-        return Impatient.connect(*words, **{**arguments, "connect_timeout": max(round(within_s), _LEAST_S)})
+    try:
+        with waiting():
+            return Impatient.connect(*words, **{**arguments, "connect_timeout": max(round(within_s), _LEAST_S)})
+    except psycopg.OperationalError as fault:
+        if "no password supplied" in str(fault):  # libpq's words, after a function of its own
+            raise psycopg.OperationalError(_NO_PASSWORD) from fault
+        raise
 
 
 def _answered(gen: Generator[Any, Any, _T], within_s: float) -> Generator[Any, Any, _T]:

@@ -84,7 +84,9 @@ def test_whom_a_server_refuses(postgres: PostgresServer, history: History) -> No
     assert 'database "nowhere" does not exist' in _refused(postgres.url("nowhere"))
     assert 'role "nobody" does not exist' in _refused(postgres.url(name, f"nobody:{_PASSWORD}"))
     assert "password authentication failed" in _refused(postgres.url(name, f"{WITH_PASSWORD}:{_PASSWORD}"))
-    assert "no password supplied" in _refused(postgres.url(name, WITH_PASSWORD))
+    unasked = _refused(postgres.url(name, WITH_PASSWORD))
+    assert "no password supplied: it belongs in the file ~/.pgpass" in unasked
+    assert "fe_sendauth" not in unasked
     assert "permission denied" in _refused(postgres.url(name, f"{WITH_PASSWORD}:right"))
 
 
