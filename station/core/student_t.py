@@ -8,6 +8,7 @@ from functools import lru_cache
 from math import cos, exp, lgamma, pi, sqrt, tan
 
 import numpy as np
+from numpy.typing import NDArray
 
 _STEPS = 200
 _STANDS_STILL = 1e-12
@@ -37,3 +38,12 @@ def t_quantile(freedom: float, share: float) -> float:
 def _area(angle: float, power: float) -> float:
     """The integral of cos^`power` from 0 to `angle`, by Gauss and Legendre."""
     return float(angle / 2 * (_WEIGHTS @ np.cos(angle / 2 * (_NODES + 1)) ** power))
+
+
+def t_below(freedom: float, at: NDArray[np.float64]) -> NDArray[np.float64]:
+    """How likely Student's t lies below each of `at` (n,), for any `freedom` as above."""
+    v = max(freedom, 1.0)
+    angle = np.arctan(np.asarray(at) / sqrt(v))
+    within = angle / 2 * (np.cos(angle[:, None] / 2 * (_NODES + 1)) ** (v - 1) @ _WEIGHTS)
+    norm = sqrt(pi) * exp(lgamma(v / 2) - lgamma((v + 1) / 2))
+    return np.clip(0.5 + within / norm, 0.0, 1.0)

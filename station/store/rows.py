@@ -40,6 +40,9 @@ class SessionRow:
     None where there are none. Of its `notes` so many were `right`; `mean_ms` and `sd_ms` of the asynchronies (early is
     negative) rest on so many `strokes`. `exam` is what it came to as an exam, in a few words. `capture_sha256` is the
     checksum of its capture, in hexadecimal digits, None where none is kept. `id` is the database's, 0 before it has it.
+    Bars `first_bar` to `last_bar` (from 1) were practised, with a `click` whose `gap` is as reports write it;
+    what the kit and the speakers are late by, `input_latency_ms` and `output_latency_ms`, was taken out. The tempo rose
+    to `top_beats_a_minute`. All of these are None where nobody said.
     """
 
     student: str
@@ -63,6 +66,13 @@ class SessionRow:
     sd_ms: float | None = None
     exam: str = ""
     capture_sha256: str | None = None
+    first_bar: int | None = None
+    last_bar: int | None = None
+    click: bool | None = None
+    gap: str | None = None
+    input_latency_ms: float | None = None
+    output_latency_ms: float | None = None
+    top_beats_a_minute: float | None = None
     id: int = 0
 
 

@@ -10,7 +10,7 @@ from station.store.sqlite_files import copied, keep_log, made
 from station.store.tables import METADATA, SESSIONS, STUDENTS
 from station.store.turns import alone
 
-HEAD = "0003"
+HEAD = "0004"
 """The newest of `migrations/versions`."""
 _MIGRATIONS = Path(__file__).with_name("migrations")
 _VERSIONS = "alembic_version"

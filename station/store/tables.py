@@ -80,6 +80,13 @@ SESSIONS = Table(
     Column("exam", LongWords(), nullable=False),
     Column("capture_sha256", Words(64), ForeignKey("captures.sha256")),
     Column("written", DateTime),
+    Column("first_bar", Number()),  # as the last bar from 1
+    Column("last_bar", Number()),
+    Column("click", Boolean),
+    Column("gap", Words(40)),
+    Column("input_latency_ms", Real()),
+    Column("output_latency_ms", Real()),
+    Column("top_beats_a_minute", Real()),
     UniqueConstraint("student_id", "name"),
     Index("ix_sessions_student_started", "student_id", "started"),
 )

@@ -29,9 +29,9 @@ _NAMED = 4
 
 
 def dots_of(trend: Trend) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Day and value of each dot (n,): a day of the line, or a session where there is none."""
-    if trend.line is not None:
-        return trend.line.days, trend.line.values
+    """Day and value of each dot (n,): a day of the comparison, or a session where there is none."""
+    if trend.compared is not None:
+        return trend.compared.days, trend.compared.values
     return np.array([point.day for point in trend.points]), np.array([point.value for point in trend.points])
 
 
@@ -62,7 +62,7 @@ def dot_words(trend: Trend, at: int, rows: Mapping[int, SessionRow]) -> str:
     whole = int(np.floor(days[at]))
     day = (trend.first or date.min) + timedelta(days=whole)
     words = WORDS[trend.measure]
-    near = "" if trend.line is None or trend.near is None else f", as at {trend.near:.0f} bpm"
+    near = "" if trend.compared is None or trend.near is None else f", as at {trend.near:.0f} bpm"
     own = [rows[point.session] for point in trend.points if int(point.day) == whole and point.session in rows]
     lines = [f"{day_in_words(day)} {day.year}: {words.label.lower()} {_number(values[at])} {words.unit}{near}"]
     lines += [_played(row) for row in own[:_NAMED]]

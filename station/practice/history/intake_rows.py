@@ -52,7 +52,38 @@ def lesson_row(blank: SessionRow, report: Table, exam: object) -> SessionRow:
         right=_count(report.get("right")),
         exam=exam_result(exam),
         **_timing(timing),
+        **_asked(session, _table_or_none(report.get("mastery"))),
     )
+
+
+def _asked(session: Table, mastery: Table) -> dict[str, Any]:
+    """What was practised under which conditions: bars, click, what was taken out, and the highest tempo."""
+    bars = session.get("bars")
+    first, last = bars if isinstance(bars, list) and len(bars) == 2 else (None, None)
+    click, gap = session.get("click"), session.get("gap")
+    tempi = [_number(table.get(key), 0.0, _MOST) for table, key in _tempi(session, mastery)]
+    return {
+        "first_bar": _bar(first),
+        "last_bar": _bar(last),
+        "click": click if isinstance(click, bool) else None,
+        "gap": _words(gap, "name") or None,
+        "input_latency_ms": _number(session.get("input_latency_ms"), -_MOST, _MOST),
+        "output_latency_ms": _number(session.get("output_latency_ms"), -_MOST, _MOST),
+        "top_beats_a_minute": max((each for each in tempi if each is not None), default=None),
+    }
+
+
+def _tempi(session: Table, mastery: Table) -> Iterator[tuple[Table, str]]:
+    """Where a report names its tempi: the session's, those that it rose to, those of passes that followed."""
+    yield session, "beats_a_minute"
+    for listed in (session.get("tempi"), mastery.get("passes")):
+        for each in listed[:_MOST_NAMES] if isinstance(listed, list) else ():
+            yield _table_or_none(each), "beats_a_minute"
+
+
+def _bar(value: object) -> int | None:
+    found = _number(value, 1, _MOST_COUNT)
+    return None if found is None else int(found)
 
 
 def exam_row(blank: SessionRow, exam: Table) -> SessionRow:

@@ -2,8 +2,9 @@
 
 What is learnt is kept between days, not within one: gains show after 24 hours, and reviews come after days and weeks
 (Simmons 2012; Latimier 2021). A streak of days would punish the nights and rests that do the work, and what frightens
-with loss works for some weeks and then no more. So a week counts as soon as three of its days had practice, whichever;
-a week with less leaves the streak as it is, even one without any; two whole weeks without practice in a row end it.
+with loss works for some weeks and then no more. So a week counts as soon as two of its days had practice, whichever;
+a week with less leaves the streak as it is, even one without any; three whole weeks without practice end it. Its weeks
+need not follow on one another, and nobody is told that they did.
 """
 
 from collections.abc import Iterator
@@ -12,14 +13,14 @@ from datetime import date
 
 from station.practice.history.calendar_days import WEEK, Days, monday_of, weeks_of
 
-DAYS_A_WEEK = 3
-"""So many days of practice make a week count (our choice: every other day, with a weekend off)."""
-FORGIVEN_WEEKS = 1
-"""So many weeks without practice in a row are forgiven (our choice: a holiday, or the flu)."""
+DAYS_A_WEEK = 2
+"""So many days of practice make a week count (our choice: twice, so that a night lies between)."""
+FORGIVEN_WEEKS = 2
+"""So many weeks without practice in a row are forgiven (our choice: school holidays, or the flu)."""
 RULE = (
     f"A week counts as soon as {DAYS_A_WEEK} of its days had practice, whichever they are: what you learn settles"
-    " between days, so days off are part of it. A week with less leaves the streak as it is, and so does one week"
-    " without any. After two weeks in a row without any a new streak begins; nothing that you have played is lost."
+    " between days, so days off are part of it. A week with less leaves the streak as it is, and so do one week"
+    " or two without any. After three weeks without any a new streak begins; nothing that you have played is lost."
 )
 """The rule in words."""
 
@@ -67,7 +68,7 @@ def streak_words(streak: Streak) -> str:
         return f"A streak begins with the first week that has {DAYS_A_WEEK} days of practice"
     weeks = "1 week" if streak.weeks == 1 else f"{streak.weeks} weeks"
     best = f"; your longest: {streak.longest}" if streak.longest > streak.weeks else ""
-    return f"{weeks} in a row{best}"
+    return f"{weeks} that {'counts' if streak.weeks == 1 else 'count'}{best}"
 
 
 def this_week_words(streak: Streak) -> str:

@@ -1,29 +1,36 @@
-"""A straight line through days of practice, with an interval that the data bear.
+"""The first days of practice against the last, with an interval that the data bear.
 
-Sessions of a day share the day: its form, its mood, its kit. So a day is one observation, the mean of its sessions.
-What was played on one device, at one level and near one tempo is a `stratum`, which has a height of its own; within
-it the rest of the tempo's effect is taken out as linear in its logarithm. The slope, which all strata share, is
-therefore what changed among like and like: who slows down gets no better by it, and a harder level is no step back.
+A day is one observation, the mean of its sessions. What was played alike (`stratum`) has a height of its own, and the
+tempo within it is taken out as linear in its logarithm. Learning is quick at first and slow later (power law of
+practice, Newell and Rosenbloom 1981): the course is a sum of the day and its logarithm, and what is told is its mean
+over the last fifth of days less that over the first (a third where days are few), so that nothing is extrapolated.
+Where that can hardly be told from tempo and stratum there is no answer.
 
-The line is fitted by Huber's M-estimate with his pseudo-values (Huber 1981, Robust Statistics, section 7.10), so that a
-session in which the telephone rang does not turn it; interval by Student's t, with the days less the parameters as its
-freedom. Days are taken to be independent given the line; where neighbours go together, as form does, the variance is
-widened by their lag-1 correlation (Bartlett 1946: (1 + ρ)/(1 − ρ)). A form that keeps 0.7 of itself from one day to
-the next, every day, is more than that can see: then 95 % intervals hold the truth 84 to 88 times in 100.
+What lies far off is drawn in by Huber's M-estimate and pseudo-values (Huber 1981, Robust Statistics, section 7.10).
+Days that lie near each other share form: a part `share` of a day's variance goes with another's by `rho` to the power
+of the days between. Neither can be read off few days, so that all their values on a grid are weighed by their
+restricted likelihood and by `_PRIOR`, and the change has the mixture of the Student's t that each of them gives.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.core.student_t import t_quantile, t_quantile_95
+from station.core.student_t import t_below, t_quantile, t_quantile_95
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 LEAST_FREEDOM = 3
 """So many days beyond the parameters are needed (our choice: below it Student's t is 4 and more, and tells nothing)."""
+LEAST_GROUPS, MOST_GROUPS, _A_GROUP = 3, 5, 4
+"""The days in groups, and how many a further group needs (our choice: the first and the last have two and more)."""
+TANGLED = 0.9
+"""So much of the first days' difference from the last may go with tempo and stratum, as a correlation (our choice)."""
+_MOST_ROWS = 120
+"""More days are averaged with their neighbours (our choice: the likelihood takes the third power of their number)."""
 _CORNER = 2.0
 """Huber's corner in SDs (our choice between 1.345 for asymptotics and none: few days bear little trimming)."""
 _STEPS = 30
@@ -33,10 +40,13 @@ _MAD = 1.4826
 """A normal law's SD for its median size."""
 _LEAST_SCALE = 0.5
 """Of the plain SD: so that a handful of equal days makes no outliers of the others (our choice)."""
-_FEWEST_FOR_LAG = 8
-_MOST_RHO = 0.8
+_RHOS, _SHARES = (0.3, 0.6, 0.8, 0.92), (0.5, 1.0)
+_INDEPENDENT = 0.5
+"""Prior weight of days that share nothing; the rest is spread evenly (our choice: diaries give a day's form an
+intra-class correlation of .3 to .6, and it is not known for practice)."""
 SAME_TEMPO = 0.01
 """Tempi this close, in their logarithm, nobody tells apart (our choice)."""
+_BISECTIONS = 24
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -49,70 +59,108 @@ class Observations:
     stratum: Indices
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Line:
-    """A line through days (d,): `slope` a day with its standard error, and the `half` width of a 95 % interval in SEs.
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """The first days against the last: means `early` and `late` of `a_side` days each, all strata at one height.
 
-    `days` are those with sessions, in order, `values` what was measured on them with all strata brought to the height
-    of the one that was played most; `freedom` is what the parameters leave of them for the errors. `height` is the
-    line's at the `centre`, with its own standard error and the `covariance` of both.
+    `days` (d,) are those with sessions, in order, `values` what was measured on them at the height of the stratum that
+    was played most. The change has a mixture of Student's t of `freedom`: `weights`, `centres`, `scales` (k,) each.
+    `early_days` and `late_days` are the first and the last of each side, `mean_half` half the 95 % interval of a mean.
     """
 
     days: Floats
     values: Floats
-    slope: float
-    slope_error: float
-    half: float
+    a_side: int
+    early_days: tuple[float, float]
+    late_days: tuple[float, float]
+    early: float
+    late: float
+    mean_half: float
     freedom: int
-    centre: float
-    height: float
-    height_error: float
-    covariance: float
+    weights: Floats
+    centres: Floats
+    scales: Floats
 
-    def at(self, day: Floats) -> Floats:
-        """The line at `day` (n,)."""
-        return self.height + self.slope * (day - self.centre)
+    @property
+    def change(self) -> float:
+        """By how much the last days differ from the first."""
+        return self.late - self.early
 
-    def is_surely_sloped(self, false: float) -> bool:
-        """Whether of level lines a share of `false` at most, in either direction, look as steep as this one."""
-        return abs(self.slope) > t_quantile(self.freedom, 1.0 - false) * self.slope_error
+    def chance_below(self, change: float) -> float:
+        """How likely the true change is below this one."""
+        return float(self.weights @ t_below(self.freedom, (change - self.centres) / self.scales))
 
-    def half_width(self, day: Floats) -> Floats:
-        """Half the 95 % interval of the line at `day` (n,)."""
-        off = day - self.centre
-        variance = self.height_error**2 + 2 * off * self.covariance + (off * self.slope_error) ** 2
-        return self.half * np.sqrt(np.maximum(variance, 0.0))
+    def is_surely_changed(self, false: float) -> bool:
+        """Whether where nothing changed a share of `false` at most, in either direction, looks as changed as this."""
+        below = self.chance_below(0.0)
+        return min(below, 1.0 - below) < false / 2
+
+    @cached_property
+    def interval(self) -> tuple[float, float]:
+        """The 95 % interval of the change."""
+        return self._quantile(0.025), self._quantile(0.975)
+
+    def _quantile(self, share: float) -> float:
+        """The mixture's, between the least and the greatest of its parts'."""
+        parts = self.centres + self.scales * t_quantile(self.freedom, abs(1 - 2 * share)) * np.sign(share - 0.5)
+        low, high = float(parts.min()), float(parts.max())
+        for _ in range(_BISECTIONS):
+            middle = (low + high) / 2
+            low, high = (middle, high) if self.chance_below(middle) < share else (low, middle)
+        return (low + high) / 2
 
 
-def fit_line(seen: Observations) -> Line | None:
-    """The line, None where there are too few days, or where time cannot be told from tempo and stratum."""
+def compare_days(seen: Observations) -> Compared | None:
+    """The comparison, None where there are too few days, or where time cannot be told from tempo and stratum."""
     days, of_day = np.unique(np.floor(seen.day), return_inverse=True)
-    count = np.bincount(of_day).astype(np.float64)
+    count = len(days)
+    together = -(-count // _MOST_ROWS)
+    of_row = np.arange(count) // together
 
-    def of_days(column: Floats) -> Floats:
-        return np.bincount(of_day, weights=column) / count
+    def rows(column: Floats) -> Floats:
+        a_day = np.bincount(of_day, weights=column) / np.bincount(of_day)
+        return np.bincount(of_row, weights=a_day) / np.bincount(of_row)
 
-    centre = float(days.mean())
-    time = days - centre
-    apart = _independent([of_days(column) for column in _columns(seen)])
-    design = np.column_stack([*apart, time])
-    freedom = len(days) - design.shape[1]
-    if freedom < LEAST_FREEDOM or len(_independent([*apart, time])) == len(apart):
+    at, value = rows(seen.day), rows(seen.value)
+    if len(at) < LEAST_FREEDOM + LEAST_GROUPS:
         return None
-    beta, residual, covariance = _robust(design, of_days(seen.value), freedom)
-    covariance = covariance * _widening(days, residual)
-    return Line(
-        days=days,
-        values=beta[0] + beta[-1] * time + residual,
-        slope=float(beta[-1]),
-        slope_error=float(np.sqrt(covariance[-1, -1])),
-        half=t_quantile_95(float(freedom)),
+    groups = int(np.clip(len(at) // _A_GROUP, LEAST_GROUPS, MOST_GROUPS))
+    group = np.arange(len(at)) * groups // max(len(at), 1)
+    later = _course(at - at[0], group == 0, group == groups - 1)
+    apart = _independent([rows(column) for column in _columns(seen)])
+    design = np.column_stack([*apart, *later])
+    freedom = len(at) - design.shape[1]
+    if freedom < LEAST_FREEDOM or len(_independent([*apart, *later])) < design.shape[1] or _is_tangled(apart, later):
+        return None
+    beta, pseudo = _robust(design, value, freedom)
+    weights, centres, scales = _mixture(at, design, pseudo, freedom)
+    change = float(weights @ centres)
+    others = np.column_stack(apart[1:]) if len(apart) > 1 else np.zeros((len(at), 0))
+    level = value - others @ beta[1 : len(apart)]
+    pulled = pseudo - others @ beta[1 : len(apart)]
+    middle = float(pulled[(group == 0) | (group == groups - 1)].mean())
+    spread = float(np.sqrt(weights @ scales**2))
+    return Compared(
+        days=days if together == 1 else at,
+        values=level,
+        a_side=int(np.sum(group == 0)) * together,
+        early_days=(float(at[0]), float(at[group == 0][-1])),
+        late_days=(float(at[group == groups - 1][0]), float(at[-1])),
+        early=middle - change / 2,
+        late=middle + change / 2,
+        mean_half=t_quantile_95(float(freedom)) * spread / np.sqrt(2),
         freedom=freedom,
-        centre=centre,
-        height=float(beta[0]),
-        height_error=float(np.sqrt(covariance[0, 0])),
-        covariance=float(covariance[0, -1]),
+        weights=weights,
+        centres=centres,
+        scales=scales,
     )
+
+
+def _course(since: Floats, is_early: NDArray[np.bool_], is_late: NDArray[np.bool_]) -> list[Floats]:
+    """Columns (d,) of a course in time `since` the first day; the last one's coefficient is late less early."""
+    slow = np.log1p(since)
+    by, by_slow = (float(each[is_late].mean() - each[is_early].mean()) for each in (since, slow))
+    return [slow - since * by_slow / by, since / by]
 
 
 def _columns(seen: Observations) -> list[Floats]:
@@ -137,8 +185,19 @@ def _independent(columns: list[Floats]) -> list[Floats]:
     return kept
 
 
-def _robust(design: Floats, value: Floats, freedom: int) -> tuple[Floats, Floats, Floats]:
-    """Coefficients (p,), residuals (d,) and the coefficients' covariance (p, p)."""
+def _is_tangled(apart: list[Floats], later: list[Floats]) -> bool:
+    """Whether what tells the last days from the first is, for the most part, what tells tempi and strata apart."""
+    alone = _error_of_last(np.column_stack([apart[0], *later]))
+    return bool(_error_of_last(np.column_stack([*apart, *later])) > alone / np.sqrt(1 - TANGLED**2))
+
+
+def _error_of_last(design: Floats) -> float:
+    """The standard error of the last coefficient, in SDs of independent values."""
+    return float(np.sqrt(np.linalg.inv(design.T @ design)[-1, -1]))
+
+
+def _robust(design: Floats, value: Floats, freedom: int) -> tuple[Floats, Floats]:
+    """Coefficients (p,), and the values (d,) with what lies far off drawn in."""
     inverse = np.linalg.inv(design.T @ design)
     beta = inverse @ (design.T @ value)
     residual = value - design @ beta
@@ -152,9 +211,8 @@ def _robust(design: Floats, value: Floats, freedom: int) -> tuple[Floats, Floats
             break
         scale = _scale(residual, freedom)
     inside = float(np.mean(np.abs(residual) <= _CORNER * scale)) if scale > 0 else 1.0
-    variance = float(pulled @ pulled) / freedom
     correction = 1.0 + design.shape[1] / len(value) * (1.0 - inside) / inside
-    return beta, residual, inverse * variance * (correction / inside) ** 2
+    return beta, design @ beta + pulled * correction / inside
 
 
 def _scale(residual: Floats, freedom: int) -> float:
@@ -163,10 +221,23 @@ def _scale(residual: Floats, freedom: int) -> float:
     return max(float(middle), float(np.sqrt(residual @ residual / freedom)) * _LEAST_SCALE)
 
 
-def _widening(days: Floats, residual: Floats) -> float:
-    """How much days that go together widen the variance: their lag-1 correlation, where it is more than chance."""
-    square = float(residual @ residual)
-    if len(days) < _FEWEST_FOR_LAG or square == 0.0:
-        return 1.0
-    rho = float(residual[1:] @ residual[:-1]) / square + 2.0 / len(days)
-    return (1 + min(rho, _MOST_RHO)) / (1 - min(rho, _MOST_RHO)) if rho > 0 else 1.0
+def _mixture(at: Floats, design: Floats, value: Floats, freedom: int) -> tuple[Floats, Floats, Floats]:
+    """Weights, centres and scales (k,) of the last coefficient, for each way in which days may go together.
+
+    Each is a generalised least-squares fit, weighed by its restricted likelihood (Harville 1974).
+    """
+    between = np.abs(at[:, None] - at[None, :])
+    same = np.eye(len(at))
+    ways = np.array([same] + [share * rho**between + (1 - share) * same for rho in _RHOS for share in _SHARES])
+    prior = np.array([_INDEPENDENT] + [(1 - _INDEPENDENT) / (len(ways) - 1)] * (len(ways) - 1))
+    root = np.linalg.cholesky(ways)
+    both = np.linalg.solve(root, np.column_stack([design, value])[None])
+    r = np.linalg.qr(both).R
+    size = np.abs(np.diagonal(r, axis1=1, axis2=2))
+    floor = 1e-6 * np.linalg.norm(both[:, :, -1], axis=1) + 1e-150
+    left = np.maximum(size[:, -1], floor)
+    logs = -np.log(np.diagonal(root, axis1=1, axis2=2)).sum(axis=1) - np.log(size[:, :-1]).sum(axis=1)
+    likelihood = logs - freedom * np.log(left) + np.log(prior)
+    weights = np.exp(likelihood - likelihood.max())
+    centres = r[:, -2, -1] / r[:, -2, -2]
+    return weights / weights.sum(), centres, left / np.sqrt(freedom) / size[:, -2]

@@ -1,29 +1,29 @@
 """What may be said of a lesson over time: its score, spread, lean and tempo, each with a 95 % interval or not at all.
 
-Only like is compared with like: one lesson, one device, one level, one tempo band (`trend_fit`). What changed is given
-over the whole time that is looked at, from the first day of practice to the last. A tempo is chosen, by the student or
-by the ladder: its own trend says how fast the lesson is played, not how well.
+Only like is compared with like: one lesson, the same bars, one device and what it is late by, one level, one click and
+one tempo band (`practised_alike`). The last days are held against the first (`trend_fit`). Where tempo or stratum went
+along with time, the sessions that were most often alike are compared by themselves. A tempo is chosen, by the student
+or by the ladder: its own trend says how fast the lesson is played, not how well.
 
 An interval is its trend's own. Who looks at many trends finds some in which it lies on one side by chance: what is said
 without a "perhaps" is so sure that of all that are looked at one in twenty times any would be (Bonferroni).
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import date, timedelta
 from enum import StrEnum
 
 import numpy as np
 
-from station.practice.history.trend_fit import Indices, Line, Observations, fit_line
+from station.practice.history.practised_alike import strata_of, tempo_of
+from station.practice.history.trend_fit import Compared, Observations, compare_days
 from station.store.rows import SessionKind, SessionRow
 
 LEAST_STROKES = 16
 """A session with fewer says little of a lesson (our choice: two bars of eighth notes)."""
-BAND = 1.10
-"""Tempi within such a ratio are one band (our choice: two rungs of the ladder, TEACHING: 5 % each)."""
-LEAST_DAYS = 5
-"""Fewer days never bear an interval (`trend_fit.LEAST_FREEDOM` beyond a height and a slope)."""
+LEAST_DAYS = 6
+"""Fewer days never bear an interval (`trend_fit`: three means of two days)."""
 
 
 FALSE_ANY = 0.05
@@ -54,18 +54,19 @@ class Verdict(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class MeasureWords:
-    """How a measure is told: its `label`, `unit`, and by how little a change is none (`small`)."""
+    """How a measure is told: `label`, `unit`, how little a change is none (`small`), and its `scale`."""
 
     label: str
     unit: str
     small: float
+    scale: tuple[float, float]
 
 
 WORDS = {
-    Measure.SCORE: MeasureWords("Score", "points", 5.0),
-    Measure.SPREAD: MeasureWords("Spread", "ms", 3.0),
-    Measure.LEAN: MeasureWords("Lean", "ms", 5.0),
-    Measure.TEMPO: MeasureWords("Tempo", "bpm", 3.0),
+    Measure.SCORE: MeasureWords("Score", "points", 5.0, (0.0, 100.0)),
+    Measure.SPREAD: MeasureWords("Spread", "ms", 3.0, (0.0, np.inf)),
+    Measure.LEAN: MeasureWords("Lean", "ms", 5.0, (-np.inf, np.inf)),
+    Measure.TEMPO: MeasureWords("Tempo", "bpm", 3.0, (0.0, np.inf)),
 }
 """What is small: a point of a report's five grades, and what no ear tells apart (our choice)."""
 
@@ -83,10 +84,11 @@ class TrendPoint:
 class Trend:
     """A measure of a lesson over the days from `first` (day 0) to `last`.
 
-    `points` are its sessions, in order. `line` is what was fitted (None: it cannot be), `change` from the first day to
-    the last with its 95 % interval. `strata` is of how many devices, levels and tempo bands like was compared with
-    like; `near` the tempo at which the line stands (None where the tempo is measured). The verdict is what the interval
-    says by itself; it `is_sure` where it holds among all trends that are `looked_at`.
+    `points` are its sessions, in order. `compared` are its first days and its last (None: they cannot be), `change` is
+    by how much the last differ, with its 95 % interval as far as the scale allows; `is_cut` where it allows less. They
+    rest on so many `days`. `strata` is of how many kinds like was compared with like; `near` the tempo at which the
+    means stand (None where the tempo is measured). The verdict is what the interval says by itself; it `is_sure` where
+    it holds among all trends that are `looked_at`.
     """
 
     measure: Measure
@@ -94,8 +96,9 @@ class Trend:
     first: date | None = None
     last: date | None = None
     points: tuple[TrendPoint, ...] = ()
-    line: Line | None = None
+    compared: Compared | None = None
     change: tuple[float, float, float] | None = None
+    is_cut: bool = False
     days: int = 0
     strata: int = 0
     near: float | None = None
@@ -149,7 +152,7 @@ def value_of(measure: Measure, row: SessionRow) -> float | None:
     if measure is Measure.SCORE:
         return row.score if row.notes >= LEAST_STROKES else None
     if measure is Measure.TEMPO:
-        return row.beats_a_minute if row.notes >= LEAST_STROKES else None
+        return tempo_of(row) if row.notes >= LEAST_STROKES else None
     if row.strokes < LEAST_STROKES:
         return None
     return row.sd_ms if measure is Measure.SPREAD else row.mean_ms
@@ -164,88 +167,122 @@ def trend_of(measure: Measure, sessions: Sequence[SessionRow], looked_at: int = 
         return Trend(measure, Verdict.TOO_FEW)
     first, last = rows[0].started.date(), rows[-1].started.date()
     day = np.array([(row.started.date() - first).days for row in rows], np.float64)
-    log_tempo = np.log([row.beats_a_minute or 1.0 for row in rows])
+    log_tempo = np.log([tempo_of(row) for row in rows])
     is_tempo = measure is Measure.TEMPO
-    stratum = np.zeros(len(rows), np.int64) if is_tempo else _strata(rows, log_tempo)
+    stratum = np.zeros(len(rows), np.int64) if is_tempo else strata_of(rows, measure is not Measure.SPREAD)
     seen = Observations(day, values, np.zeros(len(rows)) if is_tempo else log_tempo, stratum)
+    usual = stratum == np.bincount(stratum).argmax()
+    points = zip(rows, day.tolist(), values.tolist(), strict=True)
     found = Trend(
         measure,
         Verdict.TOO_FEW,
         first,
         last,
-        tuple(
-            TrendPoint(row.id, at, value) for row, at, value in zip(rows, day.tolist(), values.tolist(), strict=True)
-        ),
+        tuple(TrendPoint(row.id, at, value) for row, at, value in points),
         days=len(np.unique(day)),
         strata=len(np.unique(stratum)),
         looked_at=looked_at,
-        near=None if is_tempo else float(np.exp(np.mean(log_tempo[stratum == np.bincount(stratum).argmax()]))),
+        near=None if is_tempo else float(np.exp(np.mean(log_tempo[usual]))),
     )
-    return _told(found, fit_line(seen))
+    compared = _compared(measure, seen)
+    if compared is None and not usual.all():
+        compared = _compared(measure, Observations(day[usual], values[usual], log_tempo[usual], stratum[usual]))
+    return _told(found, compared)
 
 
-def _strata(rows: Sequence[SessionRow], log_tempo: np.ndarray[tuple[int], np.dtype[np.float64]]) -> Indices:
-    """Which sessions are alike, numbers from 0: device, level, and a tempo band about the lesson's median tempo."""
-    band = np.round((log_tempo - np.median(log_tempo)) / np.log(BAND)).astype(int).tolist()
-    numbers: dict[tuple[str, str, int], int] = {}
-    alike = [(row.device, row.level, at) for row, at in zip(rows, band, strict=True)]
-    return np.array([numbers.setdefault(each, len(numbers)) for each in alike], np.int64)
+def _compared(measure: Measure, seen: Observations) -> Compared | None:
+    """The comparison; None also where it would tell of values that nobody ever had, for then it was extrapolated."""
+    found = compare_days(seen)
+    if found is None:
+        return None
+    slack = WORDS[measure].small / 2
+    low, high = float(seen.value.min()) - slack, float(seen.value.max()) + slack
+    return found if low <= min(found.early, found.late) and max(found.early, found.late) <= high else None
 
 
-_OF_SESSIONS = ("first", "last", "points", "days", "strata", "near", "looked_at")
-
-
-def _told(found: Trend, line: Line | None) -> Trend:
-    """The trend with what the line says of it."""
-    values = {name: getattr(found, name) for name in _OF_SESSIONS}
-    if line is None:
+def _told(found: Trend, compared: Compared | None) -> Trend:
+    """The trend with what the comparison says of it."""
+    if compared is None:
         verdict = Verdict.TOO_FEW if found.days < LEAST_DAYS or found.strata == 1 else Verdict.TANGLED
-        return Trend(found.measure, verdict, **values)
-    span = float(line.days[-1] - line.days[0])
-    change, half = line.slope * span, line.half * line.slope_error * span
-    told = change, change - half, change + half
-    is_sure = line.is_surely_sloped(FALSE_ANY / found.looked_at)
-    return Trend(found.measure, _verdict(found.measure, line, told), **values, line=line, change=told, is_sure=is_sure)
+        return replace(found, verdict=verdict)
+    low, high = compared.interval
+    bottom, top = WORDS[found.measure].scale
+    least, most = bottom - max(compared.early, compared.late), top - min(compared.early, compared.late)
+    change = compared.change, max(low, least), min(high, most)
+    is_cut = low < least or high > most
+    verdict = _verdict(found.measure, compared, change)
+    return replace(
+        found,
+        verdict=verdict,
+        compared=compared,
+        change=change,
+        is_cut=is_cut,
+        days=len(np.unique(compared.days)),
+        is_sure=compared.is_surely_changed(FALSE_ANY / found.looked_at),
+    )
 
 
-def _verdict(measure: Measure, line: Line, change: tuple[float, float, float]) -> Verdict:
+def _verdict(measure: Measure, compared: Compared, change: tuple[float, float, float]) -> Verdict:
     _, low, high = change
     small = WORDS[measure].small
+    if -small <= low and high <= small:
+        return Verdict.STEADY
     if low <= 0.0 <= high:
-        return Verdict.STEADY if -small <= low and high <= small else Verdict.UNCLEAR
+        return Verdict.UNCLEAR
     if measure is Measure.TEMPO:
         return Verdict.CHANGED
     if measure is Measure.LEAN:
-        first, last = line.at(line.days[[0, -1]])
-        return Verdict.BETTER if abs(last) < abs(first) else Verdict.WORSE
+        return Verdict.BETTER if abs(compared.late) < abs(compared.early) else Verdict.WORSE
     return Verdict.BETTER if (low > 0.0) == (measure is Measure.SCORE) else Verdict.WORSE
+
+
+def chance_of_no_gain(trend: Trend) -> float:
+    """How likely a measure got better by no more than what is small; 1 where it cannot be told, or is a tempo."""
+    compared, small = trend.compared, WORDS[trend.measure].small
+    if compared is None or trend.measure is Measure.TEMPO:
+        return 1.0
+    if trend.measure is Measure.SCORE:
+        return compared.chance_below(small)
+    if trend.measure is Measure.SPREAD:
+        return 1.0 - compared.chance_below(-small)
+    gain = abs(compared.early) - abs(compared.late)
+    return compared.chance_below(compared.change - gain + small)
 
 
 def trend_words(trend: Trend) -> str:
     """What may be said of a trend, in a sentence or two."""
     words = WORDS[trend.measure]
     if trend.verdict is Verdict.TOO_FEW:
-        return f"{words.label}: cannot be told from {_days(trend.days)}; five and more bear an answer"
+        return f"{words.label}: cannot be told from {_days(trend.days)}; six and more bear an answer"
     if trend.verdict is Verdict.TANGLED:
         return (
-            f"{words.label}: cannot be told, for tempo, level or kit changed along with time; play one again as before"
+            f"{words.label}: cannot be told, for tempo, bars, level or kit changed along with time; play one again as"
+            " before"
         )
-    assert trend.change is not None, "every other verdict has a line"
+    compared = trend.compared
+    assert compared is not None, "every other verdict has a comparison"
+    assert trend.change is not None, "every other verdict has a comparison"
     change, low, high = trend.change
     of = f"over {_days(trend.days)} of practice"
+    if trend.verdict is Verdict.UNCLEAR and trend.is_cut:
+        return f"{words.label}: cannot be told {of}, for it differs too much from day to day"
     told, lowest, highest = map(_signed, (change, low, high))
     within = f"{told} {words.unit}, 95 % interval {lowest} to {highest}"
-    if trend.verdict is Verdict.UNCLEAR:
-        return f"{words.label}: cannot be told {of} ({within})"
-    if trend.verdict is Verdict.STEADY:
-        return f"{words.label}: as it was {of} ({within})"
+    if trend.verdict in (Verdict.UNCLEAR, Verdict.STEADY):
+        how = "as it was" if trend.verdict is Verdict.STEADY else "cannot be told"
+        return f"{words.label}: {how} {of} ({within})"
+    sides = f"{_plain(compared.early)} in the first {compared.a_side}, {_plain(compared.late)} in the last"
     direction = _direction(trend.measure, trend.verdict, change)
     if not trend.is_sure:
         return (
-            f"{words.label}: perhaps {direction} {of} ({within}); you look at {trend.looked_at} trends,"
+            f"{words.label}: perhaps {direction} {of}: {sides} ({within}); you look at {trend.looked_at} trends,"
             " and chance makes one in twenty look so"
         )
-    return f"{words.label}: {direction} {of} ({within})"
+    return f"{words.label}: {direction} {of}: {sides} ({within})"
+
+
+def _plain(value: float) -> str:
+    return f"{round(value)}".replace("-", "−")
 
 
 def _signed(value: float) -> str:

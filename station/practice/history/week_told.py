@@ -1,21 +1,20 @@
 """A week of practice told to people who play no drums: what was played how long, and what has surely got better."""
 
 from collections import defaultdict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 
-from station.core.counts import whole_minutes
+from station.core.counts import counted, whole_minutes
 from station.core.disk.utf8 import one_line
 from station.practice.history.calendar_days import WEEK
-from station.practice.history.trend_fit import Line
-from station.practice.history.trends import WORDS, Measure, Trend, Verdict, lessons_practised, trend_of
+from station.practice.history.trends import FALSE_ANY, Measure, Trend, chance_of_no_gain, lessons_practised, trend_of
 from station.store.rows import SessionKind, SessionRow
 
-LOOKS_BACK = 5 * WEEK
+LOOKS_BACK = 11 * WEEK
 """So long before the week a change is looked for (our choice: what got better in spring is no news in autumn)."""
-FALSE_A_WEEK = 0.05
-"""Of weeks in which nothing got better so many say that something did (our choice, as of any interval here)."""
+SAID_ONCE = 8 * WEEK
+"""So long what was told is not told again (our choice: it is no news)."""
 _FREE = "Free playing"
 _NAMELESS = "A lesson"
 _FEWEST_SAID = 3.0
@@ -59,43 +58,52 @@ def end_of(day: date) -> datetime | None:
 # --- what got better --------------------------------------------------------------------------------------------------
 
 
-def got_better(rows: Sequence[SessionRow], monday: date) -> tuple[str, ...]:
-    """A sentence for each lesson of the week from `monday` that surely got better.
+def got_better(rows: Iterable[SessionRow], monday: date) -> tuple[str, ...]:
+    """A sentence for each lesson of the week from `monday` that surely got better and was not said to of late.
 
-    `rows` are the sessions of that week and of `LOOKS_BACK` before it. Of a lesson the first of score, spread, lean and
-    tempo is told that changed by more than what counts as small, and so surely that in a week in which nothing did
-    anything at all is told `FALSE_A_WEEK` times: the more trends there are to look at, the surer each has to be
-    (Bonferroni).
+    `rows` are the sessions up to the end of that week, from `LOOKS_BACK` + `SAID_ONCE` before it at least. Of a lesson
+    the surest of score, spread and lean is told, where it changed by more than what counts as small, and so surely that
+    `FALSE_ANY` of weeks in which nothing did tell of anything at all: all measures of all lessons of the week are
+    looked at together (Holm 1979). A tempo is chosen and tells of no progress by itself.
     """
-    of_week = lessons_practised(row for row in rows if row.started.date() >= monday)
-    of_lesson = lessons_practised(rows)
-    trends = [(title_of(mine[-1]), _trends(of_lesson[lesson])) for lesson, mine in of_week.items()]
-    looked_at = sum(len(each) for _, each in trends)
-    found = ((title, _first_better(each, looked_at)) for title, each in trends)
-    return tuple(_sentence(title, *better) for title, better in found if better is not None)
+    by_lesson = lessons_practised(rows)
+    found = _surely_better(by_lesson, monday)
+    said = set[tuple[str, Measure]]() if not found else _said_of_late(by_lesson, monday)
+    best: dict[str, tuple[float, Trend]] = {}
+    for (lesson, measure), (chance, trend) in found.items():
+        if (lesson, measure) not in said and (lesson not in best or chance < best[lesson][0]):
+            best[lesson] = chance, trend
+    return tuple(_sentence(title_of(by_lesson[lesson][-1]), trend) for lesson, (_, trend) in best.items())
 
 
-def _trends(rows: Sequence[SessionRow]) -> list[tuple[Trend, Line]]:
-    """Those of a lesson that bear an answer."""
-    found = (trend_of(measure, rows) for measure in Measure)
-    return [(trend, trend.line) for trend in found if trend.line is not None]
+def _said_of_late(by_lesson: Mapping[str, Sequence[SessionRow]], monday: date) -> set[tuple[str, Measure]]:
+    """What the pages of the weeks before found better."""
+    weeks = range(1, SAID_ONCE // WEEK + 1)
+    return {each for back in weeks for each in _surely_better(by_lesson, monday - back * WEEK)}
 
 
-def _first_better(trends: Iterable[tuple[Trend, Line]], looked_at: int) -> tuple[Trend, Line] | None:
-    return next(((trend, line) for trend, line in trends if _is_better(trend, line, looked_at)), None)
+def _surely_better(
+    by_lesson: Mapping[str, Sequence[SessionRow]], monday: date
+) -> dict[tuple[str, Measure], tuple[float, Trend]]:
+    """Measures of lessons of that week that got better, each with the chance that it did not (Holm's steps)."""
+    looked_at: list[tuple[float, str, Trend]] = []
+    for lesson, every in by_lesson.items():
+        rows = [row for row in every if monday - LOOKS_BACK <= row.started.date() < monday + WEEK]
+        if rows and rows[-1].started.date() >= monday:
+            trends = (trend_of(measure, rows) for measure in Measure if measure is not Measure.TEMPO)
+            looked_at += [(chance_of_no_gain(trend), lesson, trend) for trend in trends if trend.compared is not None]
+    found: dict[tuple[str, Measure], tuple[float, Trend]] = {}
+    for at, (chance, lesson, trend) in enumerate(sorted(looked_at, key=lambda each: each[0])):
+        if chance > FALSE_ANY / (len(looked_at) - at):
+            break
+        found[lesson, trend.measure] = chance, trend
+    return found
 
 
-def _is_better(trend: Trend, line: Line, looked_at: int) -> bool:
-    rises = trend.verdict is Verdict.CHANGED and line.slope > 0
-    span = float(line.days[-1] - line.days[0])
-    is_sure = line.is_surely_sloped(2 * FALSE_A_WEEK / looked_at)  # of steps back nothing is told
-    is_large = abs(line.slope) * span >= WORDS[trend.measure].small
-    return (rises or trend.verdict is Verdict.BETTER) and is_large and is_sure
-
-
-def _sentence(title: str, trend: Trend, line: Line) -> str:
+def _sentence(title: str, trend: Trend) -> str:
     """What got better by this measure."""
-    first, last = (float(each) for each in line.at(line.days[[0, -1]]))
+    assert trend.compared is not None, "what got better was compared"
+    first, last = trend.compared.early, trend.compared.late
     match trend.measure:
         case Measure.SCORE:
             first, last = (min(max(each, 0.0), 100.0) for each in (first, last))
@@ -104,11 +112,10 @@ def _sentence(title: str, trend: Trend, line: Line) -> str:
             )
         case Measure.SPREAD:
             words = f"the strokes come more evenly. They strayed by about {_thousandths(first)}, and by {last:.0f} now"
-        case Measure.LEAN:
+        case _:
             words = f"it is closer to the beat. It was {_beside(first)}, and is {_beside(last)} now"
-        case Measure.TEMPO:
-            words = f"it is played faster. It was at about {first:.0f} beats a minute, and is at {last:.0f} now"
-    return f"{title}: {words} (over {trend.days} days of practice)."
+    side = counted(trend.compared.a_side, "day")
+    return f"{title}: {words} (the first {side} of {trend.days} against the last {trend.compared.a_side})."
 
 
 def _thousandths(ms: float) -> str:

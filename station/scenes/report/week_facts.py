@@ -16,7 +16,6 @@ from station.practice.history.calendar_days import WEEK, monday_of, practised_da
 from station.practice.history.kept_rows import totals
 from station.practice.history.streaks import DAYS_A_WEEK, Streak, streak_of
 from station.practice.history.week_told import (
-    LOOKS_BACK,
     Practised,
     begin_of,
     end_of,
@@ -31,12 +30,12 @@ _MOST_TITLES, _MOST_AHEAD, _MOST_BEGUN, _MOST_NOTES = 10, 3, 2, 3
 """So many are named (our choice: the page stays one page)."""
 _BEGINS = {ItemKind.GO_ON: "goes on", ItemKind.NEW: "is new to {}"}
 _BETTER = (
-    "Like is compared with like, the same piece at about the same speed, over the last six weeks. Only what is hardly"
-    " chance is told here."
+    "Like is compared with like: the same bars at about the same speed, the first days of the last twelve weeks against"
+    " the last days. Only what is hardly chance is told here, and once."
 )
 _NOT_YET = (
-    "Nothing can be told for sure yet. A change shows after about five days with the same piece; until then ups and"
-    " downs are part of learning."
+    "Nothing new can be told for sure. A change shows after weeks with the same piece; until then ups and downs are"
+    " part of learning."
 )
 _OFF = (
     "That happens: holidays, illness and full weeks belong to learning, and what was learnt is still there. A few"
@@ -56,8 +55,7 @@ def week_page(history: History, settings: Settings, day: date, today: date) -> W
     student = settings.student
     everything = history.sessions(student, until=end_of(sunday))
     rows = [row for row in everything if row.started >= begin_of(monday)]
-    recent = [row for row in everything if row.started >= begin_of(monday) - LOOKS_BACK] if rows else []
-    better = got_better(recent, monday)
+    better = got_better(everything, monday)
     now = min(today, sunday)
     return WeekPage(
         student=_begins_with(student),
@@ -133,9 +131,10 @@ def _note(row: TeacherNoteRow) -> TeachersNote:
 def _streak_words(streak: Streak) -> str:
     enough = f"{DAYS_A_WEEK} days at the drums"
     if not streak.weeks:
-        return f"A row of weeks begins with any week that has {enough}; a week off never breaks it."
-    weeks = "one week" if streak.weeks == 1 else f"{streak.weeks} weeks in a row"
-    return f"By now it is {weeks} with {enough} or more. A week off in between does not break the row."
+        return f"Weeks are counted from the first that has {enough}; a week off never breaks the count."
+    weeks = "one week" if streak.weeks == 1 else f"{streak.weeks} weeks"
+    since = "" if streak.since is None else f" since {day_in_words(streak.since)}"
+    return f"By now it is {weeks} with {enough} or more{since}. A week or two off in between do not break the count."
 
 
 # --- what comes next --------------------------------------------------------------------------------------------------

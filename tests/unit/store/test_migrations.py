@@ -1,8 +1,10 @@
 """An older history becomes like a new one, and keeps what is in it; what cannot be migrated stays as it was."""
 
+import json
 import shutil
 import sqlite3
 import stat
+import zlib
 from contextlib import closing
 from pathlib import Path
 
@@ -12,7 +14,7 @@ from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import inspect
+from sqlalchemy import inspect, text
 
 from station.core.errors import BadInput, DeviceError
 from station.store import schema_version
@@ -27,6 +29,13 @@ _MIGRATIONS = Path(schema_version.__file__).with_name("migrations")
 _IN_0001 = (
     "INSERT INTO students (id, key, name) VALUES (7, 'ann', 'Ann')",
     "INSERT INTO mastery (student_id, lesson, first_bar, last_bar, document) VALUES (7, 'rock-1', 0, 3, '{}')",
+)
+
+
+_SESSION = (
+    "INSERT INTO sessions (id, student_id, name, kind, state, started, folder, lesson, title, device, played_s,"
+    " complete, level, notes, \"right\", strokes, exam) VALUES ({number}, 7, 'session-{number}', 'lesson', 'kept',"
+    " '2026-05-03 18:30:00.000000', '', 'rock-1', '', '', 1.0, true, '', 0, 0, 0, '')"
 )
 
 
@@ -95,6 +104,25 @@ def test_an_older_history_is_migrated_with_what_is_in_it(url: str) -> None:
     history.remember("Ann", levels={"rock-1": "beginner"})
     assert history.levels("Ann") == {"rock-1": "beginner"}
     history.database.close()
+
+
+def test_what_was_asked_is_read_from_older_reports(url: str) -> None:
+    database = _migrated(url, "0003", *_IN_0001, *(_SESSION.format(number=number) for number in (1, 2)))
+    report = {
+        "session": {
+            "beats_a_minute": 60, "tempi": [{"beats_a_minute": 60}, {"beats_a_minute": 80}], "bars": [3, 6],
+            "click": True, "gap": None, "input_latency_ms": 8.5, "output_latency_ms": 20,
+        }
+    }  # fmt: skip
+    with database.writing() as connection:
+        for number, body in ((1, zlib.compress(json.dumps(report).encode())), (2, b"damaged")):
+            wanted = text("INSERT INTO documents (session_id, name, body) VALUES (:number, 'report.json', :body)")
+            connection.execute(wanted, {"number": number, "body": body})
+    read, damaged = History(database).sessions("Ann")
+    assert (read.first_bar, read.last_bar, read.click, read.gap) == (3, 6, True, None)
+    assert (read.input_latency_ms, read.output_latency_ms, read.top_beats_a_minute) == (8.5, 20.0, 80.0)
+    assert (damaged.first_bar, damaged.click, damaged.top_beats_a_minute) == (None, None, None)
+    database.close()
 
 
 def test_a_copy_of_an_older_file_is_put_beside_it(tmp_path: Path) -> None:

@@ -21,7 +21,7 @@ HISTORY = "History"
 ABOUT = "What you practised and when, how it went over time, and every session to open again"
 HELP = (
     "Calendar: the months, a day the fuller the more you played; press one for its sessions. A streak counts weeks with"
-    " three days of practice and forgives days and a week off. Sessions: all of them, the newest first; search, and"
+    " two days of practice and forgives days and two weeks off. Sessions: all of them, the newest first; search, and"
     " press one to open its result, its take or its battle as at its end. Trends: a lesson over time, like compared"
     " with like, with the range in which the truth lies 19 times in 20, or that it cannot be told. Weeks: lean, spread"
     " and notes hit, week by week, of each limb or piece."

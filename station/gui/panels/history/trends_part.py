@@ -23,8 +23,8 @@ LESSON_LABEL, PRACTISE_LABEL = "##trend-lesson", "Practise it##trend"
 _HIGH = 130.0
 """Design pixels of a plot."""
 _ABOUT = (
-    "A dot is a day, brought to the tempo that you played most; the band holds the line 19 times in 20. Only sessions"
-    " on one kit, at one level and near one tempo are compared."
+    "A dot is a day, brought to the tempo that you played most; the bars are the means of the first days and of the"
+    " last. Only the same bars on one kit, at one level and near one tempo are compared."
 )
 _TIPS = {
     Measure.SCORE: "Points of 100, as the reports gave them",
@@ -75,7 +75,7 @@ class TrendsPart:
 
 def _trend(trend: Trend, rows: Mapping[int, SessionRow]) -> None:
     words = WORDS[trend.measure]
-    near = "" if trend.near is None or trend.line is None else f", as at {trend.near:.0f} bpm"
+    near = "" if trend.near is None or trend.compared is None else f", as at {trend.near:.0f} bpm"
     theme.part(f"{words.label} in {words.unit}{near}")
     is_news = trend.is_sure and trend.verdict in (Verdict.BETTER, Verdict.WORSE, Verdict.CHANGED)
     imgui.text_wrapped(told(trend)) if is_news else theme.soft(told(trend))
@@ -87,7 +87,7 @@ def _trend(trend: Trend, rows: Mapping[int, SessionRow]) -> None:
 
 def _plot(trend: Trend) -> int | None:
     """Draw it; returns the dot that is pointed at, None for none."""
-    line = trend.line
+    compared = trend.compared
     day, value = dots_of(trend)
     low, high = axis_of(trend.measure, value)
     span = high - low
@@ -98,13 +98,9 @@ def _plot(trend: Trend) -> int | None:
     _dates(trend, first, last)
     if trend.measure is Measure.LEAN:
         plots.across("##beat", [0.0], plots.spec(palette.INK_FAINT))
-    if line is not None:
-        at = np.linspace(first, last, 40)
-        middle, half = line.at(at), line.half_width(at)
-        implot.plot_shaded(
-            "##band", at, middle - half, middle + half, plots.spec(palette.with_opacity(palette.GOOD, 0.25))
-        )
-        implot.plot_line("##line", at, middle, plots.spec(palette.GOOD, 2.0))
+    if compared is not None:
+        _mean("early", compared.early_days, compared.early, compared.mean_half)
+        _mean("late", compared.late_days, compared.late, compared.mean_half)
     implot.plot_scatter("##days", day, value, plots.spec(palette.BRAND, 1.0, 3.5, implot.Marker_.circle))
     return _pointed_at(day, value)
 
@@ -115,6 +111,14 @@ def _pointed_at(day: plots.Array, value: plots.Array) -> int | None:
     off = [((place.x - mouse.x) ** 2 + (place.y - mouse.y) ** 2) ** 0.5 for place in places]
     nearest = min(range(len(off)), key=off.__getitem__)
     return nearest if off[nearest] <= near else None
+
+
+def _mean(name: str, days: tuple[float, float], mean: float, half: float) -> None:
+    """The mean of the first days, or of the last, within its 95 % interval."""
+    at, middle = np.array(days), np.full(2, mean)
+    faint = plots.spec(palette.with_opacity(palette.GOOD, 0.25))
+    implot.plot_shaded(f"##{name}-band", at, middle - half, middle + half, faint)
+    implot.plot_line(f"##{name}", at, middle, plots.spec(palette.GOOD, 2.0))
 
 
 def _dates(trend: Trend, first: float, last: float) -> None:

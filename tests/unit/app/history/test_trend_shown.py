@@ -60,7 +60,7 @@ def test_what_never_changed_is_said_as_one_value() -> None:
 def test_a_dot_says_its_day_tempo_and_score() -> None:
     rows = sessions([60.0, 70.0, 65.0, 80.0, 75.0, 70.0])
     found = trend_of(Measure.SCORE, rows)
-    assert found.line is not None
+    assert found.compared is not None
     assert len(dots_of(found)[0]) == 6
     first, second = dot_words(found, 3, {row.id: row for row in rows}).split("\n")
     assert first.endswith("score 80 points, as at 70 bpm")

@@ -58,38 +58,43 @@ def test_months_lie_as_in_a_calendar() -> None:
     assert len(months_of({}, date(2026, 6, 30))) == 1
 
 
-def test_three_days_make_a_week_count_whichever_they_are() -> None:
-    assert _streak([0, 1, 2, 9, 11, 13, 14, 17, 20], 20) == (3, 3)
-    assert _streak([0, 1, 7, 8], 13) == (0, 0)
+def test_two_days_make_a_week_count_whichever_they_are() -> None:
+    assert _streak([0, 6, 9, 11, 14, 20], 20) == (3, 3)
+    assert _streak([0, 7, 14], 20) == (0, 0)
 
 
-def test_days_off_a_light_week_and_a_week_without_break_nothing() -> None:
-    assert _streak([0, 2, 4, 8, 14, 16, 18], 20) == (2, 2)  # a week with one day between
-    assert _streak([0, 2, 4, 14, 16, 18], 20) == (2, 2)  # a week without any between
-    assert _streak([0, 2, 4, 15, 22, 29], 34) == (1, 1)  # one day a week keeps it
+def test_days_off_a_light_week_and_weeks_without_break_nothing() -> None:
+    assert _streak([0, 4, 8, 14, 18], 20) == (2, 2)  # a week with one day between
+    assert _streak([0, 4, 21, 25], 27) == (2, 2)  # two weeks without any between: holidays
+    assert _streak([0, 4, 15, 22, 29], 34) == (1, 1)  # one day a week keeps it
 
 
-def test_two_weeks_without_begin_a_new_one_and_the_longest_is_kept() -> None:
-    days = [0, 2, 4, 7, 9, 11, 28, 30, 32]
-    assert _streak(days[:6], 27) == (2, 2)  # the second week is not over
-    assert _streak(days[:6], 28) == (0, 2)
-    assert _streak(days, 34) == (1, 2)
+def test_three_weeks_without_begin_a_new_one_and_the_longest_is_kept() -> None:
+    days = [0, 4, 7, 11, 35, 39]
+    assert _streak(days[:4], 34) == (2, 2)  # the third week is not over
+    assert _streak(days[:4], 35) == (0, 2)
+    assert _streak(days, 41) == (1, 2)
 
 
 def test_the_running_week_breaks_nothing() -> None:
-    assert _streak([0, 2, 4], 14) == (1, 1)  # Monday after a week off
-    assert _streak([0, 2, 4], 20) == (1, 1)
-    assert _streak([0, 2, 4], 21) == (0, 1)
+    assert _streak([0, 4], 21) == (1, 1)  # Monday after two weeks off
+    assert _streak([0, 4], 27) == (1, 1)
+    assert _streak([0, 4], 28) == (0, 1)
 
 
 def test_days_to_come_count_for_nothing() -> None:
     assert _streak([0, 2, 4, 7, 9, 11], 6) == (1, 1)
 
 
+def test_weeks_that_did_not_follow_on_one_another_are_not_said_to() -> None:
+    thin = [0, 2, *range(8, 133, 7)]
+    assert "row" not in streak_words(streak_of(practised_days(_played(*thin)), _MONDAY + timedelta(days=133)))
+
+
 def test_the_words_are_of_what_is_there() -> None:
     streak = streak_of(practised_days(_played(0, 2, 4, 7)), _MONDAY + timedelta(days=8))
-    assert streak_words(streak) == "1 week in a row"
-    assert this_week_words(streak) == "This week: 1 day of practice; with 3 it counts"
+    assert streak_words(streak) == "1 week that counts"
+    assert this_week_words(streak) == "This week: 1 day of practice; with 2 it counts"
     none = streak_of({}, _MONDAY)
-    assert streak_words(none) == "A streak begins with the first week that has 3 days of practice"
-    assert this_week_words(none) == "This week: no day of practice yet; with 3 it counts"
+    assert streak_words(none) == "A streak begins with the first week that has 2 days of practice"
+    assert this_week_words(none) == "This week: no day of practice yet; with 2 it counts"

@@ -65,6 +65,11 @@ def test_a_session_is_kept_with_all_that_its_folder_holds(folder: Path, history:
     assert (row.id, row.name, row.started, row.folder) == (number, NAME, BEGAN, str(folder))
     assert (row.lesson, row.title, row.complete) == ("rock-1", report["session"]["title"], True)
     assert (row.score, row.level, row.played_s) == (report["score"], report["level"], report["session"]["played_s"])
+    asked = report["session"]
+    assert [row.first_bar, row.last_bar] == asked["bars"]
+    assert (row.click, row.gap) == (asked["click"], asked["gap"])
+    assert (row.input_latency_ms, row.output_latency_ms) == (asked["input_latency_ms"], asked["output_latency_ms"])
+    assert row.top_beats_a_minute == asked["beats_a_minute"]
     assert (row.notes, row.right, row.strokes) == (
         report["counts"]["notes"],
         report["right"],
