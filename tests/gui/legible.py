@@ -7,6 +7,8 @@ picture behind the panels is not imgui's.
 """
 
 import ctypes
+import math
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -128,6 +130,7 @@ def _cut(seen: Letters, font: Font) -> Iterator[str]:
     )
     past_x = (seen.at[:, LEFT] < seen.clip[:, LEFT] - _SLACK) | (seen.at[:, RIGHT] > seen.clip[:, RIGHT] + _SLACK)
     past_y = (seen.at[:, TOP] < seen.clip[:, TOP] - _SLACK) | (seen.at[:, BOTTOM] > seen.clip[:, BOTTOM] + _SLACK)
+    past_x &= ~((seen.at[:, RIGHT] > seen.clip[:, RIGHT]) & (seen.clip[:, RIGHT] >= _scrolled_edge(seen.window)))
     past = past_x | (past_y & (not scrolls))
     lost = past & ~seen_at_all & (past_x if scrolls else past)
     for index in np.flatnonzero((past & seen_at_all) | is_cut | lost).tolist():
@@ -155,6 +158,14 @@ def _scrolls(name: str) -> bool:
             return True
         window = window.parent_window
     return False
+
+
+def _scrolled_edge(name: str) -> float:
+    """Where the right edge of a window is behind which there is more, shown by scrolling; infinity for other windows."""
+    window: imgui.internal.Window | None = imgui.internal.find_window_by_name(name)
+    if window is None or window.scroll_max.x <= 0:
+        return math.inf
+    return float(window.inner_clip_rect.max.x) - _SLACK
 
 
 def _told(what: str, seen: Letters, index: int, text: str) -> str:

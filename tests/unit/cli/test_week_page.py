@@ -100,7 +100,8 @@ def test_names_titles_and_notes_are_words_and_nothing_else(name: str, tmp_path: 
     for each in (text, plain):
         assert html.unescape(each).count(f'content="{policy}"') == 1
     seen = " ".join("".join(c if c.isprintable() else " " for c in name).split())
-    assert words_of(text).casefold().count(seen.casefold()) >= 6  # heading, headline, the lesson, the note's two lines and its teacher
+    times = words_of(text).casefold().count(seen.casefold())
+    assert times >= 6, "heading, headline, the lesson, the note's two lines and its teacher"
     out = tmp_path / "week.pdf"
     assert main(["report", "--week", "2026-11-23", "--student", name, "--out", str(out)]) == 0
     assert out.read_bytes().startswith(b"%PDF")
@@ -126,7 +127,8 @@ def test_what_comes_next_and_what_the_teacher_wrote(tmp_path: Path, capsys: pyte
     assert "Well done. Softer now. Next: At 90. Carla, " in told
     assert main(["today", "--student", "Ann"]) == 0
     new = re.findall(r" min  New +(.*)", capsys.readouterr().out)
-    assert [title for title in new if f"“{title}” is new to Ann." not in told] == ["Rock 1: eighths, backbeat, one and three"]
+    untold = [title for title in new if f"“{title}” is new to Ann." not in told]
+    assert untold == ["Rock 1: eighths, backbeat, one and three"]
     assert told.count("Rock 1") == 1
     assert "Well done" not in words_of(page(tmp_path, "2025-01-01", "--student", "Ann"))
 
