@@ -8,7 +8,6 @@ picture behind the panels is not imgui's.
 
 import ctypes
 import math
-import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -161,7 +160,7 @@ def _scrolls(name: str) -> bool:
 
 
 def _scrolled_edge(name: str) -> float:
-    """Where the right edge of a window is behind which there is more, shown by scrolling; infinity for other windows."""
+    """Where the right edge of a window lies behind which there is more to scroll to; infinity for others."""
     window: imgui.internal.Window | None = imgui.internal.find_window_by_name(name)
     if window is None or window.scroll_max.x <= 0:
         return math.inf

@@ -55,7 +55,7 @@ _OF_TABLE: Mapping[str, Mapping[str, str]] = MappingProxyType(
             "score": "0 to 100; empty where nothing was judged",
             "beats_a_minute": "the tempo, in the beat of the lesson",
             "right": "how many of the notes were right",
-            "first_bar": "the first bar of the lesson that was practised, from 1; this and what follows is empty if unknown",
+            "first_bar": "the first bar that was practised, from 1; this and what follows is empty if unknown",
             "last_bar": "the last bar of the lesson that was practised",
             "click": "true where a click was heard",
             "gap": "where the click fell silent: sounding bars / silent bars",
