@@ -1,5 +1,6 @@
 """A backup: a history in one SQLite file that takes the place of an older backup at once or not at all."""
 
+import os.path
 import platform
 import sqlite3
 from contextlib import suppress
@@ -32,7 +33,7 @@ def back_up(history: History, path: Path) -> Copied:
     being read; what was there stays then.
     """
     own = history.database.path
-    if own is not None and path.resolve() in (own.resolve().with_name(own.name + end) for end in _BESIDE):
+    if own is not None and _real(path) in [_real(own.with_name(own.name + end)) for end in _BESIDE]:
         raise BadInput(path, "", "belongs to the history itself: a backup needs another file")
     if path.exists():
         _let_go(history, path)
@@ -73,6 +74,11 @@ def _copy(history: History, part: Path) -> Copied:
         database.close()
     keep_no_log(part)
     return copied
+
+
+def _real(path: Path) -> str:
+    """Where links lead; those that lead in a circle lead to themselves."""
+    return os.path.realpath(path)  # `resolve` fails for a circle, whatever it is told
 
 
 def _let_go(history: History, path: Path) -> None:

@@ -99,7 +99,7 @@ def test_nobody_comes_in_the_middle_of_a_session(tmp_path: Path) -> None:
 
 def test_a_name_that_would_share_a_folder_is_told(tmp_path: Path) -> None:
     station, _ = station_with(tmp_path, student="Ann Lee")
-    station.dispatch(PlayAs("ann/lee"))
+    station.dispatch(PlayAs("ann-lee"))
     station.update(1)
     assert "would share a folder with Ann Lee" in station.view().toast
     assert station.view().settings.student == "Ann Lee"

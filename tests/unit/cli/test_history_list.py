@@ -87,6 +87,13 @@ def test_days_and_lessons_narrow_it(numbers: list[int], capsys: pytest.CaptureFi
             "sd_ms": 15.25,
             "exam": "",
             "capture_sha256": users_history().session(numbers[1]).capture_sha256,  # type: ignore[union-attr]
+            "first_bar": None,
+            "last_bar": None,
+            "click": None,
+            "gap": None,
+            "input_latency_ms": None,
+            "output_latency_ms": None,
+            "top_beats_a_minute": None,
         }
     ]
     assert main(["history", "--student", "Ann", "--lesson", "waltz"]) == 0

@@ -47,7 +47,8 @@ def old_file(sessions: Path) -> Path:
 def test_what_was_kept_is_recalled(tmp_path: Path) -> None:
     know(one_student(tmp_path, "Anna B."), STATE)
     assert memory(tmp_path).recall() == (STATE, None)
-    assert memory(tmp_path, name="anna b").recall() == (STATE, None)
+    assert memory(tmp_path, name="anna-b.").recall() == (STATE, None)
+    assert memory(tmp_path, name="anna b").recall() == (None, None), "somebody else, whose name has no dot"
 
 
 def test_every_student_lesson_and_loop_is_remembered_apart(tmp_path: Path) -> None:
