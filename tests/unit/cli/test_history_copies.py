@@ -2,6 +2,7 @@
 
 import json
 import sqlite3
+from contextlib import closing
 from datetime import datetime
 from pathlib import Path
 
@@ -26,7 +27,7 @@ def _two_students(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def students_in(path: Path) -> list[str]:
     """By SQL of our own."""
-    with sqlite3.connect(path) as connection:
+    with closing(sqlite3.connect(path)) as connection:
         rows = connection.execute(
             "SELECT students.name FROM sessions JOIN students ON students.id = student_id"
             " JOIN captures ON sha256 = capture_sha256 ORDER BY students.name"
@@ -50,7 +51,7 @@ def test_a_backup_has_all_of_it_and_replaces_an_older_one(tmp_path: Path, capsys
 
 
 def numbers_in(path: Path) -> dict[str, int]:
-    with sqlite3.connect(path) as connection:
+    with closing(sqlite3.connect(path)) as connection:
         return dict(
             connection.execute(
                 "SELECT students.name, sessions.id FROM sessions JOIN students ON students.id = student_id"
@@ -128,7 +129,7 @@ def test_what_fails_leaves_no_file_and_names_none_that_is_hidden(
     to = tmp_path / "to.sqlite3"
     assert main(["history", "copy", "--to", sqlite_url(to), "--student", "Nobody"]) == 2
     assert not list(tmp_path.glob("to.sqlite3*"))
-    with sqlite3.connect(data_folder() / "history.sqlite3") as connection:
+    with closing(sqlite3.connect(data_folder() / "history.sqlite3")) as connection:
         connection.execute("DROP TABLE judgements")
     capsys.readouterr()
     assert main(["history", "backup", "--out", str(tmp_path / "backup.sqlite3")]) == 2

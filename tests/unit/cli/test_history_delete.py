@@ -46,7 +46,7 @@ def keep_all_of(student: str, lesson: str) -> Path:
 
 def rows() -> list[tuple[object, ...]]:
     """All that the database holds, by SQL of our own."""
-    with sqlite3.connect(data_folder() / "history.sqlite3") as connection:
+    with closing(sqlite3.connect(data_folder() / "history.sqlite3")) as connection:
         tables = [name for (name,) in connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'")]
         return [(table, *row) for table in tables for row in connection.execute(f"SELECT * FROM {table}")]
 

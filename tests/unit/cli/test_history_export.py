@@ -7,7 +7,7 @@ import os
 import resource
 import sqlite3
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from datetime import datetime
 from hashlib import sha256
 from pathlib import Path
@@ -62,7 +62,7 @@ def plain(field: str) -> str:
 
 def counted(what: str, student: str) -> int:
     """By SQL of our own."""
-    with sqlite3.connect(data_folder() / "history.sqlite3") as connection:
+    with closing(sqlite3.connect(data_folder() / "history.sqlite3")) as connection:
         key = connection.execute("SELECT id FROM students WHERE name = ?", [student]).fetchone()
         sql = f"SELECT count(*) FROM {what} WHERE "
         owner = (
