@@ -22,7 +22,7 @@ from imgui_bundle import imgui
 from station.app.actions.history_actions import Asked, HistorySection, ReadAgain, ShowPages
 from station.app.window_state import State
 from station.gui.panels.history.history_panel import HISTORY
-from station.practice.history.overview import WeekMeasure
+from station.practice.progress.overview import WeekMeasure
 from station.store.database_url import sqlite_url
 from station.store.opening import history_of
 from station.store.rows import Part

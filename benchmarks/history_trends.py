@@ -16,8 +16,8 @@ from datetime import date, datetime, timedelta
 
 import numpy as np
 
-from station.practice.history.trends import Measure, Trend, Verdict, trend_of
-from station.practice.history.week_told import got_better
+from station.practice.progress.trends import Measure, Trend, Verdict, trend_of
+from station.practice.progress.week_told import got_better
 from station.store.rows import SessionRow
 
 FIRST = date(2026, 1, 5)

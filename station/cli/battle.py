@@ -7,8 +7,8 @@ from station.app.settings.settings_store import SettingsStore
 from station.cli.battling.battle_options import BattleOptions, battle_rules
 from station.cli.battling.battle_video import check_film, film_battle
 from station.cli.battling.meant_battle import meant_battle
-from station.cli.caught_up import caught_up
 from station.cli.console import print_json, say, write
+from station.cli.input.caught_up import caught_up
 from station.cli.options.device_option import wanted_kits
 from station.cli.options.option_fields import Command
 from station.cli.options.virtual_students import whose

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from datetime import date
 
-from station.cli.caught_up import caught_up
 from station.cli.console import print_json, say, write
+from station.cli.input.caught_up import caught_up
 from station.cli.options.option_fields import Command, flag, option, whole_number
 from station.cli.today import settings_of
 from station.core.errors import BadInput

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from station.app.sessions.session_checks import check_settings
 from station.app.settings.settings_store import SettingsStore
-from station.cli.caught_up import caught_up
 from station.cli.console import print_json, say, write
+from station.cli.input.caught_up import caught_up
 from station.cli.input.enter_keys import NextEnter, enter_keys
 from station.cli.options.device_option import devices_option, wanted_kits
 from station.cli.options.option_fields import Command, choice, flag, number, option, optional_argument, whole_number

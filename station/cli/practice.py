@@ -8,8 +8,8 @@ from typing import Any
 from station.app.equipment.diagnostics import has_screen
 from station.app.sessions.session_checks import check_settings
 from station.app.settings.settings_store import SettingsStore
-from station.cli.caught_up import caught_up
 from station.cli.console import say
+from station.cli.input.caught_up import caught_up
 from station.cli.options.device_option import wanted_kits, wanted_sticks
 from station.cli.options.option_fields import Command
 from station.cli.options.virtual_students import whose

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from datetime import date
 from typing import TYPE_CHECKING
 
-from station.cli.caught_up import caught_up
 from station.cli.console import print_json, say, write
+from station.cli.input.caught_up import caught_up
 from station.cli.options.option_fields import Command, flag, option, whole_number
 
 if TYPE_CHECKING:

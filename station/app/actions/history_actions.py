@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from station.practice.history.overview import WeekMeasure
+from station.practice.progress.overview import WeekMeasure
 from station.store.rows import Part
 
 

@@ -6,10 +6,10 @@ from datetime import date
 
 from station.app.actions.history_actions import Asked
 from station.app.history.session_pages import PageFiles
-from station.practice.history.calendar_days import Month, PractisedDay
-from station.practice.history.overview import WeekTable
-from station.practice.history.streaks import Streak
-from station.practice.history.trends import LessonTrends
+from station.practice.progress.calendar_days import Month, PractisedDay
+from station.practice.progress.overview import WeekTable
+from station.practice.progress.streaks import Streak
+from station.practice.progress.trends import LessonTrends
 from station.store.rows import SessionRow, TimedFigure
 
 

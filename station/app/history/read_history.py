@@ -7,10 +7,10 @@ from datetime import date, datetime, time
 from station.app.actions.history_actions import Asked, HistorySection
 from station.app.history.history_shown import HistoryPages, PractisedLesson
 from station.core.settings import Settings
-from station.practice.history.calendar_days import WEEK, monday_of, months_of, practised_days, weeks_of
-from station.practice.history.overview import week_table
-from station.practice.history.streaks import streak_of
-from station.practice.history.trends import LessonTrends, lessons_practised, trends_of, trends_to_look_at
+from station.practice.progress.calendar_days import WEEK, monday_of, months_of, practised_days, weeks_of
+from station.practice.progress.overview import week_table
+from station.practice.progress.streaks import streak_of
+from station.practice.progress.trends import LessonTrends, lessons_practised, trends_of, trends_to_look_at
 from station.store.history import History
 from station.store.opening import history_of
 from station.store.rows import SessionRow, TimedFigure

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.practice.book.book_words import day_in_words
-from station.practice.history.trends import WORDS, Measure, Trend, trend_words
+from station.practice.progress.trends import WORDS, Measure, Trend, trend_words
 from station.store.rows import SessionRow
 
 LEAST_SPAN: Mapping[Measure, float] = {

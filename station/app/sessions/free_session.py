@@ -81,7 +81,7 @@ class FreeSession:
         try:
             begin(engine, play, folder.capture)
         except StationError:
-            folder.discard()
+            folder.let_go()
             raise
         self._play, self._folder, self._take, self.runs = play, folder, None, True
 

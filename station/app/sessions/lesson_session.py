@@ -106,7 +106,7 @@ class LessonSession:
         try:
             begin(self._engine, self._runner, folder.capture)
         except StationError:
-            folder.discard()
+            folder.let_go()
             raise
         self._folder, self._way_on = folder, KICKS_ON if settings.kicks_start else GO_ON
         self.view.make_ahead()

@@ -6,8 +6,8 @@ from datetime import UTC, date, datetime
 from pathlib import Path
 
 from station.app.settings.settings_store import SettingsStore
-from station.cli.caught_up import caught_up
 from station.cli.console import print_json, say, write
+from station.cli.input.caught_up import caught_up
 from station.cli.options.option_fields import argument, flag, option, required, whole_number
 from station.core.counts import counted
 from station.core.disk.files import write_whole

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from station.app.settings.first_start import LONGEST_NAME
 from station.app.settings.settings_store import SettingsStore
 from station.app.settings.students import Students, forgotten
-from station.cli.caught_up import caught_up
 from station.cli.console import ask, is_attended, say
+from station.cli.input.caught_up import caught_up
 from station.cli.options.option_fields import flag, required
 from station.core.did_you_mean import did_you_mean
 from station.core.disk.utf8 import one_line

@@ -3,8 +3,8 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from station.cli.caught_up import shown_intake
 from station.cli.console import say
+from station.cli.input.caught_up import shown_intake
 from station.cli.today import settings_of
 from station.core.settings import Settings
 

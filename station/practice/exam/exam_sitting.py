@@ -43,7 +43,7 @@ class Sitting:
         try:
             sitting.keep(None)
         except StationError:
-            sitting.folder.discard()
+            sitting.folder.let_go()
             raise
         return sitting
 

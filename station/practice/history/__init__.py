@@ -1,6 +1,6 @@
-"""The history as practice sees it: how sessions come into it, and what is read of it.
+"""The history as practice sees it: how sessions come into it, and who asks it for what.
 
-In: folders of sessions that are over, a student's rows. Out: kept sessions, what a page, a command or a report asks.
-`session_choice` finds the session that a user's word means; `calendar_days`, `streaks`, `trends` and `overview` make
-pages of rows: read `trends` first for what may be said of progress.
+In: folders of sessions that are over, a user's words. Out: kept sessions, and the ones that are meant.
+Read `student_history`, the one way to ask, then `session_intake`, the one way in; `session_choice` finds the session
+that a user's word means.
 """

@@ -5,7 +5,7 @@ from dataclasses import dataclass, fields
 from datetime import datetime
 
 from station.core.counts import whole_minutes
-from station.practice.history.calendar_days import practised_days
+from station.practice.progress.calendar_days import practised_days
 from station.store.rows import FigureRow, SessionRow
 
 

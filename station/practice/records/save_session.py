@@ -12,6 +12,7 @@ from station.core.disk.files import write_whole
 from station.core.errors import BadInput, StationError
 from station.core.settings import Settings
 from station.music.formats.smf.track_writer import write_performance
+from station.practice.history.begun_folder import BegunFolder
 from station.practice.history.learnt import NOTHING_LEARNT, Learnt
 from station.practice.history.session_files import (
     CAPTURE_NAME,
@@ -19,11 +20,9 @@ from station.practice.history.session_files import (
     PAIRS_NAME,
     TAKE_NAME,
     TEXT_NAME,
-    session_folder,
     write_document,
 )
-from station.practice.history.session_intake import was_begun
-from station.practice.history.session_keeping import begin_session, forget_session, keep_session
+from station.practice.history.session_keeping import keep_session
 from station.practice.history.student_history import StudentHistory
 from station.practice.records.memory import Remembered
 from station.practice.records.report.mastery_report import with_mastery
@@ -35,15 +34,8 @@ from station.store.rows import SessionKind
 
 
 @dataclass(frozen=True, slots=True)
-class SessionFolder:
-    """One session's folder at `path`, as the history of `whose` sessions knows it.
-
-    As a context manager it takes one that `is_new` away again if it stayed empty.
-    """
-
-    path: Path
-    whose: StudentHistory
-    is_new: bool
+class SessionFolder(BegunFolder):
+    """One session's folder."""
 
     @classmethod
     def make(
@@ -54,14 +46,7 @@ class SessionFolder:
         `name` says what is practised, `wanted` is a folder that the user named, None for a new one of the student's.
         Raises `BadInput` or `DeviceError` where it cannot be made.
         """
-        whose = StudentHistory.of(settings)
-        if wanted is None:
-            path, is_new = session_folder(settings.sessions_dir, settings.student, name, datetime.now()), True
-        else:
-            is_new = not wanted.exists()
-            path = _made(wanted)
-        begin_session(whose, path, kind, name if kind is SessionKind.LESSON else "")
-        return cls(path, whose, is_new)
+        return cls.begin(wanted, settings, name, kind)
 
     @classmethod
     def left_over(cls, path: Path, settings: Settings) -> "SessionFolder":
@@ -76,19 +61,6 @@ class SessionFolder:
     def capture(self) -> Path:
         """Where the capture is kept."""
         return self.path / CAPTURE_NAME
-
-    def __enter__(self) -> "SessionFolder":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.discard()
-
-    def discard(self) -> None:
-        """Have the history forget a session that was never begun in it; take the folder away if nothing is in it."""
-        if not was_begun(self.path):
-            forget_session(self.whose, self.path)
-        if self.is_new and self.path.is_dir() and not any(self.path.iterdir()):
-            self.path.rmdir()
 
     def write(self, result: SessionResult, document: dict[str, Json]) -> None:
         """Write the report as document, text and table; raises `DeviceError`."""
@@ -149,13 +121,3 @@ def _rescued(fault: StationError, result: SessionResult, document: dict[str, Jso
         document["pairs_csv"] = session_pairs_csv(result)
         return StationError(f"{fault}; no disk takes the hits: they are printed with the report")
     return StationError(f"{fault}; every hit is safe in {spare}")
-
-
-def _made(path: Path) -> Path:
-    if (path / CAPTURE_NAME).exists() or (path / DOCUMENT_NAME).exists():
-        raise BadInput(path, "", "there is a session in this folder already")
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as fault:
-        raise BadInput(path, "", f"no folder can be made: {fault.strerror or fault}") from fault
-    return path

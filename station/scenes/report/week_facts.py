@@ -12,10 +12,10 @@ from station.practice.book.book_words import day_in_words
 from station.practice.book.lesson_book import LessonBook, day_facts
 from station.practice.exchange.assigned_work import lesson_work
 from station.practice.exchange.student_store import TakenAssignment, taken_assignments
-from station.practice.history.calendar_days import WEEK, monday_of, practised_days
 from station.practice.history.kept_rows import totals
-from station.practice.history.streaks import DAYS_A_WEEK, Streak, streak_of
-from station.practice.history.week_told import (
+from station.practice.progress.calendar_days import WEEK, monday_of, practised_days
+from station.practice.progress.streaks import DAYS_A_WEEK, Streak, streak_of
+from station.practice.progress.week_told import (
     Practised,
     begin_of,
     end_of,

@@ -8,9 +8,9 @@ from station.app.history.history_shown import HistoryPages
 from station.core.counts import counted, whole_minutes
 from station.gui import theme
 from station.practice.book.book_words import day_in_words
-from station.practice.history.calendar_days import Month, PractisedDay
 from station.practice.history.session_list import SessionFilter
-from station.practice.history.streaks import RULE, streak_words, this_week_words
+from station.practice.progress.calendar_days import Month, PractisedDay
+from station.practice.progress.streaks import RULE, streak_words, this_week_words
 from station.render import palette
 
 FULL_DAY = 20.0

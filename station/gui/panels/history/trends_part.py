@@ -15,7 +15,7 @@ from station.app.history.trend_shown import axis_of, dot_words, dots_of, told
 from station.gui import theme
 from station.gui.widgets import plots
 from station.gui.widgets.long_combo import long_combo
-from station.practice.history.trends import WORDS, Measure, Trend, Verdict
+from station.practice.progress.trends import WORDS, Measure, Trend, Verdict
 from station.render import palette
 from station.store.rows import SessionRow
 

@@ -11,7 +11,7 @@ from station.app.history.part_names import full_name, short_name
 from station.gui import theme
 from station.gui.widgets.flow_row import FlowRow
 from station.gui.widgets.long_combo import long_combo
-from station.practice.history.overview import Cell, WeekMeasure, WeekTable, cell_words
+from station.practice.progress.overview import Cell, WeekMeasure, WeekTable, cell_words
 from station.render import palette
 from station.store.rows import Part
 

@@ -6,7 +6,6 @@ written by the engine while it is played, so that one that was cut off lacks its
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import datetime
 from pathlib import Path
 
 from station.core.disk.files import write_whole
@@ -17,9 +16,10 @@ from station.practice.battle.battle_result import BattleResult
 from station.practice.battle.records.battle_document import battle_document
 from station.practice.battle.records.battle_report import battle_report
 from station.practice.battle.records.judge_battle_again import judge_battle_again
-from station.practice.history.session_files import BATTLE_CAPTURE_NAME, BATTLE_NAME, session_folder, write_document
-from station.practice.history.session_intake import is_over, was_begun
-from station.practice.history.session_keeping import begin_session, forget_session, keep_session
+from station.practice.history.begun_folder import BegunFolder
+from station.practice.history.session_files import BATTLE_CAPTURE_NAME, BATTLE_NAME, write_document
+from station.practice.history.session_intake import is_over
+from station.practice.history.session_keeping import keep_session
 from station.practice.history.student_history import StudentHistory
 from station.scoring.matching.hit_windows import Level
 from station.scoring.report.assessment_document import Json
@@ -29,15 +29,8 @@ TEXT_NAME = "battle.txt"
 
 
 @dataclass(frozen=True, slots=True)
-class BattleFolder:
-    """One battle's folder, as the history of `whose` sessions knows it.
-
-    As a context manager it takes one that `is_new` away again if it stayed empty.
-    """
-
-    path: Path
-    whose: StudentHistory
-    is_new: bool
+class BattleFolder(BegunFolder):
+    """One battle's folder."""
 
     @classmethod
     def make(cls, wanted: Path | None, settings: Settings, opponent: str) -> "BattleFolder":
@@ -45,14 +38,7 @@ class BattleFolder:
 
         Raises `BadInput` or `DeviceError` where it cannot be made.
         """
-        whose, is_new = StudentHistory.of(settings), wanted is None or not wanted.exists()
-        if wanted is None:
-            name = f"battle-{opponent}"
-            path = session_folder(settings.sessions_dir, settings.student, name, datetime.now())
-        else:
-            path = _made(wanted)
-        begin_session(whose, path, SessionKind.BATTLE)
-        return cls(path, whose, is_new)
+        return cls.begin(wanted, settings, f"battle-{opponent}", SessionKind.BATTLE)
 
     @property
     def capture(self) -> Path:
@@ -83,26 +69,7 @@ class BattleFolder:
             self.capture.unlink(missing_ok=True)
         except OSError as fault:
             raise DeviceError(f"{self.capture}: it stays: {fault.strerror or fault}") from fault
-        self.__exit__()
-
-    def __enter__(self) -> "BattleFolder":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if not was_begun(self.path):
-            forget_session(self.whose, self.path)
-        if self.is_new and self.path.is_dir() and not any(self.path.iterdir()):
-            self.path.rmdir()
-
-
-def _made(path: Path) -> Path:
-    if (path / BATTLE_CAPTURE_NAME).exists() or (path / BATTLE_NAME).exists():
-        raise BadInput(path, "", "there is a battle in this folder already")
-    try:
-        path.mkdir(parents=True, exist_ok=True)
-    except OSError as fault:
-        raise BadInput(path, "", f"no folder can be made: {fault.strerror or fault}") from fault
-    return path
+        self.let_go()
 
 
 def kept_battle(path: Path, level: Level | None = None) -> BattleResult:

@@ -11,8 +11,8 @@ from station.app.history.history_page import HistoryPage
 from station.app.history.history_shown import HistoryPages
 from station.app.room_state import Stage
 from station.app.settings.settings_store import SettingsStore
-from station.practice.history.overview import WeekMeasure
-from station.practice.history.trends import Measure
+from station.practice.progress.overview import WeekMeasure
+from station.practice.progress.trends import Measure
 from station.store.database_url import sqlite_url
 from station.store.opening import history_of
 from station.store.rows import FigureRow, KeptSession, Part, SessionKind, SessionRow

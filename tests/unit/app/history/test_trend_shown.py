@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from station.app.history.trend_shown import axis_of, dot_words, dots_of, told
-from station.practice.history.trends import Measure, trend_of
+from station.practice.progress.trends import Measure, trend_of
 from station.store.rows import SessionRow
 
 FIRST = datetime(2026, 11, 2, 17, 5)

@@ -13,7 +13,7 @@ from datetime import date
 from enum import StrEnum
 
 from station.core.student_t import t_quantile_95
-from station.practice.history.calendar_days import WEEK, monday_of
+from station.practice.progress.calendar_days import WEEK, monday_of
 from station.store.rows import FigureRow, Part, TimedFigure
 
 LEAST_STROKES = 8

@@ -6,7 +6,7 @@ from datetime import date, datetime, timedelta
 import numpy as np
 import pytest
 
-from station.practice.history.overview import WeekMeasure, cell_words, week_table
+from station.practice.progress.overview import WeekMeasure, cell_words, week_table
 from station.store.rows import FigureRow, Part, TimedFigure
 
 _MONDAY = datetime(2026, 6, 1, 12)

@@ -3,9 +3,9 @@
 from collections.abc import Iterable
 from datetime import date, datetime, timedelta
 
-from station.practice.history.calendar_days import months_of, practised_days, weeks_of
 from station.practice.history.kept_rows import totals
-from station.practice.history.streaks import streak_of, streak_words, this_week_words
+from station.practice.progress.calendar_days import months_of, practised_days, weeks_of
+from station.practice.progress.streaks import streak_of, streak_words, this_week_words
 from station.store.rows import SessionRow
 
 _MONDAY = date(2026, 6, 1)  # it is one

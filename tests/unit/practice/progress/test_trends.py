@@ -6,7 +6,7 @@ from datetime import timedelta
 import numpy as np
 import pytest
 
-from station.practice.history.trends import (
+from station.practice.progress.trends import (
     Measure,
     Verdict,
     lessons_practised,
@@ -16,7 +16,7 @@ from station.practice.history.trends import (
     trends_to_look_at,
 )
 from station.store.rows import SessionKind
-from tests.unit.practice.history.students_told import BEGIN, Story, climbing, row, slowing, told, wandering
+from tests.unit.practice.progress.students_told import BEGIN, Story, climbing, row, slowing, told, wandering
 
 _STUDENTS = 100
 _STORIES = {

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import date
 
-from station.practice.history.calendar_days import WEEK, Days, monday_of, weeks_of
+from station.practice.progress.calendar_days import WEEK, Days, monday_of, weeks_of
 
 DAYS_A_WEEK = 2
 """So many days of practice make a week count (our choice: twice, so that a night lies between)."""

@@ -7,8 +7,8 @@ from datetime import date, datetime, timedelta
 
 from station.core.counts import counted, whole_minutes
 from station.core.disk.utf8 import one_line
-from station.practice.history.calendar_days import WEEK
-from station.practice.history.trends import FALSE_ANY, Measure, Trend, chance_of_no_gain, lessons_practised, trend_of
+from station.practice.progress.calendar_days import WEEK
+from station.practice.progress.trends import FALSE_ANY, Measure, Trend, chance_of_no_gain, lessons_practised, trend_of
 from station.store.rows import SessionKind, SessionRow
 
 LOOKS_BACK = 11 * WEEK

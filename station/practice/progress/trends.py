@@ -16,8 +16,8 @@ from enum import StrEnum
 
 import numpy as np
 
-from station.practice.history.practised_alike import strata_of, tempo_of
-from station.practice.history.trend_fit import Compared, Observations, compare_days
+from station.practice.progress.practised_alike import strata_of, tempo_of
+from station.practice.progress.trend_fit import Compared, Observations, compare_days
 from station.store.rows import SessionKind, SessionRow
 
 LEAST_STROKES = 16

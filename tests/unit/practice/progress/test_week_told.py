@@ -8,9 +8,9 @@ import pytest
 
 from benchmarks.history_trends import STUDENTS, look
 from station.core.counts import whole_minutes
-from station.practice.history.week_told import got_better, practised
+from station.practice.progress.week_told import got_better, practised
 from station.store.rows import SessionKind, SessionRow
-from tests.unit.practice.history.students_told import row
+from tests.unit.practice.progress.students_told import row
 
 MONDAY = date(2026, 11, 23)
 NOON = datetime(2026, 11, 23, 12)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from station.practice.history.trend_fit import Indices
+from station.practice.progress.trend_fit import Indices
 from station.store.rows import SessionRow
 
 BAND = 1.10
