@@ -128,13 +128,16 @@ def _note(row: TeacherNoteRow) -> TeachersNote:
     return TeachersNote(one_line(row.teacher) or "The teacher", day_in_words(row.made.date()), lines)
 
 
+_FORGIVEN = "A week or two off in between do not break the count."
+
+
 def _streak_words(streak: Streak) -> str:
     enough = f"{DAYS_A_WEEK} days at the drums"
     if not streak.weeks:
-        return f"Weeks are counted from the first that has {enough}; a week off never breaks the count."
+        return f"Weeks are counted from the first that has {enough}. {_FORGIVEN}"
     weeks = "one week" if streak.weeks == 1 else f"{streak.weeks} weeks"
     since = "" if streak.since is None else f" since {day_in_words(streak.since)}"
-    return f"By now it is {weeks} with {enough} or more{since}. A week or two off in between do not break the count."
+    return f"By now it is {weeks} with {enough} or more{since}. {_FORGIVEN}"
 
 
 # --- what comes next --------------------------------------------------------------------------------------------------

@@ -23,8 +23,8 @@ LESSON_LABEL, PRACTISE_LABEL = "##trend-lesson", "Practise it##trend"
 _HIGH = 130.0
 """Design pixels of a plot."""
 _ABOUT = (
-    "A dot is a day, brought to the tempo that you played most; the bars are the means of the first days and of the"
-    " last. Only the same bars on one kit, at one level and near one tempo are compared."
+    "A dot is a day, brought to the tempo that you played most; the two lines are the means of the first days and"
+    " of the last. Only the same bars of the lesson on one kit, at one level and near one tempo are compared."
 )
 _TIPS = {
     Measure.SCORE: "Points of 100, as the reports gave them",
