@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from station.app.settings.settings_store import SettingsStore
 from station.core.errors import DeviceError
 from station.core.settings import Settings
+from station.practice.history.pending_sessions import is_all_there
 from station.practice.history.student_history import AGAIN_S, StudentHistory
-from station.practice.history.unarrived import is_all_there
 from station.practice.own_data.catching_up import catch_up
 from station.practice.records.recovery import offer
 

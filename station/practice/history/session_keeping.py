@@ -11,10 +11,10 @@ from pathlib import Path
 from station.core.errors import DeviceError
 from station.practice.history.kept_elsewhere import remember_elsewhere
 from station.practice.history.learnt import NOTHING_LEARNT, Learnt, write_learnt
+from station.practice.history.pending_sessions import forget_pending, overtake_pending, remember_pending
 from station.practice.history.session_files import started_in
 from station.practice.history.session_intake import folder_text, new_row, take_in
 from station.practice.history.student_history import StudentHistory
-from station.practice.history.unarrived import forget_unarrived, overtake_unarrived, remember_unarrived
 from station.store.rows import SessionKind, SessionState
 
 
@@ -34,10 +34,10 @@ def keep_session(whose: StudentHistory, folder: Path, learnt: Learnt = NOTHING_L
     try:
         with whose.reached() as history:
             take_in(history, whose.student, folder, learnt)
-        forget_unarrived(whose, folder)
-        overtake_unarrived(whose, learnt)
+        forget_pending(whose, folder)
+        overtake_pending(whose, learnt)
     except DeviceError as fault:
-        remember_unarrived(whose, folder, learnt)
+        remember_pending(whose, folder, learnt)
         remember_elsewhere(whose.folder, folder)
         if learnt.mastery or learnt.levels:
             write_learnt(folder, learnt)

@@ -17,6 +17,7 @@ from station.practice.exchange.notes_kept import take_in_notes
 from station.practice.history.moved_folders import follow_moved, forget_gone
 from station.practice.history.named_folders import give_new_names, reported_name
 from station.practice.history.old_mastery import FOLDER, begun_anew, take_in_old, untold_faults
+from station.practice.history.pending_sessions import forget_arrived
 from station.practice.history.session_files import (
     OWN_FOLDERS,
     VIRTUAL_STUDENT,
@@ -27,7 +28,6 @@ from station.practice.history.session_files import (
 )
 from station.practice.history.session_intake import Progress, everything_in
 from station.practice.history.student_history import StudentHistory
-from station.practice.history.unarrived import forget_arrived
 from station.store.student_names import student_key
 
 if TYPE_CHECKING:  # with a library that takes longer to load than all of what asks

@@ -24,8 +24,8 @@ from station.drills.mastery.mastery_state import ItemState
 from station.drills.mastery.rules import DEFAULT_RULES
 from station.practice.history.learnt import NOTHING_LEARNT, Learnt
 from station.practice.history.old_mastery import mastery_row, untold_faults
+from station.practice.history.pending_sessions import mastery_known, overtake_pending, pending_levels, pending_mastery
 from station.practice.history.student_history import StudentHistory
-from station.practice.history.unarrived import levels_unarrived, mastery_known, mastery_unarrived, overtake_unarrived
 from station.practice.records.lesson_order import ahead_of, followed_course
 from station.practice.records.lesson_progress import progress_of
 from station.practice.records.teachers_wishes import NO_WISHES, Wishes, wishes_of
@@ -52,7 +52,7 @@ class Memory:
         Raises `DeviceError` where the history cannot be reached, or what cannot be read cannot be set aside.
         """
         faults: list[str] = []
-        row, _ = mastery_unarrived(self.whose).get((self.lesson, *self.bars), (None, True))
+        row, _ = pending_mastery(self.whose).get((self.lesson, *self.bars), (None, True))
         if row is None:
             with self.whose.reached() as history:
                 rows = history.mastery(self.whose.student, self.lesson)
@@ -68,7 +68,7 @@ class Memory:
     @property
     def is_on_top(self) -> bool:
         """Whether what is recalled rests on all that was known before, as far as anybody can say."""
-        return mastery_unarrived(self.whose).get((self.lesson, *self.bars), (None, True))[1]
+        return pending_mastery(self.whose).get((self.lesson, *self.bars), (None, True))[1]
 
     def _set_aside(self, row: MasteryRow) -> str:
         bars = f"{row.first_bar + 1}-{row.last_bar + 1}"
@@ -89,7 +89,7 @@ class LevelMemory:
         A lesson that is remembered from before there was a choice has the level by which it was judged. Raises
         `DeviceError` where the history cannot be reached.
         """
-        unarrived, since = mastery_unarrived(self.whose), levels_unarrived(self.whose)
+        pending, since = pending_mastery(self.whose), pending_levels(self.whose)
         kept: Mapping[str, str] = {}
         rows, faults = list[MasteryRow](), list[str]()
         try:
@@ -97,9 +97,9 @@ class LevelMemory:
                 kept, rows = history.levels(self.whose.student), history.mastery(self.whose.student)
                 faults = untold_faults(history, self.whose.folder)
         except DeviceError:
-            if not unarrived and not since:
+            if not pending and not since:
                 raise
-        levels = {state.item.name: state.level for state in _states([*rows, *(row for row, _ in unarrived.values())])}
+        levels = {state.item.name: state.level for state in _states([*rows, *(row for row, _ in pending.values())])}
         levels |= {lesson: OUR_LEVELS[level] for lesson, level in {**kept, **since}.items() if level in OUR_LEVELS}
         return levels, "; ".join(faults) or None
 
@@ -119,7 +119,7 @@ class LevelMemory:
         """Judge `lesson` at `level` from now on; raises `DeviceError`, and then all stays as it was."""
         with self.whose.reached() as history:
             history.remember(self.whose.student, levels={lesson: level.value})
-        overtake_unarrived(self.whose, Learnt(levels={lesson: level.value}))
+        overtake_pending(self.whose, Learnt(levels={lesson: level.value}))
 
 
 @dataclass(frozen=True, eq=False)

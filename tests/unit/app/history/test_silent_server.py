@@ -17,8 +17,8 @@ from station.core.settings import Settings
 from station.drills.library import find_lesson
 from station.practice.headless.virtual_session import practise_adaptively
 from station.practice.history import student_history
+from station.practice.history.pending_sessions import is_all_there
 from station.practice.history.student_history import AGAIN_S, StudentHistory
-from station.practice.history.unarrived import is_all_there
 from station.practice.records.memory import LevelMemory, Memory, Remembered, remembered
 from station.practice.records.report.session_report import practice_document
 from station.practice.records.save_session import SessionFolder, SessionRecord, save

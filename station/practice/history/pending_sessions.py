@@ -28,7 +28,7 @@ def is_all_there(whose: StudentHistory) -> bool:
     return not _of.get(_key(whose))
 
 
-def remember_unarrived(whose: StudentHistory, folder: Path, learnt: Learnt) -> None:
+def remember_pending(whose: StudentHistory, folder: Path, learnt: Learnt) -> None:
     """The history has not what lies in that folder yet, nor what was learnt there."""
     with _turn:
         waiting = _of.setdefault(_key(whose), {})
@@ -41,16 +41,16 @@ def forget_arrived(whose: StudentHistory, history: "History") -> None:
     for folder in list(_of.get(_key(whose), {})):
         row = history.session_in(folder_text(folder))
         if row is not None and row.state is SessionState.KEPT:
-            forget_unarrived(whose, folder)
+            forget_pending(whose, folder)
 
 
-def forget_unarrived(whose: StudentHistory, folder: Path) -> None:
+def forget_pending(whose: StudentHistory, folder: Path) -> None:
     """The history has what lies in that folder."""
     with _turn:
         _of.get(_key(whose), {}).pop(folder, None)
 
 
-def overtake_unarrived(whose: StudentHistory, learnt: Learnt) -> None:
+def overtake_pending(whose: StudentHistory, learnt: Learnt) -> None:
     """The history knows later than what has not arrived of these bars and lessons."""
     later = {(row.lesson, row.first_bar, row.last_bar) for row in learnt.mastery}
     with _turn:
@@ -61,7 +61,7 @@ def overtake_unarrived(whose: StudentHistory, learnt: Learnt) -> None:
             waiting[folder] = Learnt(rows, levels, before.on_top)
 
 
-def mastery_unarrived(whose: StudentHistory) -> dict[tuple[str, int, int], tuple[MasteryRow, bool]]:
+def pending_mastery(whose: StudentHistory) -> dict[tuple[str, int, int], tuple[MasteryRow, bool]]:
     """What was learnt last of bars of lessons, and whether on top of what was known (`Learnt.on_top`)."""
     with _turn:
         all_learnt = list(_of.get(_key(whose), {}).values())
@@ -72,7 +72,7 @@ def mastery_unarrived(whose: StudentHistory) -> dict[tuple[str, int, int], tuple
     }
 
 
-def levels_unarrived(whose: StudentHistory) -> Mapping[str, str]:
+def pending_levels(whose: StudentHistory) -> Mapping[str, str]:
     """The levels of lessons that were come to last."""
     with _turn:
         all_learnt = list(_of.get(_key(whose), {}).values())
@@ -83,7 +83,7 @@ def mastery_known(whose: StudentHistory) -> list[MasteryRow]:
     """All that is known of a student's lessons, by name and bars, whether or not the history has it yet."""
     kept = whose.ask(lambda history, student: history.mastery(student)) or []
     rows = {(row.lesson, row.first_bar, row.last_bar): row for row in kept}
-    rows |= {key: row for key, (row, _) in mastery_unarrived(whose).items()}
+    rows |= {key: row for key, (row, _) in pending_mastery(whose).items()}
     return [rows[key] for key in sorted(rows)]
 
 
